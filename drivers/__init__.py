@@ -1,0 +1,1 @@
+"""Wire-true drivers for linear-scale readouts and servo drives, and the emulated rig."""

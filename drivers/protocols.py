@@ -1,0 +1,134 @@
+"""What a linear scale and a servo axis can do, and how they fail.
+
+Joint angles at this edge are degrees in the robot's nominal frame (P_0 at 0 and 180 deg);
+distances are mm.  Every device has the same life cycle: `connect`, `make_safe`, `close`;
+`make_safe` and `close` may be called in any state, any number of times, and never raise.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Protocol, runtime_checkable
+
+
+class DeviceError(Exception):
+    """A device did not do what was asked; the text is one clear sentence for the operator."""
+
+
+class LinkLost(DeviceError):
+    """Nothing answers on the line: cable, power or address."""
+
+
+class GarbledReply(DeviceError):
+    """Something answered, but not what the protocol allows (length, check sum, format)."""
+
+
+class DeviceFault(DeviceError):
+    """The device works and reports a fault of its own: alarm, signal loss, refused command."""
+
+
+@dataclass(frozen=True, slots=True)
+class AxisStatus:
+    """One look at a drive."""
+
+    enabled: bool
+    moving: bool
+    in_position: bool
+    alarm: int | None
+    """The drive's alarm code, None when it has none."""
+
+
+@runtime_checkable
+class Device(Protocol):
+    """Life cycle shared by all devices."""
+
+    @property
+    def name(self) -> str:
+        """What the operator calls it, for instance "linear scale" or "servo axis 1"."""
+        ...
+
+    def connect(self) -> None:
+        """Open the line and prove that the right device answers.
+
+        :raises DeviceError: with what is wrong and what to check.
+        """
+        ...
+
+    def make_safe(self) -> None:
+        """Bring the device to standstill.  Never raises."""
+        ...
+
+    def close(self) -> None:
+        """Release the line.  Never raises."""
+        ...
+
+
+@runtime_checkable
+class LinearScale(Device, Protocol):
+    """A readout that follows the distance rho up to an unknown constant."""
+
+    def read_mm(self) -> float:
+        """The head's present value in mm.
+
+        :raises DeviceError: fault mark, silence, malformed line; never a doubtful number.
+        """
+        ...
+
+
+@runtime_checkable
+class ServoAxis(Device, Protocol):
+    """One positioning drive of an active joint."""
+
+    def enable(self) -> None:
+        """Power the axis and wait until it says so.  :raises DeviceError:"""
+        ...
+
+    def move_to(self, theta_deg: float, speed_deg_s: float) -> None:
+        """Start an absolute move and return at once (one frame on the wire).
+
+        :raises DeviceError: refused, or the reply is missing and the read-back state disagrees.
+        """
+        ...
+
+    def status(self) -> AxisStatus:
+        """:raises DeviceError:"""
+        ...
+
+    def feedback_deg(self) -> float:
+        """The encoder's joint angle, read after the stop.  :raises DeviceError:"""
+        ...
+
+    def reset_alarm(self) -> None:
+        """Clear a resettable alarm.  :raises DeviceError: if it stays."""
+        ...
+
+    def quick_stop(self) -> None:
+        """Stop now, ahead of any queued request on the same line.  :raises DeviceError:"""
+        ...
+
+    def preset(self, theta_deg: float) -> None:
+        """Declare the present place to be `theta_deg` (writes the zero into the drive).
+
+        :raises DeviceError: refused, moving, or read back different.
+        """
+        ...
+
+
+@dataclass(frozen=True, slots=True)
+class JointScaling:
+    """Between a drive's pulses and a joint angle: theta = zero_at_deg + sign * pulses / per_deg."""
+
+    counts_per_rev: int
+    ratio: float
+    zero_at_deg: float
+    sign: int
+
+    @property
+    def pulses_per_deg(self) -> float:
+        return self.counts_per_rev * self.ratio / 360.0
+
+    def to_pulses(self, theta_deg: float) -> int:
+        return round(self.sign * (theta_deg - self.zero_at_deg) * self.pulses_per_deg)
+
+    def to_deg(self, pulses: int) -> float:
+        return self.zero_at_deg + self.sign * pulses / self.pulses_per_deg

@@ -1,0 +1,131 @@
+"""What travels between the rooms: plans to walk, readings taken, states and results.
+
+Records carry ids and units in their names; nothing is matched by order.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from dataclasses import asdict, dataclass, field
+from enum import StrEnum
+from typing import Any, Literal
+
+
+class State(StrEnum):
+    """Of a calibration run."""
+
+    QUEUED = "queued"
+    RUNNING = "running"
+    SUCCEEDED = "succeeded"
+    FAILED = "failed"
+    ABORTED = "aborted"
+    INTERRUPTED = "interrupted"
+
+    @property
+    def ended(self) -> bool:
+        return self not in (State.QUEUED, State.RUNNING)
+
+
+PlanName = Literal["paper", "rapid", "full"]
+
+
+@dataclass(frozen=True, slots=True)
+class CalibrationRequest:
+    """What the operator or the MES asks for."""
+
+    robot_serial: str
+    plan: PlanName
+    operator: str
+    work_order: str | None = None
+    metadata: dict[str, Any] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """One place to measure at."""
+
+    position: str
+    """Label of the place; stops that share it are repeats or other approaches of one place."""
+    target_mm: tuple[float, float]
+    """Where P is meant to be, mm in O-xy."""
+    theta_deg: tuple[float, float]
+    """Joint commands in the drives' nominal frame, compensation already subtracted."""
+    approach: tuple[int, int] = (0, 0)
+    """Wanted sign of each joint's last motion; 0 leaves it to the way there."""
+
+
+@dataclass(frozen=True, slots=True)
+class Walk:
+    """A sequence of stops to be measured in this order."""
+
+    title: str
+    """In the operator's words, e.g. "Measuring, pass 2"."""
+    number: int
+    """1, 2, ...; stored with each reading of the walk as `pass`."""
+    stops: tuple[Stop, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Reading:
+    """One row of contract.md's measurement file, plus the raw samples behind it."""
+
+    reading: int
+    """Unique within its calibration, from 1."""
+    t_s: float
+    theta_deg: tuple[float, ...]
+    """Drive feedback, nominal frame, degrees (mean of the samples)."""
+    approach: tuple[int, ...]
+    scale_mm: float
+    """Mean of the samples."""
+    position: str
+    walk: int = 1
+    samples_mm: tuple[float, ...] = ()
+    temperature_c: float | None = None
+    payload_kg: float | None = None
+    mount: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Quantity:
+    """A value with its standard uncertainty and unit."""
+
+    name: str
+    value: float
+    sd: float
+    unit: str
+
+
+@dataclass(frozen=True, slots=True)
+class CalibrationResult:
+    """What a run ends with; `to_json` is what the store keeps and REST answers.
+
+    `verdict` is "pass" only when every check passed on finite numbers; `reason` says why not.
+    """
+
+    verdict: Literal["pass", "fail"]
+    reason: str
+    method: str
+    zero_offsets: tuple[Quantity, ...]
+    """dtheta1, dtheta2 in deg: actual minus nominal joint angle."""
+    parameters: tuple[Quantity, ...]
+    """Every other identified parameter (dr_M, ...), each with its sd."""
+    weak_direction: dict[str, Any]
+    """{singular_ratio, text, sd_deg, remedy}"""
+    before: dict[str, Any]
+    """{reading_rms_mm, predicted_position_error_mm: {rms, max}} with no compensation."""
+    after: dict[str, Any]
+    """The same with the identified offsets applied."""
+    iterations: tuple[dict[str, Any], ...]
+    """Per pass: {pass, dtheta1_deg, dtheta2_deg, total1_deg, total2_deg, mu_deg}."""
+    residuals: tuple[dict[str, Any], ...]
+    """Per reading of the fit: {reading, position, residual_mm, limit_mm}."""
+
+    def to_json(self) -> dict[str, Any]:
+        return asdict(self)
+
+
+Procedure = Generator[Walk, list[Reading], CalibrationResult]
+"""A calibration method: yields walks, is sent the readings of each, returns the result.
+
+It never touches a device: the orchestrator walks, stores and sends.
+"""

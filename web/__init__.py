@@ -1,0 +1,1 @@
+"""The service: REST, live feed and the operator's page."""
