@@ -3,3 +3,25 @@
 
 class InputRefused(Exception):
     """What was given cannot be used: one sentence that says what, where and what to do."""
+
+
+class NotFound(Exception):
+    """Nothing is kept under this number or serial."""
+
+
+class Busy(Exception):
+    """Another run holds the rig."""
+
+    def __init__(self, calibration_id: int) -> None:
+        super().__init__(f"Run {calibration_id} holds the rig; wait for its end or abort it.")
+        self.calibration_id = calibration_id
+
+
+class KeyReused(Exception):
+    """An idempotency key came again with another request."""
+
+    def __init__(self, calibration_id: int) -> None:
+        super().__init__(
+            f"This idempotency key already belongs to run {calibration_id} with another request."
+        )
+        self.calibration_id = calibration_id

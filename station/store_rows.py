@@ -1,0 +1,155 @@
+"""Between the rows of the database and the records and dictionaries of the program."""
+
+from __future__ import annotations
+
+import json
+import math
+import sqlite3
+import zlib
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from datetime import UTC, datetime
+from typing import Any
+
+from station.errors import InputRefused
+from station.records import CalibrationResult, Reading
+
+READING_COLUMNS = (
+    "reading, walk, t_s, theta1_deg, theta2_deg, approach1, approach2, scale_mm, position,"
+    " samples_mm, temperature_c, payload_kg, mount"
+)
+LIST_COLUMNS = (
+    "id, robot_serial, plan, operator, work_order, state, verdict, reason, step, steps,"
+    " created_ms, started_ms, ended_ms, zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg"
+)
+_REST = ("before", "after", "findings", "method", "parameters", "weak_direction", "iterations", "residuals")
+
+
+@dataclass(frozen=True, slots=True)
+class Page:
+    """Summaries, newest first, and the cursor of the next page (None: this was the last)."""
+
+    items: list[dict[str, Any]]
+    next: int | None
+
+
+def compact(value: Any) -> str:
+    """JSON without blanks; NaN is refused, it is not JSON."""
+    return json.dumps(value, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
+
+
+def utc(ms: int | None) -> str | None:
+    """ISO 8601 with milliseconds and Z."""
+    if ms is None:
+        return None
+    return datetime.fromtimestamp(ms / 1000, UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
+
+
+def millis(text: str) -> int:
+    """From ISO 8601; a time without a zone is UTC.  :raises InputRefused:"""
+    try:
+        time = datetime.fromisoformat(text)
+    except ValueError as error:
+        raise InputRefused(f"{text!r} is not a time; write it like 2026-11-22T08:00:00Z.") from error
+    return round((time if time.tzinfo else time.replace(tzinfo=UTC)).timestamp() * 1000)
+
+
+def unsound(value: Any, where: str = "") -> str | None:
+    """Where in a result the first number stands that is not finite; None when all are."""
+    if isinstance(value, CalibrationResult):
+        value = value.to_json()
+    if isinstance(value, float) and not math.isfinite(value):
+        return where
+    parts: list[tuple[str, Any]] = []
+    if isinstance(value, Mapping):
+        parts = [(f"{where}.{key}" if where else str(key), part) for key, part in value.items()]
+    elif isinstance(value, Sequence) and not isinstance(value, str):
+        parts = [(f"{where}[{i}]", part) for i, part in enumerate(value)]
+    return next((bad for name, part in parts if (bad := unsound(part, name)) is not None), None)
+
+
+def pack_result(
+    result: CalibrationResult,
+) -> tuple[float | None, float | None, float | None, float | None, bytes]:
+    """Zero offsets as columns, the rest as one compressed JSON text, numbers to 9 digits."""
+    zeros = {offset.name: offset for offset in result.zero_offsets}
+    first, second = zeros.get("dtheta1"), zeros.get("dtheta2")
+    rest = {key: value for key, value in _storable(result.to_json()).items() if key in _REST and value}
+    return (
+        *((_finite(first.value), _finite(first.sd)) if first else (None, None)),
+        *((_finite(second.value), _finite(second.sd)) if second else (None, None)),
+        zlib.compress(compact(rest).encode(), 9),
+    )
+
+
+def _storable(value: Any) -> Any:
+    """Nine significant digits are more than any device has, and a third of the bytes."""
+    if isinstance(value, float):
+        return float(f"{value:.9g}") if math.isfinite(value) else None
+    if isinstance(value, Mapping):
+        return {str(key): _storable(part) for key, part in value.items()}
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return [_storable(part) for part in value]
+    return value
+
+
+def _finite(value: float) -> float | None:
+    return value if math.isfinite(value) else None
+
+
+def calibration_dict(row: sqlite3.Row, *, full: bool) -> dict[str, Any]:
+    """As `GET /api/v1/calibrations` lists it; `full` as the single one is answered."""
+    zeros = [
+        {"joint": joint, "value_deg": row[f"zero{joint}_deg"], "sd_deg": row[f"zero{joint}_sd_deg"]}
+        for joint in (1, 2)
+        if row[f"zero{joint}_deg"] is not None
+    ]
+    columns = ("id", "robot_serial", "plan", "operator", "work_order", "state", "verdict", "reason")
+    item: dict[str, Any] = {key: row[key] for key in columns}
+    item |= {"step": row["step"], "steps": row["steps"]}
+    item |= {f"{moment}_at": utc(row[f"{moment}_ms"]) for moment in ("created", "started", "ended")}
+    item["zero_offsets"] = zeros
+    if full:
+        item["metadata"] = json.loads(row["metadata"]) if row["metadata"] else {}
+        rest = json.loads(zlib.decompress(row["rest"])) if row["rest"] else {}
+        empty: dict[str, Any] = {"before": None, "after": None, "method": None, "weak_direction": None}
+        item |= {key: rest.get(key, empty.get(key, [])) for key in _REST}
+    return item
+
+
+def reading_row(reading: Reading) -> tuple[Any, ...]:
+    """In the order of READING_COLUMNS.  :raises ValueError: a number that is not finite."""
+    numbers = (reading.t_s, *reading.theta_deg, reading.scale_mm, *reading.samples_mm)
+    if not all(math.isfinite(number) for number in numbers):
+        raise ValueError(f"reading {reading.reading} has a number that is not finite")
+    samples = [round(sample, 5) for sample in reading.samples_mm]
+    return (
+        reading.reading,
+        reading.walk,
+        round(reading.t_s, 3),
+        *reading.theta_deg,
+        *reading.approach,
+        reading.scale_mm,
+        reading.position,
+        compact(samples) if samples else None,
+        reading.temperature_c,
+        reading.payload_kg,
+        reading.mount,
+    )
+
+
+def reading_from_row(row: sqlite3.Row) -> Reading:
+    """The record again."""
+    return Reading(
+        reading=row["reading"],
+        t_s=row["t_s"],
+        theta_deg=(row["theta1_deg"], row["theta2_deg"]),
+        approach=(row["approach1"], row["approach2"]),
+        scale_mm=row["scale_mm"],
+        position=row["position"],
+        walk=row["walk"],
+        samples_mm=tuple(json.loads(row["samples_mm"])) if row["samples_mm"] else (),
+        temperature_c=row["temperature_c"],
+        payload_kg=row["payload_kg"],
+        mount=row["mount"],
+    )
