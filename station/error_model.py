@@ -105,4 +105,3 @@ def position_jacobian(geometry: Geometry, at: Pose) -> Real:
     # [w_1 w_2]^T dr = rows dp
     both = np.stack([w.real, w.imag], axis=-1)
     return np.asarray(np.linalg.solve(both, rows))
-

@@ -28,8 +28,8 @@ class Geometry:
     """(2,) proximal lengths."""
     l: Real  # noqa: E741 - the paper's symbol
     """(2,) distal lengths."""
-    cd: complex
-    """c + d: the distance sees only their sum (eq. 4)."""
+    cd: complex | Complex
+    """c + d, one for all or (K,) one a pose: the distance sees only their sum (eq. 4)."""
 
 
 _ELBOW = np.array([1.0, -1.0])

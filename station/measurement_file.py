@@ -131,6 +131,7 @@ def parse(content: bytes, columns: Columns = FIVE_BAR, *, source: str = "measure
         distance=table.numbers(columns.distance) if columns.distance else np.full(len(ids), np.nan),
         position=position,
         mount=mount,
+        samples=np.ones(len(ids), dtype=np.intp),
         mounts=tuple(str(m) for m in mounts),
         temperature_c=table.optional_numbers("temperature_c"),
         payload_kg=table.optional_numbers("payload_kg"),

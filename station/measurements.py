@@ -35,6 +35,8 @@ class Measurements:
     """(K,) index of the place; equal for repeats and other approaches of one place."""
     mount: Index
     """(K,) index into `mounts`."""
+    samples: Index
+    """(K,) how many samples of the head each distance is the mean of."""
     mounts: tuple[str, ...] = ("",)
     temperature_c: Real | None = None
     payload_kg: Real | None = None
@@ -86,6 +88,7 @@ def from_readings(readings: Sequence[Reading]) -> Measurements:
         distance=np.array([r.scale_mm for r in readings]),
         position=number([r.position for r in readings])[0],
         mount=mount,
+        samples=np.array([max(len(r.samples_mm), 1) for r in readings], dtype=np.intp),
         mounts=tuple(str(m) for m in mounts),
         temperature_c=optional([r.temperature_c for r in readings]),
         payload_kg=optional([r.payload_kg for r in readings]),

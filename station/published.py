@@ -45,7 +45,7 @@ def least_squares(G: Real, delta_lambda: Real) -> Real:
 
     :raises numpy.linalg.LinAlgError: the normal matrix is singular.
     """
-    return np.linalg.solve(G.T @ G, G.T @ delta_lambda)
+    return np.asarray(np.linalg.solve(G.T @ G, G.T @ delta_lambda))
 
 
 def tsvd(G: Real, delta_lambda: Real, t: int) -> Real:

@@ -51,6 +51,8 @@ class Robot:
     """Expected MAEMM ("about 1 mm and 0.5 mm", paper section 6.1)."""
     drm_sd: Pair = (0.5, 0.5)
     """How well that is known; "roughly measured" is taken as half a millimetre."""
+    mounts: dict[str, Pair] = field(default_factory=dict)
+    """c of further mounting places of the mechanism, by the `mount` id of the measurement file."""
     tolerances: Tolerances = field(default_factory=Tolerances)
     workspace_x: Pair = (-240.0, 240.0)
     workspace_y: Pair = (-782.0, -632.0)
@@ -104,7 +106,13 @@ class Robot:
                     "zero_offset_deg": self.tolerances.zero_offset_deg,
                 },
             },
-            "mechanism": {"c": self.c, "d": self.d, "drm_mm": self.drm, "drm_sd_mm": self.drm_sd},
+            "mechanism": {
+                "c": self.c,
+                "d": self.d,
+                "drm_mm": self.drm,
+                "drm_sd_mm": self.drm_sd,
+                "mounts": self.mounts,
+            },
             "workspace": {"x": self.workspace_x, "y": self.workspace_y},
             "joints": {
                 "counts_per_rev": self.counts_per_rev,
@@ -174,6 +182,7 @@ class _MechanismSection(_Section):
     d: tuple[Finite, Finite] = Robot.d
     drm_mm: tuple[Finite, Finite] = Robot.drm
     drm_sd_mm: Positive | tuple[Positive, Positive] = Robot.drm_sd
+    mounts: dict[str, tuple[Finite, Finite]] = {}
 
 
 class _WorkspaceSection(_Section):
@@ -210,6 +219,7 @@ class RobotFile(_Section):
             d=self.mechanism.d,
             drm=self.mechanism.drm_mm,
             drm_sd=_pair(self.mechanism.drm_sd_mm),
+            mounts=self.mechanism.mounts,
             tolerances=Tolerances(**self.robot.tolerance.model_dump()),
             workspace_x=self.workspace.x,
             workspace_y=self.workspace.y,

@@ -1,0 +1,257 @@
+"""Identification at the limit of the data: one fit of the measurement model, with everything said about it.
+
+The same function serves the browser, REST and a file.  In: a robot, readings, optionally what
+earlier runs know (`memory`).  Out: parameters with uncertainty, residuals, noise, lack of fit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from station import noise, outliers, weak_direction
+from station.errors import InputRefused
+from station.five_bar import FiveBar
+from station.kinematics import Real, Unreachable, forward
+from station.least_squares import NotConvergedError, Solution, solve
+from station.measurements import Measurements
+from station.records import Quantity
+from station.robot import Robot
+
+OUTSIDE_MM = 100.0
+"""A pose further outside the workspace than zero offsets of a few degrees explain is a wrong unit or row."""
+LACK_OF_FIT_P = 1e-3
+IMPOSSIBLE_SDS = 50.0
+"""A parameter this many tolerances from nominal (a link 1.5 mm off) is a wrong file, not a calibration;
+what an undeclared effect does to the parameters stays below it and is for the diagnosis to name."""
+
+
+@dataclass(frozen=True)
+class Identification:
+    """One converged fit of the measurement model."""
+
+    mechanism: FiveBar
+    measurements: Measurements
+    """The readings that took part; outliers are gone."""
+    solution: Solution
+    noise: noise.Noise
+    sd_factor: float
+    """What the posterior covariance was inflated by because the model does not fit (1 when it does)."""
+    lack_of_fit_p: float
+    outliers: tuple[outliers.Outlier, ...]
+
+    @property
+    def p(self) -> Real:
+        """(P,) identified parameters, mm and rad."""
+        return self.solution.x
+
+    @property
+    def covariance(self) -> Real:
+        """(P, P) posterior covariance, inflated when the model does not fit."""
+        return self.solution.covariance * self.sd_factor**2
+
+    @property
+    def dtheta(self) -> Real:
+        """(2,) zero offsets, rad."""
+        return self.p[:2]
+
+    @property
+    def residual_mm(self) -> Real:
+        """(K,) measured less predicted."""
+        return -self.solution.residual * self.noise.row_sd
+
+    @property
+    def adequate(self) -> bool:
+        return self.lack_of_fit_p >= LACK_OF_FIT_P
+
+    def quantities(self) -> tuple[Quantity, ...]:
+        """Every parameter in shown units with its standard uncertainty."""
+        sd = np.sqrt(np.diag(self.covariance))
+        return tuple(
+            Quantity(p.name, float(x * p.shown), float(s * p.shown), p.unit)
+            for p, x, s in zip(self.mechanism.parameters, self.p, sd, strict=True)
+        )
+
+    def modes(self) -> tuple[Quantity, Quantity]:
+        """Common and differential mode: half the sum and half the difference of the zero offsets."""
+        turn = np.array([[0.5, 0.5], [0.5, -0.5]])
+        value = np.degrees(turn @ self.dtheta)
+        sd = np.degrees(np.sqrt(np.diag(turn @ self.covariance[:2, :2] @ turn.T)))
+        return (
+            Quantity("common", float(value[0]), float(sd[0]), "deg"),
+            Quantity("differential", float(value[1]), float(sd[1]), "deg"),
+        )
+
+    def position_error(self, compensated: bool) -> dict[str, float]:
+        """Predicted position error over the workspace, mm: rms and largest of the grid.
+
+        Uncompensated: the identified error itself with its uncertainty.  Compensated: the zero
+        offsets taken out exactly as identified; the rest of the geometry stays as it is.
+        """
+        p = self.p.copy()
+        if compensated:
+            p[:2] = 0.0
+        mean, jacobian = self.mechanism.position_errors(p)
+        return position_error_summary(mean, jacobian, self.covariance)
+
+    def as_json(self) -> dict[str, Any]:
+        """What `station identify --json` writes."""
+        residual = self.residual_mm
+        quantities = self.quantities()
+        return {
+            "schema": "station.identification/1",
+            "method": "measurement model",
+            "noise": self.noise.as_json(),
+            "zero_offsets": [
+                {"joint": i + 1, "value_deg": q.value, "sd_deg": q.sd} for i, q in enumerate(quantities[:2])
+            ],
+            "modes": [vars_of(q) for q in self.modes()],
+            "parameters": [vars_of(q) for q in quantities],
+            "coverage_factor": self.noise.coverage_factor,
+            "weak_direction": weak_direction.describe(self),
+            "singular_values": [float(s) for s in self.solution.singular_values],
+            "residual": {
+                "rms_mm": float(np.sqrt(np.mean(residual**2))),
+                "max_mm": float(np.abs(residual).max()),
+                "lack_of_fit_p": self.lack_of_fit_p,
+                "adequate": self.adequate,
+            },
+            "before": {"predicted_position_error_mm": self.position_error(False)},
+            "after": {"predicted_position_error_mm": self.position_error(True)},
+            "outliers": [o.as_json() for o in self.outliers],
+            "convergence": {"steps": self.solution.steps},
+        }
+
+
+def vars_of(q: Quantity) -> dict[str, Any]:
+    """A quantity as JSON."""
+    return {"name": q.name, "value": q.value, "sd": q.sd, "unit": q.unit}
+
+
+def position_error_summary(mean: Real, jacobian: Real, covariance: Real) -> dict[str, float]:
+    """rms over the grid of sqrt(|mean|^2 + trace(J C J')), and its largest value."""
+    finite = np.isfinite(np.diag(covariance))
+    J, C = jacobian[:, :, finite], covariance[np.ix_(finite, finite)]
+    variance = np.einsum("gdi,ij,gdj->g", J, C, J)
+    square = np.sum(mean**2, axis=1) + variance
+    return {"rms": float(np.sqrt(square.mean())), "max": float(np.sqrt(square.max()))}
+
+
+def identify(robot: Robot, measurements: Measurements) -> Identification:
+    """Fit the measurement model to readings, outlying ones found, named and left out.
+
+    :raises InputRefused: poses that cannot be, too few places, too many outliers, no convergence,
+        or an impossible result, with the reading or parameter at fault.
+    """
+    check_poses(robot, measurements)
+    check_places(measurements)
+    kept, left_out = _without_outliers(robot, measurements)
+    mechanism = FiveBar(robot, kept)
+    row_sd = mechanism.row_sd
+    solution = _solve(mechanism, row_sd)
+    estimate = noise.estimate(kept, solution.residual, row_sd)
+    if estimate.source == "repeats":
+        solution = _solve(mechanism, estimate.row_sd)
+    free = sum(np.isinf(p.prior_sd) for p in mechanism.parameters)
+    p_value, ratio = noise.lack_of_fit(solution, estimate, free, kept)
+    fit = Identification(
+        mechanism=mechanism,
+        measurements=kept,
+        solution=solution,
+        noise=estimate,
+        sd_factor=ratio if p_value < LACK_OF_FIT_P else 1.0,
+        lack_of_fit_p=p_value,
+        outliers=left_out,
+    )
+    _check_possible(fit)
+    return fit
+
+
+def _without_outliers(
+    robot: Robot, measurements: Measurements
+) -> tuple[Measurements, tuple[outliers.Outlier, ...]]:
+    """One at a time, the worst first, so that a gross reading does not drag good ones out with it."""
+    left_out: tuple[outliers.Outlier, ...] = ()
+    kept = measurements
+    while True:
+        mechanism = FiveBar(robot, kept)
+        row_sd = mechanism.row_sd
+        worst = outliers.find(kept, _solve(mechanism, row_sd), row_sd)
+        if worst is None:
+            return kept, left_out
+        left_out = (*left_out, worst)
+        outliers.check_share(left_out, len(measurements))
+        kept = kept.take(np.array([i != worst.reading for i in kept.ids]))
+        check_places(kept)
+
+
+def _solve(mechanism: FiveBar, row_sd: Real) -> Solution:
+    theta, measured = mechanism.theta, mechanism.measured
+
+    def residuals(p: Real) -> tuple[Real, Real]:
+        at = mechanism.observe(p, theta)
+        return (at.value - measured) / row_sd, at.by_parameter / row_sd[:, None]
+
+    mean = np.array([p.prior_mean for p in mechanism.parameters])
+    sd = np.array([p.prior_sd for p in mechanism.parameters])
+    try:
+        return solve(residuals, mean, mean, sd)
+    except NotConvergedError as error:
+        raise InputRefused(
+            f"The identification did not converge ({error}); check that angles and distances belong together."
+        ) from error
+
+
+def check_poses(robot: Robot, measurements: Measurements) -> None:
+    """:raises InputRefused: naming the first reading whose angles cannot be of this robot."""
+    theta = measurements.theta
+    try:
+        r = forward(robot.geometry, theta)
+    except Unreachable as error:
+        k = int(error.indices[0])
+        raise InputRefused(_pose_refusal(robot, measurements, k, str(error))) from error
+    (x0, x1), (y0, y1) = robot.workspace_x, robot.workspace_y
+    dx = np.maximum(np.maximum(x0 - r.real, r.real - x1), 0.0)
+    dy = np.maximum(np.maximum(y0 - r.imag, r.imag - y1), 0.0)
+    outside = np.hypot(dx, dy)
+    bad = np.flatnonzero(outside > OUTSIDE_MM)
+    if bad.size:
+        k = int(bad[0])
+        text = f"the platform would stand {outside[k]:.0f} mm outside the workspace."
+        raise InputRefused(_pose_refusal(robot, measurements, k, text))
+
+
+def _pose_refusal(robot: Robot, measurements: Measurements, k: int, text: str) -> str:
+    where = f"Reading {measurements.ids[k]}, columns theta1_deg and theta2_deg: {text}"
+    degrees = np.degrees(measurements.theta)
+    if np.abs(degrees).max() < 2.0 * np.pi:
+        return f"{where} The angles look like radians; give degrees."
+    return f"{where} Check unit, sign and order of the joints and the robot file."
+
+
+def check_places(measurements: Measurements) -> None:
+    """:raises InputRefused: fewer than five distinct places cannot hold four unknowns and an offset."""
+    places = len(np.unique(np.round(np.degrees(measurements.theta), 1), axis=0))
+    if places < 5:
+        raise InputRefused(
+            f"Only {places} different places were measured; at least 5 are needed (paper, section 5)."
+        )
+
+
+def _check_possible(fit: Identification) -> None:
+    """A link 3 mm off is a wrong robot file or a wrong column, not a calibration.
+
+    :raises InputRefused: naming the parameter.
+    """
+    parameters = fit.mechanism.parameters
+    offset = np.array([abs(x - p.prior_mean) / p.prior_sd for x, p in zip(fit.p, parameters, strict=True)])
+    worst = int(np.argmax(offset))
+    beyond_zero = np.degrees(np.abs(fit.dtheta)) > 4.0 * fit.mechanism.robot.tolerances.zero_offset_deg
+    if offset[worst] > IMPOSSIBLE_SDS or beyond_zero.any():
+        p = parameters[worst]
+        raise InputRefused(
+            f"Impossible result: {p.name} would be {fit.p[worst] * p.shown:.3f} {p.unit}, "
+            f"{offset[worst]:.0f} times its tolerance; check the robot file and the columns of the readings."
+        )

@@ -1,0 +1,63 @@
+"""Which places to measure (paper section 5, eq. 31 and Fig. 7)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from station.kinematics import Complex, Real, inverse
+from station.published import boundary_positions, identification_matrix
+from station.records import Stop
+from station.robot import Robot
+
+EPSILON_0 = 0.01
+"""Threshold of eq. 31 (section 6.1)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Conditioning:
+    """One row of Fig. 8."""
+
+    n: int
+    kappa_1: float
+    kappa_m: float
+
+    @property
+    def epsilon(self) -> float:
+        """Relative difference of eq. 31."""
+        return abs(self.kappa_1 - self.kappa_m) / self.kappa_1
+
+
+def conditioning(robot: Robot, n: int) -> Conditioning:
+    """kappa_1 of the first identification and kappa_m of the later ones, MAEMM as expected (eq. 31)."""
+    theta = inverse(robot.geometry, boundary_positions(robot.workspace_x, robot.workspace_y, n))
+    first = identification_matrix(robot.geometry, theta)
+    later = identification_matrix(robot.geometry, theta, complex(*robot.drm))
+    return Conditioning(n, float(np.linalg.cond(first)), float(np.linalg.cond(later)))
+
+
+def positions_per_edge(robot: Robot, largest: int = 20) -> int:
+    """The smallest n >= 3 with epsilon <= epsilon_0 (eq. 31)."""
+    for n in range(3, largest):
+        if conditioning(robot, n).epsilon <= EPSILON_0:
+            return n
+    return largest
+
+
+def boundary_stops(robot: Robot, dtheta: Real) -> tuple[Stop, ...]:
+    """The 2n places of Fig. 7 in measuring order, commands compensated by dtheta (2,) rad."""
+    n = positions_per_edge(robot)
+    return stops(robot, boundary_positions(robot.workspace_x, robot.workspace_y, n), dtheta)
+
+
+def stops(robot: Robot, places: Complex, dtheta: Real) -> tuple[Stop, ...]:
+    """Stops at places (K,) mm, numbered P1, P2, ...; commands compensated by dtheta (2,) rad.
+
+    :raises Unreachable: a place out of reach.
+    """
+    theta = np.degrees(inverse(robot.geometry, places) - dtheta)
+    return tuple(
+        Stop(f"P{k + 1}", (float(r.real), float(r.imag)), (float(t[0]), float(t[1])))
+        for k, (r, t) in enumerate(zip(places, theta, strict=True))
+    )
