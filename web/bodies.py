@@ -1,0 +1,273 @@
+"""What travels over HTTP: request bodies and answers.  The OpenAPI file and the page's types come from here."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import Annotated, Any, Literal
+
+from pydantic import BaseModel, ConfigDict, Field, JsonValue, StringConstraints
+
+from station.records import PlanName, Reading, State
+
+Serial = Annotated[
+    str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64, pattern=r"^[\w.\-/]+$")
+]
+Name = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64)]
+
+
+class Answer(BaseModel):
+    """Base of all answers: a field is always there, null when nothing is known."""
+
+    model_config = ConfigDict(json_schema_serialization_defaults_required=True)
+
+
+class CalibrationBody(BaseModel):
+    """What to calibrate, how, and who asks."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    robot_serial: Serial
+    plan: PlanName
+    operator: Name
+    work_order: Name | None = None
+    metadata: dict[str, JsonValue] = Field(default_factory=dict)
+
+
+class ZeroOffset(Answer):
+    joint: int
+    value_deg: float | None
+    sd_deg: float | None
+
+
+class PositionError(Answer):
+    rms: float | None
+    max: float | None
+
+
+class Accuracy(Answer):
+    """How well the robot positions, before or after compensation."""
+
+    reading_rms_mm: float | None = None
+    predicted_position_error_mm: PositionError | None = None
+
+
+class Quantity(Answer):
+    name: str
+    value: float | None
+    sd: float | None
+    unit: str
+
+
+class WeakDirection(Answer):
+    singular_ratio: float | None = None
+    text: str = ""
+    sd_deg: float | None = None
+    remedy: str | None = None
+
+
+class Residual(Answer):
+    reading: int
+    position: str | None = None
+    residual_mm: float | None
+    limit_mm: float | None = None
+
+
+class Iteration(Answer):
+    """One pass of measuring and solving."""
+
+    number: int = Field(alias="pass")
+    dtheta1_deg: float | None = None
+    dtheta2_deg: float | None = None
+    total1_deg: float | None = None
+    total2_deg: float | None = None
+    mu_deg: float | None = None
+
+
+class CalibrationSummary(Answer):
+    """One line of the history."""
+
+    id: int
+    robot_serial: str
+    plan: str
+    operator: str
+    work_order: str | None = None
+    state: State
+    verdict: Literal["pass", "fail"] | None
+    reason: str | None = None
+    step: int | None = None
+    steps: int | None = None
+    created_at: datetime
+    started_at: datetime | None = None
+    ended_at: datetime | None = None
+    zero_offsets: list[ZeroOffset] | None = None
+
+
+class Calibration(CalibrationSummary):
+    """All that is known about one run."""
+
+    metadata: dict[str, JsonValue] = Field(default_factory=dict)
+    method: str | None = None
+    zero_offset_tolerance_deg: float | None = None
+    parameters: list[Quantity] | None = None
+    weak_direction: WeakDirection | None = None
+    before: Accuracy | None = None
+    after: Accuracy | None = None
+    iterations: list[Iteration] | None = None
+    residuals: list[Residual] | None = None
+    findings: list[dict[str, JsonValue]] = Field(default_factory=list)
+
+
+class CalibrationList(Answer):
+    items: list[CalibrationSummary]
+    next: int | None = Field(description="cursor of the next page, null on the last")
+
+
+class ReadingAnswer(Answer):
+    """One row of the measurement file."""
+
+    reading: int
+    t_s: float
+    theta1_deg: float
+    theta2_deg: float
+    approach1: int
+    approach2: int
+    scale_mm: float
+    position: str
+    walk: int
+    temperature_c: float | None = None
+    payload_kg: float | None = None
+    mount: str | None = None
+
+    @classmethod
+    def of(cls, reading: Reading) -> ReadingAnswer:
+        return cls(
+            reading=reading.reading,
+            t_s=reading.t_s,
+            theta1_deg=reading.theta_deg[0],
+            theta2_deg=reading.theta_deg[1],
+            approach1=reading.approach[0],
+            approach2=reading.approach[1],
+            scale_mm=reading.scale_mm,
+            position=reading.position,
+            walk=reading.walk,
+            temperature_c=reading.temperature_c,
+            payload_kg=reading.payload_kg,
+            mount=reading.mount,
+        )
+
+
+class ReadingList(Answer):
+    items: list[ReadingAnswer]
+    next: None = None
+
+
+class StationInfo(Answer):
+    name: str
+    emulated: bool
+    limits: dict[str, Any] = Field(default_factory=dict)
+    plans: list[PlanName] = Field(default=["paper"], description="plans this station can run")
+
+
+class Device(Answer):
+    name: str
+    kind: str
+    address: str
+    state: Literal["ok", "lost", "fault", "unknown"]
+    text: str = ""
+
+
+class Interlock(Answer):
+    id: str
+    text: str
+    ok: bool
+    detail: str | None = None
+
+
+class Machine(Answer):
+    """Live values, `age_s` old when they were sent."""
+
+    theta1_deg: float | None
+    theta2_deg: float | None
+    x_mm: float | None
+    y_mm: float | None
+    scale_mm: float | None
+    age_s: float | None
+
+
+class Workspace(Answer):
+    x: tuple[float, float]
+    y: tuple[float, float]
+
+
+class WalkTitle(Answer):
+    number: int
+    title: str
+
+
+class RunStop(Answer):
+    position: str
+    x_mm: float
+    y_mm: float
+    done: bool
+
+
+class RunReading(Answer):
+    reading: int
+    position: str
+    x_mm: float | None = None
+    y_mm: float | None = None
+    theta1_deg: float
+    theta2_deg: float
+    scale_mm: float
+    sd_mm: float | None = None
+    residual_mm: float | None = None
+    limit_mm: float | None = None
+    t_s: float
+    walk: int
+
+
+class Run(Answer):
+    """The run that holds the rig."""
+
+    id: int
+    state: State
+    robot_serial: str
+    plan: str
+    operator: str
+    work_order: str | None = None
+    started_at: datetime | None = None
+    elapsed_s: float | None = None
+    remaining_s: float | None = None
+    walk: WalkTitle | None = None
+    step: int | None = None
+    steps: int | None = None
+    stops: list[RunStop] = Field(default_factory=list)
+    readings: list[RunReading] = Field(default_factory=list)
+    iterations: list[Iteration] = Field(default_factory=list)
+
+
+class Station(Answer):
+    """The whole station at one moment; also the `data` of the live feed's snapshot."""
+
+    station: StationInfo
+    devices: list[Device]
+    interlocks: list[Interlock]
+    machine: Machine | None
+    workspace: Workspace
+    run: Run | None
+    last: CalibrationSummary | None
+
+
+class Stopped(Answer):
+    """Both axes were told to stop."""
+
+    stopped: Literal[True] = True
+    by: str
+
+
+class Alive(Answer):
+    status: Literal["alive"] = "alive"
+
+
+class Ready(Answer):
+    status: Literal["ready"] = "ready"

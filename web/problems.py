@@ -1,0 +1,120 @@
+"""Every error as a problem document (RFC 9457): type, title, status, detail, and the field at fault."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from http import HTTPStatus
+from typing import Any
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import JSONResponse
+from pydantic import BaseModel, Field
+from starlette.exceptions import HTTPException
+
+from station.errors import Busy, InputRefused, KeyReused, NotFound
+
+MEDIA_TYPE = "application/problem+json"
+
+
+class FieldAtFault(BaseModel):
+    """One thing wrong with a request."""
+
+    field: str
+    detail: str
+
+
+class Problem(BaseModel):
+    """RFC 9457 problem document."""
+
+    type: str = Field(description="`urn:station:problem:<kind>`, or `about:blank` when the status says it all")
+    title: str
+    status: int
+    detail: str
+    field: str | None = Field(default=None, description="the first field at fault")
+    errors: list[FieldAtFault] | None = None
+    calibration_id: int | None = Field(default=None, description="the run that holds the rig or the key")
+    missing: list[str] | None = Field(default=None, description="what keeps the station from being ready")
+
+
+class ProblemResponse(JSONResponse):
+    media_type = MEDIA_TYPE
+
+
+def problem(
+    status: int, detail: str, *, kind: str | None = None, headers: Mapping[str, str] | None = None, **more: Any
+) -> ProblemResponse:
+    """The answer for an error; `more` are the extension members that apply."""
+    document = Problem(
+        type=f"urn:station:problem:{kind}" if kind else "about:blank",
+        title=HTTPStatus(status).phrase,
+        status=status,
+        detail=detail,
+        **more,
+    )
+    return ProblemResponse(document.model_dump(exclude_none=True), status_code=status, headers=headers)
+
+
+def documented(*statuses: int) -> dict[int | str, dict[str, Any]]:
+    """The `responses` of a route that may answer these problems."""
+    schema = {"$ref": "#/components/schemas/Problem"}
+    return {
+        status: {"description": HTTPStatus(status).phrase, "content": {MEDIA_TYPE: {"schema": schema}}}
+        for status in statuses
+    }
+
+
+RESPONSES = documented(422, 500)
+"""What any route may answer."""
+
+
+def add_schema(document: dict[str, Any]) -> dict[str, Any]:
+    """The OpenAPI document with the schema that `documented` refers to."""
+    schema = Problem.model_json_schema(ref_template="#/components/schemas/{model}")
+    document["components"]["schemas"].update({**schema.pop("$defs"), "Problem": schema})
+    return document
+
+
+def add(app: FastAPI) -> None:
+    """Turn every exception that leaves a route into its problem document."""
+
+    @app.exception_handler(RequestValidationError)
+    async def invalid(request: Request, error: RequestValidationError) -> ProblemResponse:
+        errors = [FieldAtFault(field=_field(e["loc"]), detail=e["msg"]) for e in error.errors()]
+        first = errors[0]
+        return problem(422, f"{first.field}: {first.detail}", kind="invalid", field=first.field, errors=errors)
+
+    @app.exception_handler(InputRefused)
+    async def refused(request: Request, error: InputRefused) -> ProblemResponse:
+        return problem(422, str(error), kind="refused")
+
+    @app.exception_handler(NotFound)
+    async def not_found(request: Request, error: NotFound) -> ProblemResponse:
+        return problem(404, str(error), kind="not-found")
+
+    @app.exception_handler(Busy)
+    async def busy(request: Request, error: Busy) -> ProblemResponse:
+        return problem(409, str(error), kind="busy", calibration_id=error.calibration_id)
+
+    @app.exception_handler(KeyReused)
+    async def key_reused(request: Request, error: KeyReused) -> ProblemResponse:
+        return problem(
+            409,
+            str(error),
+            kind="key-reused",
+            field="Idempotency-Key",
+            calibration_id=error.calibration_id,
+        )
+
+    @app.exception_handler(HTTPException)
+    async def http(request: Request, error: HTTPException) -> ProblemResponse:
+        return problem(error.status_code, str(error.detail), headers=error.headers)
+
+    @app.exception_handler(Exception)
+    async def unexpected(request: Request, error: Exception) -> ProblemResponse:
+        return problem(500, "The service failed at this request; its log has the cause.")
+
+
+def _field(location: tuple[int | str, ...]) -> str:
+    """`("body", "robot_serial")` -> `robot_serial`; the place alone when there is no name."""
+    return ".".join(str(part) for part in location[1:]) or str(location[0])

@@ -1,0 +1,1 @@
+"""One module per resource; each only translates between HTTP and the station."""

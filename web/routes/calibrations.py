@@ -1,0 +1,94 @@
+"""`/calibrations`: start, list, read and abort runs."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import Annotated, Any, Literal
+
+from fastapi import APIRouter, Header, Query, Response
+from starlette.exceptions import HTTPException
+
+from station.records import CalibrationRequest, State
+from station.runtime import Runtime
+from station.store_rows import Page
+from web.aside import aside
+from web.bodies import Calibration, CalibrationBody, CalibrationList, CalibrationSummary
+from web.problems import documented
+from web.routes.parts import LARGEST_ID, CalibrationId, TheRuntime
+
+ABORT_TIMEOUT_S = 5.0
+
+router = APIRouter(prefix="/calibrations", tags=["calibrations"])
+
+
+STARTED: dict[int | str, dict[str, Any]] = {
+    202: {
+        "description": "Accepted",
+        "headers": {"Location": {"description": "the run's address", "schema": {"type": "string"}}},
+    },
+    **documented(409),
+}
+
+
+@router.post("", status_code=202, response_model=CalibrationSummary, responses=STARTED)
+def start_calibration(
+    body: CalibrationBody,
+    runtime: TheRuntime,
+    response: Response,
+    idempotency_key: Annotated[str | None, Header(min_length=1, max_length=255)] = None,
+) -> dict[str, Any]:
+    """Start a run.  The same `Idempotency-Key` with the same body answers the same run."""
+    request = CalibrationRequest(**body.model_dump())
+    submitted = runtime.orchestrator.submit(request, idempotency_key=idempotency_key)
+    response.headers["Location"] = f"/api/v1/calibrations/{submitted.id}"
+    return runtime.store.calibration(submitted.id)
+
+
+@router.get("", response_model=CalibrationList)
+def list_calibrations(
+    runtime: TheRuntime,
+    limit: Annotated[int, Query(ge=1, le=500)] = 50,
+    cursor: Annotated[int | None, Query(ge=1, le=LARGEST_ID, description="`next` of the page before")] = None,
+    robot_serial: str | None = None,
+    state: State | None = None,
+    verdict: Literal["pass", "fail"] | None = None,
+    since: Annotated[datetime | None, Query(description="created at or after")] = None,
+    until: Annotated[datetime | None, Query(description="created at or before")] = None,
+) -> Page:
+    """Newest first, page by page."""
+    return runtime.store.calibrations(
+        limit=limit,
+        cursor=cursor,
+        robot_serial=robot_serial,
+        state=state,
+        verdict=verdict,
+        since=since and since.isoformat(),
+        until=until and until.isoformat(),
+    )
+
+
+@router.get("/{calibration_id}", response_model=Calibration, responses=documented(404))
+def read_calibration(calibration_id: CalibrationId, runtime: TheRuntime) -> dict[str, Any]:
+    """One run in full."""
+    return {**runtime.store.calibration(calibration_id), "zero_offset_tolerance_deg": _tolerance(runtime, calibration_id)}
+
+
+@router.post(
+    "/{calibration_id}/abort", status_code=202, response_model=CalibrationSummary, responses=documented(404, 504)
+)
+async def abort_calibration(calibration_id: CalibrationId, runtime: TheRuntime) -> dict[str, Any]:
+    """End a run at once and make the machine safe; calling it again changes nothing."""
+
+    def abort() -> dict[str, Any]:
+        runtime.orchestrator.abort(calibration_id)
+        return runtime.store.calibration(calibration_id)
+
+    try:
+        return await aside(abort, timeout_s=ABORT_TIMEOUT_S)
+    except TimeoutError as late:
+        raise HTTPException(504, "The abort was sent but not confirmed; use the stop or the emergency stop.") from late
+
+
+def _tolerance(runtime: Runtime, calibration_id: int) -> float:
+    """Of a zero offset, from the robot file as it was at the time."""
+    return runtime.store.robot_of(calibration_id).tolerances.zero_offset_deg

@@ -1,0 +1,22 @@
+"""What routes ask for by type."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import Depends, Path
+from starlette.requests import HTTPConnection
+
+from station.runtime import Runtime
+
+LARGEST_ID = 2**63 - 1
+"""SQLite's largest row id; beyond it the database would refuse the number itself."""
+
+
+def _runtime(connection: HTTPConnection) -> Runtime:
+    runtime: Runtime = connection.app.state.runtime
+    return runtime
+
+
+TheRuntime = Annotated[Runtime, Depends(_runtime)]
+CalibrationId = Annotated[int, Path(ge=1, le=LARGEST_ID)]

@@ -1,0 +1,33 @@
+"""`/calibrations/{id}/readings`: the measurement file of a run, as JSON and as CSV."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter, Response
+
+from station import measurement_file
+from web.bodies import ReadingAnswer, ReadingList
+from web.problems import documented
+from web.routes.parts import CalibrationId, TheRuntime
+
+
+class CsvResponse(Response):
+    media_type = "text/csv"
+
+
+router = APIRouter(prefix="/calibrations/{calibration_id}", tags=["readings"])
+
+
+@router.get("/readings", response_model=ReadingList, responses=documented(404))
+def list_readings(calibration_id: CalibrationId, runtime: TheRuntime) -> ReadingList:
+    """Every reading of the run, in the order taken."""
+    return ReadingList(items=[ReadingAnswer.of(reading) for reading in runtime.store.readings(calibration_id)])
+
+
+@router.get("/readings.csv", response_class=CsvResponse, responses=documented(404))
+def download_readings(calibration_id: CalibrationId, runtime: TheRuntime) -> CsvResponse:
+    """The measurement file itself."""
+    name = f"calibration-{calibration_id}-readings.csv"
+    return CsvResponse(
+        measurement_file.to_csv(runtime.store.readings(calibration_id)),
+        headers={"Content-Disposition": f'attachment; filename="{name}"'},
+    )

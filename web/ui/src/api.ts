@@ -1,0 +1,64 @@
+/** The REST calls, the same that the MES uses, with types made from the checked-in OpenAPI file. */
+import type { components } from "./api-types";
+
+type Schemas = components["schemas"];
+export type Station = Schemas["Station"];
+export type Run = Schemas["Run"];
+export type RunReading = Schemas["RunReading"];
+export type RunStop = Schemas["RunStop"];
+export type Device = Schemas["Device"];
+export type Interlock = Schemas["Interlock"];
+export type Machine = Schemas["Machine"];
+export type State = Schemas["State"];
+export type Summary = Schemas["CalibrationSummary"];
+export type Calibration = Schemas["Calibration"];
+export type Reading = Schemas["ReadingAnswer"];
+export type CalibrationBody = Schemas["CalibrationBody"];
+
+const TIMEOUT_MS = 8000;
+
+/** What went wrong, in words for the operator. */
+export class Refused extends Error {
+  constructor(
+    message: string,
+    readonly field: string | null = null,
+  ) {
+    super(message);
+  }
+}
+
+async function call<T>(method: "GET" | "POST", path: string, options: RequestInit = {}): Promise<T> {
+  let response: Response;
+  try {
+    response = await fetch(`/api/v1${path}`, { method, signal: AbortSignal.timeout(TIMEOUT_MS), ...options });
+  } catch {
+    throw new Refused("The station does not answer.");
+  }
+  const body: unknown = await response.json().catch(() => null);
+  if (!response.ok) {
+    const problem = body as Partial<Schemas["Problem"]> | null;
+    throw new Refused(problem?.detail ?? `The station answered ${response.status}.`, problem?.field ?? null);
+  }
+  return body as T;
+}
+
+export const start = (body: CalibrationBody, key: string) =>
+  call<Summary>("POST", "/calibrations", {
+    headers: { "Content-Type": "application/json", "Idempotency-Key": key },
+    body: JSON.stringify(body),
+  });
+
+export const abort = (id: number) => call<Summary>("POST", `/calibrations/${id}/abort`);
+
+export const stop = () => call<Schemas["Stopped"]>("POST", "/stop", { headers: { "X-Operator": "page" } });
+
+export const calibration = (id: number) => call<Calibration>("GET", `/calibrations/${id}`);
+
+export const calibrations = (query: URLSearchParams) =>
+  call<Schemas["CalibrationList"]>("GET", `/calibrations?${query}`);
+
+/** A key of its own for each confirmed start, so that pressing again after a lost answer is still one run. */
+export function newKey(): string {
+  // crypto.randomUUID is missing on pages served without TLS, as in most plants
+  return Array.from(crypto.getRandomValues(new Uint8Array(16)), (b) => b.toString(16).padStart(2, "0")).join("");
+}

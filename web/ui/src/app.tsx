@@ -1,0 +1,24 @@
+/** The frame: a header that never scrolls away, and one view below it. */
+import { Header } from "./parts/header";
+import { path } from "./router";
+import { HistoryView } from "./views/history";
+import { ResultView } from "./views/result";
+import { StationView } from "./views/station";
+
+export function App() {
+  return (
+    <>
+      <Header />
+      <main>
+        <View />
+      </main>
+    </>
+  );
+}
+
+function View() {
+  const [, view, id] = path.value.split("/");
+  if (view === "history") return <HistoryView />;
+  if (view === "result") return <ResultView id={id ? Number(id) : null} />;
+  return <StationView />;
+}

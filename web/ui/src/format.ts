@@ -1,0 +1,32 @@
+/** Numbers and times as the operator reads them; what is not a number is said to be missing. */
+
+export const MISSING = "–";
+
+export function fixed(value: number | null | undefined, digits: number): string {
+  if (value == null || !Number.isFinite(value)) return MISSING;
+  // a real minus sign, as wide as the plus
+  return value.toFixed(digits).replace("-", "\u2212");
+}
+
+export function signed(value: number | null | undefined, digits: number): string {
+  const text = fixed(value, digits);
+  return value != null && value > 0 ? `+${text}` : text;
+}
+
+const pad = (part: number) => String(part).padStart(2, "0");
+
+export function timeOfDay(time: Date): string {
+  return `${pad(time.getHours())}:${pad(time.getMinutes())}:${pad(time.getSeconds())}`;
+}
+
+export function dateTime(iso: string | null | undefined): string {
+  if (!iso) return MISSING;
+  const time = new Date(iso);
+  return `${time.getFullYear()}-${pad(time.getMonth() + 1)}-${pad(time.getDate())} ${timeOfDay(time)}`;
+}
+
+export function duration(seconds: number | null | undefined): string {
+  if (seconds == null) return MISSING;
+  const whole = Math.round(seconds);
+  return whole < 60 ? `${whole} s` : `${Math.floor(whole / 60)} min ${pad(whole % 60)} s`;
+}

@@ -1,0 +1,134 @@
+/** The live feed: one snapshot, then numbered events; after a gap or a silence a snapshot again. */
+import { computed, signal } from "@preact/signals";
+import type { Device, Interlock, Machine, Run, RunReading, RunStop, Station, Summary } from "./api";
+
+const BEATS_MISSED_MS = 3000;
+const RETRY_MS = 1000;
+const TICK_MS = 250;
+
+/** The station as last told; null until the first snapshot. */
+export const station = signal<Station | null>(null);
+/** The run that ended last while this page watched, with its map and readings. */
+export const finished = signal<Run | null>(null);
+/** Milliseconds of the page's own clock; everything that ages reads it. */
+export const now = signal(performance.now());
+const heardAt = signal(performance.now());
+const machineAt = signal(0);
+const runAt = signal(0);
+const clockOffset = signal(0);
+
+export const offline = computed(() => now.value - heardAt.value > BEATS_MISSED_MS);
+export const connected = computed(() => station.value !== null && !offline.value);
+export const clock = computed(() => new Date(performance.timeOrigin + now.value + clockOffset.value));
+export const machineAgeS = computed(
+  () => (station.value?.machine?.age_s ?? 0) + Math.max(0, now.value - machineAt.value) / 1000,
+);
+export const remainingS = computed(() => {
+  const remaining = station.value?.run?.remaining_s;
+  return remaining == null ? null : Math.max(0, remaining - (now.value - runAt.value) / 1000);
+});
+
+type Event =
+  | { type: "snapshot"; data: Station }
+  | { type: "beat"; data: null }
+  | { type: "run"; data: Omit<Run, "stops" | "readings"> }
+  | { type: "walk"; data: { number: number; title: string; stops: RunStop[] } }
+  | { type: "reading"; data: RunReading }
+  | { type: "residuals"; data: Pick<RunReading, "reading" | "residual_mm" | "limit_mm">[] }
+  | { type: "machine"; data: Machine | null }
+  | { type: "device"; data: Device }
+  | { type: "interlock"; data: Interlock }
+  | { type: "ended"; data: Summary };
+type Message = Event & { number: number; at: string; build: string };
+
+let socket: WebSocket | null = null;
+let openedAt = 0;
+let number = 0;
+let build: string | null = null;
+let newBuild = false;
+
+export function connect(): void {
+  open();
+  setInterval(() => {
+    now.value = performance.now();
+    // a frozen server closes nothing: only silence tells
+    const quietSince = Math.max(heardAt.value, openedAt);
+    if (now.value - quietSince > BEATS_MISSED_MS + RETRY_MS) reopen();
+    if (newBuild && !station.value?.run) location.reload();
+  }, TICK_MS);
+}
+
+function open(): void {
+  openedAt = performance.now();
+  const mine = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/v1/live`);
+  socket = mine;
+  mine.onmessage = (event) => socket === mine && receive(JSON.parse(event.data as string) as Message);
+  mine.onclose = () => setTimeout(() => socket === mine && open(), RETRY_MS);
+}
+
+function reopen(): void {
+  socket?.close();
+  open();
+}
+
+function receive(message: Message): void {
+  const time = performance.now();
+  heardAt.value = now.value = time;
+  clockOffset.value = Date.parse(message.at) - performance.timeOrigin - time;
+  build ??= message.build;
+  newBuild = build !== message.build;
+  const expected = message.type === "beat" ? number : number + 1;
+  if (message.type !== "snapshot" && message.number !== expected) {
+    reopen();
+    return;
+  }
+  number = message.number;
+  if (message.type === "snapshot" || message.type === "machine") machineAt.value = time;
+  if (message.type === "snapshot" || message.type === "run") runAt.value = time;
+  if (message.type === "snapshot") station.value = message.data;
+  else if (station.value) station.value = apply(station.value, message);
+}
+
+/** Events state facts by id: one that the snapshot already held changes nothing. */
+function apply(before: Station, event: Event): Station {
+  const run = before.run;
+  switch (event.type) {
+    case "run": {
+      const same = run?.id === event.data.id ? run : null;
+      return { ...before, run: { ...event.data, stops: same?.stops ?? [], readings: same?.readings ?? [] } };
+    }
+    case "walk": {
+      const { number, title, stops } = event.data;
+      return run ? { ...before, run: { ...run, walk: { number, title }, stops } } : before;
+    }
+    case "reading":
+      return run ? { ...before, run: withReading(run, event.data) } : before;
+    case "residuals": {
+      const known = new Map(event.data.map((residual) => [residual.reading, residual]));
+      const readings = run?.readings.map((reading) => ({ ...reading, ...known.get(reading.reading) }));
+      return run && readings ? { ...before, run: { ...run, readings } } : before;
+    }
+    case "machine":
+      return { ...before, machine: event.data };
+    case "device":
+      return { ...before, devices: replaced(before.devices, event.data, (device) => device.name) };
+    case "interlock":
+      return { ...before, interlocks: replaced(before.interlocks, event.data, (interlock) => interlock.id) };
+    case "ended":
+      if (run) finished.value = run;
+      return { ...before, run: null, last: event.data };
+    default:
+      return before;
+  }
+}
+
+function withReading(run: Run, reading: RunReading): Run {
+  if (run.readings.some((known) => known.reading === reading.reading)) return run;
+  const visited = run.stops.findIndex((stop) => stop.position === reading.position && !stop.done);
+  const stops = run.stops.map((stop, i) => (i === visited ? { ...stop, done: true } : stop));
+  return { ...run, stops, readings: [...run.readings, reading] };
+}
+
+function replaced<T>(items: T[], item: T, key: (item: T) => string): T[] {
+  return items.map((other) => (key(other) === key(item) ? item : other));
+}

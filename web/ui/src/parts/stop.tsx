@@ -1,0 +1,40 @@
+/** One step to stop.  Always there, always pressable; it says when the stop did not arrive. */
+import { signal } from "@preact/signals";
+import { Refused, stop } from "../api";
+import { timeOfDay } from "../format";
+import { clock } from "../live";
+
+const report = signal<{ text: string; failed: boolean } | null>(null);
+
+async function press(): Promise<void> {
+  const at = timeOfDay(clock.value);
+  report.value = { text: `Stop sent at ${at} …`, failed: false };
+  try {
+    await stop();
+    report.value = { text: `Stopped at ${at}.`, failed: false };
+  } catch (error) {
+    const cause = error instanceof Refused ? error.message : String(error);
+    report.value = { text: `STOP FAILED at ${at}: ${cause} Press the emergency stop.`, failed: true };
+  }
+}
+
+export function StopButton() {
+  return (
+    <button class="stop" type="button" onClick={() => void press()}>
+      <span aria-hidden="true" class="square" />
+      <span>
+        STOP
+        <small>not the emergency stop</small>
+      </span>
+    </button>
+  );
+}
+
+export function StopReport() {
+  return (
+    <p class={`report ${report.value?.failed ? "alarm act" : ""}`} role="alert" hidden={!report.value}>
+      {report.value?.failed && "▲ "}
+      {report.value?.text}
+    </p>
+  );
+}

@@ -1,0 +1,16 @@
+/** View state lives in the address: which view, which filters, which page. */
+import { computed, signal } from "@preact/signals";
+
+const address = signal(location.pathname + location.search);
+addEventListener("popstate", () => {
+  address.value = location.pathname + location.search;
+});
+
+export const path = computed(() => address.value.split("?")[0]!);
+export const query = computed(() => new URLSearchParams(address.value.split("?")[1] ?? ""));
+
+export function navigate(to: string, options: { replace?: boolean } = {}): void {
+  if (options.replace) history.replaceState(null, "", to);
+  else history.pushState(null, "", to);
+  address.value = to;
+}
