@@ -1,0 +1,110 @@
+"""What an effect may do to the machine, and what it can see of it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from random import Random
+from typing import ClassVar, Literal
+
+from pydantic import BaseModel, ConfigDict
+
+JointNumber = Literal[1, 2]
+
+
+@dataclass(slots=True)
+class Scene:
+    """The machine at one instant, filled in from the motors towards the head."""
+
+    t_s: float
+    """Since the machine was switched on."""
+    stop: int
+    """How many times it has come to rest."""
+    direction: tuple[int, int]
+    """Sign of each joint's last motion, 0 before the first."""
+    travel_deg: tuple[float, float]
+    """What each drive has turned its joint from the drive's zero, deg."""
+    theta_deg: list[float]
+    """The arms' angles as far as they are known, deg."""
+    elbows_mm: tuple[tuple[float, float], tuple[float, float]] = ((0.0, 0.0), (0.0, 0.0))
+    """The passive joints between L and l, once the arms are known."""
+    r_mm: tuple[float, float] = (0.0, 0.0)
+    """P, once the arms are known."""
+    rho_mm: float = 0.0
+    """Distance O_1 to O_2, once P is known."""
+    travel_mm: float = 0.0
+    """The slider's place on the scale: rho less the head's constant."""
+
+
+@dataclass(slots=True)
+class Lengths:
+    """Links as they are at this instant, mm; index 0 is joint 1's chain."""
+
+    L: list[float]
+    l: list[float]  # noqa: E741  the paper's symbol
+
+
+class Effect(BaseModel):
+    """An imperfection.  Each hook answers what it adds; an effect overrides the one where it acts.
+
+    Effects with a memory (play) are asked in the order in which things happen, so the answer may
+    depend on earlier questions, but asking twice in the same scene gives the same answer.
+    """
+
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+    stage: ClassVar[int] = 0
+    """Joint effects act in this order: 0 encoder, 1 motor and gear, 2 play, 3 load on the arm."""
+    follows_path: ClassVar[bool] = False
+    """Whether it depends on the way between stops and not on the stops alone."""
+
+    def start(self, rng: Random) -> None:
+        """Called once, when the machine is switched on."""
+
+    def on_stop(self) -> None:
+        """Called each time the machine comes to rest."""
+
+    def on_joint_deg(self, joint: JointNumber, scene: Scene) -> float:
+        """Added to the angle of an arm, deg."""
+        return 0.0
+
+    def on_lengths(self, lengths: Lengths, scene: Scene) -> None:
+        """May change the links."""
+
+    def on_head_mm(self, scene: Scene) -> float:
+        """Added to the reading, mm."""
+        return 0.0
+
+    def temperature_rise_k(self, t_s: float) -> float:
+        """Added to the temperature a thermometer on the machine shows."""
+        return 0.0
+
+
+class JointEffect(Effect):
+    """An effect at one active joint."""
+
+    joint: JointNumber
+
+    def on_joint_deg(self, joint: JointNumber, scene: Scene) -> float:
+        return self.at_joint_deg(scene) if joint == self.joint else 0.0
+
+    def at_joint_deg(self, scene: Scene) -> float:
+        """Added to the angle of this joint's arm, deg."""
+        raise NotImplementedError
+
+    def arm_deg(self, scene: Scene) -> float:
+        """This joint's angle so far."""
+        return scene.theta_deg[self.joint - 1]
+
+
+class Play:
+    """What is dragged along with a play: it stays until its driver has crossed the width."""
+
+    def __init__(self) -> None:
+        self._follower: float | None = None
+
+    def follow(self, driver: float, width: float) -> float:
+        """Where the follower is, less where its driver is; starts in the middle."""
+        if self._follower is None:
+            self._follower = driver
+        self._follower = min(max(self._follower, driver - width / 2), driver + width / 2)
+        return self._follower - driver

@@ -1,0 +1,315 @@
+"""The physical machine: two motors, gears, arms and links, a slider and a scale head.
+
+It computes forward, from the motors' pulses to what the head sees, and shares no formula with the
+station's identification.  It takes its time from a clock that is given to it, so a walk of hundreds
+of stops can be simulated in virtual time.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from random import Random
+from threading import RLock
+from typing import Literal
+
+from drivers.emulated.effects.base import Effect, JointNumber, Lengths, Scene
+from drivers.emulated.motion import Motion, braking, standing, trapezoid
+from drivers.emulated.spec import MachineSpec
+
+Clock = Callable[[], float]
+Point = tuple[float, float]
+
+_JOINTS: tuple[JointNumber, JointNumber] = (1, 2)
+_STOP_RPM_PER_S = 50_000.0
+_USUAL_RPM_PER_S = 10_000.0
+_PATH_STEPS = 16
+
+
+class Unreachable(ValueError):
+    """The links cannot meet with the arms at these angles."""
+
+
+class Axis:
+    """Motor, encoder and servo loop of one joint, in pulses counted from the drive's first zero."""
+
+    def __init__(
+        self, spec: MachineSpec, index: Literal[0, 1], clock: Clock, speed: float, rng: Random
+    ) -> None:
+        self._counts_per_rev = spec.counts_per_rev
+        self._scatter_pulses = spec.servo_error_pulses / 3 if spec.scatter else 0.0
+        self._zero_at_deg = spec.zero_at_deg[index]
+        self._deg_per_pulse = spec.sign[index] / spec.pulses_per_deg
+        self._offset_deg = spec.zero_offsets_deg[index]
+        self._sign = spec.sign[index]
+        self._clock = clock
+        self._speed = speed
+        self._rng = rng
+        self._motion: Motion = standing(0.0)
+        self._started_s = clock()
+        self._commanded: int | None = None
+        self.zero_pulses = 0
+        """Where the drive's zero has been declared to be."""
+        self.direction = 0
+        """Sign of the joint angle's last motion, 0 before the first."""
+
+    def command(self, pulses: int, rpm: float, rpm_per_s: float = _USUAL_RPM_PER_S) -> None:
+        """Start a move to `pulses` from the drive's zero; the servo comes to rest near it."""
+        if pulses == self._commanded and not self.moving:
+            return
+        per_rpm = self._counts_per_rev / 60
+        start, _ = self._at(self._clock())
+        end = pulses + self.zero_pulses + self._rng.gauss(0.0, self._scatter_pulses)
+        self._begin(trapezoid(start, end, rpm * per_rpm, rpm_per_s * per_rpm))
+        self._commanded = pulses
+
+    def quick_stop(self) -> None:
+        """Brake hard from wherever the axis is."""
+        position, pulses_per_s = self._at(self._clock())
+        if pulses_per_s:
+            self._begin(braking(position, pulses_per_s, _STOP_RPM_PER_S * self._counts_per_rev / 60))
+        self._commanded = None
+
+    def declare_zero(self) -> None:
+        """The present place becomes the drive's zero."""
+        self.zero_pulses += self.feedback_pulses()
+        self._commanded = None
+
+    def put(self, pulses: float) -> None:
+        """Stand at `pulses` from the first zero, as after switching on."""
+        self._motion = standing(pulses)
+        self._commanded = None
+
+    @property
+    def moving(self) -> bool:
+        return self._clock() < self.rests_from_s
+
+    @property
+    def rests_from_s(self) -> float:
+        """The clock's time at which the present motion ends (or ended)."""
+        return self._started_s + self._motion.duration_s / self._speed
+
+    @property
+    def shaft_pulses(self) -> float:
+        """Where the motor stands, from the first zero."""
+        return self._at(self._clock())[0]
+
+    def feedback_pulses(self) -> int:
+        """What the encoder counts, from the drive's zero."""
+        return round(self.shaft_pulses) - self.zero_pulses
+
+    def travel_deg(self, at_s: float) -> float:
+        """Joint travel from the first zero at a time of the clock."""
+        return self._at(at_s)[0] * self._deg_per_pulse
+
+    def arm_deg(self, at_s: float) -> float:
+        """The arm's angle, zero offset included, before any other imperfection."""
+        return self._zero_at_deg + self._offset_deg + self.travel_deg(at_s)
+
+    @property
+    def zero_offset_deg(self) -> float:
+        """True zero offset of the drive as it counts now: actual less nominal angle."""
+        return self._offset_deg + self.zero_pulses * self._deg_per_pulse
+
+    def _begin(self, motion: Motion) -> None:
+        self._motion = motion
+        self._started_s = self._clock()
+        if motion.end != motion.start:
+            self.direction = self._sign * (1 if motion.end > motion.start else -1)
+
+    def _at(self, at_s: float) -> tuple[float, float]:
+        """Position and speed, pulses and pulses per second of the machine's time."""
+        return self._motion.at((at_s - self._started_s) * self._speed)
+
+
+@dataclass(frozen=True, slots=True)
+class MachineState:
+    """What stays when the power is off."""
+
+    shaft_pulses: tuple[float, float]
+    zero_pulses: tuple[int, int]
+
+
+class Machine:
+    """The whole machine; may be used from any thread."""
+
+    def __init__(
+        self, spec: MachineSpec, clock: Clock = time.monotonic, *, seed: int | None = None, speed: float = 1.0
+    ) -> None:
+        """:param clock: seconds; only differences count
+
+        :param seed: of all its randomness; without it that of the spec
+        :param speed: how much faster than real the arms move
+        """
+        seed = spec.seed if seed is None else seed
+        self._spec = spec
+        self._clock = clock
+        self._noise = Random(f"{seed} scale")
+        self._lock = RLock()
+        self.axes = (
+            Axis(spec, 0, clock, speed, Random(f"{seed} servo 1")),
+            Axis(spec, 1, clock, speed, Random(f"{seed} servo 2")),
+        )
+        self._effects = [_fresh(effect) for effect in spec.effects]
+        self._joint_effects = sorted(self._effects, key=lambda effect: effect.stage)
+        self._steps = _PATH_STEPS if any(effect.follows_path for effect in self._effects) else 1
+        for number, effect in enumerate(self._effects):
+            effect.start(Random(f"{seed} effect {number}"))
+        self._on_s = self._looked_s = clock()
+        self._rested = True
+        self._stops = 0
+
+    # -- what the drives do ------------------------------------------------------------------
+
+    def command(
+        self, joint: JointNumber, pulses: int, rpm: float, rpm_per_s: float = _USUAL_RPM_PER_S
+    ) -> None:
+        """Start a move of one joint, see `Axis.command`."""
+        with self._lock:
+            self._look()
+            self.axes[joint - 1].command(pulses, rpm, rpm_per_s)
+            self._rested = False
+
+    def quick_stop(self, joint: JointNumber) -> None:
+        with self._lock:
+            self._look()
+            self.axes[joint - 1].quick_stop()
+
+    # -- what can be seen --------------------------------------------------------------------
+
+    def head_mm(self) -> float:
+        """One reading of the scale head, with its noise.
+
+        :raises Unreachable: the arms stand where the links cannot meet
+        """
+        with self._lock:
+            self._look()
+            scene = self._scene(self._clock())
+            return self._reading_mm(scene) + self._noise.gauss(0.0, self._spec.scale_noise_mm)
+
+    def point_mm(self) -> Point:
+        """Where P truly is, as a tracker would see it."""
+        with self._lock:
+            self._look()
+            return self._scene(self._clock()).r_mm
+
+    def temperature_rise_k(self) -> float:
+        """Since switching on, as a thermometer on the machine shows it."""
+        t_s = self._clock() - self._on_s
+        return sum(effect.temperature_rise_k(t_s) for effect in self._effects)
+
+    @property
+    def rests_from_s(self) -> float:
+        """The clock's time at which both axes stand still."""
+        return max(axis.rests_from_s for axis in self.axes)
+
+    # -- power off and on ----------------------------------------------------------------------
+
+    def state(self) -> MachineState:
+        with self._lock:
+            first, second = self.axes
+            return MachineState(
+                (first.shaft_pulses, second.shaft_pulses), (first.zero_pulses, second.zero_pulses)
+            )
+
+    def restore(self, state: MachineState) -> None:
+        """Stand where the machine was left."""
+        with self._lock:
+            for axis, shaft, zero in zip(self.axes, state.shaft_pulses, state.zero_pulses, strict=True):
+                axis.put(shaft)
+                axis.zero_pulses = zero
+
+    # -- physics ---------------------------------------------------------------------------------
+
+    def _look(self) -> None:
+        """Let effects with a memory see what has happened since the last look."""
+        now_s = self._clock()
+        if not self._rested:
+            rests_s = self.rests_from_s
+            until_s = min(now_s, rests_s)
+            steps = self._steps if until_s > self._looked_s else 0
+            for step in range(1, steps + 1):
+                at_s = self._looked_s + (until_s - self._looked_s) * step / steps
+                self._reading_mm(self._scene(at_s))
+            if now_s >= rests_s:
+                self._rested = True
+                self._stops += 1
+                for effect in self._effects:
+                    effect.on_stop()
+        self._looked_s = now_s
+
+    def _scene(self, at_s: float) -> Scene:
+        first, second = self.axes
+        scene = Scene(
+            t_s=at_s - self._on_s,
+            stop=self._stops,
+            direction=(first.direction, second.direction),
+            travel_deg=(first.travel_deg(at_s), second.travel_deg(at_s)),
+            theta_deg=[first.arm_deg(at_s), second.arm_deg(at_s)],
+        )
+        for effect in self._joint_effects:
+            for joint in _JOINTS:
+                scene.theta_deg[joint - 1] += effect.on_joint_deg(joint, scene)
+        spec = self._spec
+        lengths = Lengths(
+            [length + error for length, error in zip(spec.L_mm, spec.L_error_mm, strict=True)],
+            [length + error for length, error in zip(spec.l_mm, spec.l_error_mm, strict=True)],
+        )
+        self._place(scene, lengths)
+        if self._effects:
+            for effect in self._effects:
+                effect.on_lengths(lengths, scene)
+            self._place(scene, lengths)
+        scene.rho_mm = math.dist(
+            scene.r_mm,
+            (
+                spec.c_mm[0] + spec.d_mm[0] + spec.drm_mm[0],
+                spec.c_mm[1] + spec.d_mm[1] + spec.drm_mm[1],
+            ),
+        )
+        scene.travel_mm = scene.rho_mm - spec.head_zero_mm
+        return scene
+
+    def _place(self, scene: Scene, lengths: Lengths) -> None:
+        """Elbows and P for the arms' angles."""
+        errors = self._spec.e_error_mm
+        elbows: list[Point] = []
+        for i, (x, y) in enumerate(self._spec.e_mm):
+            angle = math.radians(scene.theta_deg[i])
+            elbows.append(
+                (
+                    x + errors[2 * i] + lengths.L[i] * math.cos(angle),
+                    y + errors[2 * i + 1] + lengths.L[i] * math.sin(angle),
+                )
+            )
+        scene.elbows_mm = (elbows[0], elbows[1])
+        scene.r_mm = lower_meeting_point(elbows[0], lengths.l[0], elbows[1], lengths.l[1])
+
+    def _reading_mm(self, scene: Scene) -> float:
+        return scene.travel_mm + sum(effect.on_head_mm(scene) for effect in self._effects)
+
+
+def lower_meeting_point(first: Point, first_mm: float, second: Point, second_mm: float) -> Point:
+    """Where two circles meet, the lower of the two points (the workspace is below the base).
+
+    :raises Unreachable: they do not meet
+    """
+    apart_x, apart_y = second[0] - first[0], second[1] - first[1]
+    apart = math.hypot(apart_x, apart_y)
+    if not abs(first_mm - second_mm) < apart < first_mm + second_mm:
+        raise Unreachable("The distal links cannot meet with the arms at these angles.")
+    cosine = (first_mm**2 + apart**2 - second_mm**2) / (2 * first_mm * apart)
+    towards_second = math.atan2(apart_y, apart_x)
+    opening = math.acos(cosine)
+    points = [
+        (first[0] + first_mm * math.cos(angle), first[1] + first_mm * math.sin(angle))
+        for angle in (towards_second - opening, towards_second + opening)
+    ]
+    return min(points, key=lambda point: point[1])
+
+
+def _fresh(effect: Effect) -> Effect:
+    """A copy without the memory of another machine."""
+    return type(effect).model_validate(effect.model_dump())

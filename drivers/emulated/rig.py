@@ -1,0 +1,137 @@
+"""The emulated rig: scale on a pseudo-terminal, drives behind a Modbus TCP gateway, one machine."""
+
+from __future__ import annotations
+
+import json
+from contextlib import ExitStack
+from pathlib import Path
+from threading import Event, Thread
+from types import TracebackType
+from typing import Self
+
+from drivers.emulated.el7 import EL7Drive
+from drivers.emulated.faults import Faults
+from drivers.emulated.machine import Machine, MachineState
+from drivers.emulated.modbus_tcp import DriveReply, DropLink, ModbusTcpGateway
+from drivers.emulated.nd280 import ND280
+from drivers.emulated.pty_line import PtyLine
+from drivers.emulated.spec import Fault, RigSpec
+
+_SAVE_EVERY_S = 0.05
+
+
+class EmulatedRig:
+    """A context manager; inside it the devices answer at `scale_url` and `servo_url`.
+
+    Drive addresses are 1 and 2.  With a state file the drives start where they were left, also
+    after the process was killed.
+    """
+
+    def __init__(self, spec: RigSpec, *, speed: float | None = None, state_file: Path | None = None) -> None:
+        """:param speed: overrides the spec's; :param state_file: likewise"""
+        self.spec = spec
+        self.machine = Machine(spec.machine, speed=speed or spec.emulated.speed)
+        self._faults = Faults(spec.faults)
+        self._state_file = state_file
+        if state_file is None and spec.emulated.state_file is not None:
+            self._state_file = Path(spec.emulated.state_file)
+        self._open = ExitStack()
+        self.scale_url = ""
+        self.servo_url = ""
+
+    def __enter__(self) -> Self:
+        with ExitStack() as stack:
+            if self._state_file is not None:
+                stack.enter_context(_StateKeeper(self.machine, self._state_file))
+            line = PtyLine(ND280(self.machine.head_mm, self._faults).receive)
+            stack.callback(line.close)
+            gateway = ModbusTcpGateway({joint: self._drive(joint) for joint in (1, 2)})
+            stack.callback(gateway.close)
+            self.scale_url = f"serial://{line.port}?baud=9600&format=7E2&override=8N1"
+            self.servo_url = f"modbus+tcp://127.0.0.1:{gateway.port}"
+            self._open = stack.pop_all()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._open.close()
+
+    def inject(self, fault: Fault) -> None:
+        """Let a wire fault come, counted from now."""
+        self._faults.add(fault)
+
+    def clear_faults(self) -> None:
+        """No more faults."""
+        self._faults.clear()
+
+    def _drive(self, joint: int) -> _DriveOnLine:
+        return _DriveOnLine(EL7Drive(self.machine, joint, self._faults), joint, self._faults)
+
+
+class _DriveOnLine:
+    """A drive with the faults of the line in front of it."""
+
+    def __init__(self, drive: EL7Drive, joint: int, faults: Faults) -> None:
+        self._drive = drive
+        self._joint = joint
+        self._faults = faults
+
+    def __call__(self, request: bytes) -> DriveReply:
+        if self._faults.due("servo_link_dropped", self._joint):
+            raise DropLink
+        if self._faults.due("drive_silent", self._joint):
+            return DriveReply(None)
+        late = self._faults.due("drive_late", self._joint)
+        return DriveReply(self._drive.answer(request), late.delay_s if late else 0.0)
+
+
+class _StateKeeper:
+    """Keeps the machine's place in a file, so that it survives a kill."""
+
+    def __init__(self, machine: Machine, path: Path) -> None:
+        self._machine = machine
+        self._path = path
+        self._closing = Event()
+        self._saved: MachineState | None = None
+        self._thread = Thread(target=self._keep, name="emulated machine's state")
+
+    def __enter__(self) -> Self:
+        if self._path.exists():
+            self._machine.restore(_load_state(self._path))
+        self._thread.start()
+        return self
+
+    def __exit__(
+        self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+    ) -> None:
+        self._closing.set()
+        self._thread.join()
+
+    def _keep(self) -> None:
+        while not self._closing.wait(_SAVE_EVERY_S):
+            self._save()
+        self._save()
+
+    def _save(self) -> None:
+        state = self._machine.state()
+        if state == self._saved:
+            return
+        draft = self._path.with_name(self._path.name + ".new")
+        draft.write_text(json.dumps({"shaft_pulses": state.shaft_pulses, "zero_pulses": state.zero_pulses}))
+        draft.replace(self._path)  # whole or not at all
+        self._saved = state
+
+
+class StateFileError(ValueError):
+    """A state file that cannot be used; the text is one sentence."""
+
+
+def _load_state(path: Path) -> MachineState:
+    try:
+        table = json.loads(path.read_text(encoding="utf-8"))
+        first, second = (float(pulses) for pulses in table["shaft_pulses"])
+        zero_first, zero_second = (int(pulses) for pulses in table["zero_pulses"])
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise StateFileError(f"The state file {path} is damaged; delete it to start at the zeros.") from error
+    return MachineState((first, second), (zero_first, zero_second))

@@ -1,0 +1,104 @@
+"""What is to be emulated: the machine's true errors, its speed, scripted wire faults."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from drivers.emulated.effects import AnyEffect
+
+Pair = tuple[float, float]
+Positive = Annotated[float, Field(gt=0)]
+
+
+class _Table(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+
+
+class MachineSpec(_Table):
+    """A five-bar with its measuring mechanism; errors are actual minus nominal.
+
+    Nominal values are Table 1 of the paper.  Index 0 is joint 1 (right), index 1 joint 2 (left).
+    """
+
+    seed: int = 1
+    e_mm: tuple[Pair, Pair] = ((80.0, 0.0), (-80.0, 0.0))
+    L_mm: tuple[Positive, Positive] = (375.0, 375.0)
+    l_mm: tuple[Positive, Positive] = (825.0, 825.0)
+    c_mm: Pair = (0.0, -79.0)
+    d_mm: Pair = (0.0, -51.0)
+    zero_offsets_deg: Pair = (0.0, 0.0)
+    e_error_mm: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+    """e_1x, e_1y, e_2x, e_2y."""
+    L_error_mm: Pair = (0.0, 0.0)
+    l_error_mm: Pair = (0.0, 0.0)
+    drm_mm: Pair = (0.0, 0.0)
+    """MAEMM: error of c + d."""
+    head_zero_mm: float = 437.25
+    """The unknown constant: the head reads rho less this."""
+    counts_per_rev: int = Field(default=10_000, gt=0)
+    ratio: Positive = 20.0
+    zero_at_deg: Pair = (0.0, 180.0)
+    sign: tuple[Literal[-1, 1], Literal[-1, 1]] = (1, 1)
+    scale_noise_mm: float = Field(default=(3 + 0.35) / 3 * 1e-3, ge=0)
+    """Standard deviation of a reading, eq. 34 of the paper."""
+    scatter: bool = True
+    """Whether the servos come to rest beside their command, eq. 35 of the paper."""
+    servo_error_pulses: float = Field(default=4.0, ge=0)
+    """Largest error of a stop (three standard deviations), pulses."""
+    effects: tuple[AnyEffect, ...] = ()
+
+    @property
+    def pulses_per_deg(self) -> float:
+        return self.counts_per_rev * self.ratio / 360.0
+
+
+class EmulationSpec(_Table):
+    """How the machine is run."""
+
+    speed: Positive = 50.0
+    """How much faster than real time the arms move."""
+    state_file: str | None = None
+    """Where the drives' places are kept while the rig is off; none: they start at their zero."""
+
+
+FaultKind = Literal[
+    "scale_silent",
+    "scale_garbled",
+    "scale_fault_mark",
+    "scale_late",
+    "drive_silent",
+    "drive_exception",
+    "drive_late",
+    "drive_alarm",
+    "drive_never_in_position",
+    "servo_link_dropped",
+]
+
+
+class Fault(_Table):
+    """A fault on the wire that comes after `after` occasions and stays for `times` of them.
+
+    Occasions are value requests for `scale_...`, requests to the drive for `drive_silent`,
+    `drive_exception`, `drive_late` and `servo_link_dropped`, moves for `drive_alarm` and
+    `drive_never_in_position`.
+    """
+
+    kind: FaultKind
+    joint: Literal[1, 2] | None = None
+    """Which drive; none means either."""
+    after: int = Field(default=0, ge=0)
+    times: int = Field(default=1, gt=0)
+    delay_s: float = Field(default=0.5, gt=0)
+    """Of late replies."""
+    code: int = Field(default=0, ge=0, le=0xFFFF)
+    """Exception or alarm code; 0 takes a usual one."""
+
+
+class RigSpec(_Table):
+    """A rig file."""
+
+    machine: MachineSpec = MachineSpec()
+    emulated: EmulationSpec = EmulationSpec()
+    faults: tuple[Fault, ...] = ()

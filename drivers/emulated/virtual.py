@@ -1,0 +1,78 @@
+"""Walks in virtual time: the machine without wires and without waiting."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+from drivers.emulated.machine import Machine
+from drivers.emulated.spec import MachineSpec
+
+
+class VirtualClock:
+    """A clock that stands still until it is told the time."""
+
+    def __init__(self) -> None:
+        self.time_s = 0.0
+
+    def __call__(self) -> float:
+        return self.time_s
+
+    def advance_to(self, time_s: float) -> None:
+        """Never goes back."""
+        self.time_s = max(self.time_s, time_s)
+
+
+@dataclass(frozen=True, slots=True)
+class VirtualReading:
+    """What the station would have recorded at one stop, and the truth beside it."""
+
+    t_s: float
+    theta_deg: tuple[float, float]
+    """Drive feedback, nominal frame."""
+    approach: tuple[int, int]
+    scale_mm: float
+    temperature_rise_k: float
+    true_point_mm: tuple[float, float]
+
+
+class VirtualRig:
+    """A machine in virtual time, walked stop by stop."""
+
+    def __init__(self, spec: MachineSpec, *, seed: int | None = None) -> None:
+        self.clock = VirtualClock()
+        self.machine = Machine(spec, self.clock, seed=seed)
+        self._spec = spec
+
+    def stop_at(
+        self, theta_deg: tuple[float, float], *, rpm: float = 100.0, settle_s: float = 0.2, samples: int = 1
+    ) -> VirtualReading:
+        """Move both joints to a command (nominal frame), wait, and read.
+
+        :param samples: readings of the head that are averaged
+        """
+        spec, machine = self._spec, self.machine
+        machine.command(1, self._pulses(0, theta_deg[0]), rpm)
+        machine.command(2, self._pulses(1, theta_deg[1]), rpm)
+        self.clock.advance_to(machine.rests_from_s + settle_s)
+        scale_mm = sum(machine.head_mm() for _ in range(samples)) / samples
+        first, second = machine.axes
+        return VirtualReading(
+            t_s=self.clock(),
+            theta_deg=(
+                spec.zero_at_deg[0] + spec.sign[0] * first.feedback_pulses() / spec.pulses_per_deg,
+                spec.zero_at_deg[1] + spec.sign[1] * second.feedback_pulses() / spec.pulses_per_deg,
+            ),
+            approach=(first.direction, second.direction),
+            scale_mm=scale_mm,
+            temperature_rise_k=machine.temperature_rise_k(),
+            true_point_mm=machine.point_mm(),
+        )
+
+    def walk(self, stops_deg: Iterable[tuple[float, float]], *, samples: int = 1) -> list[VirtualReading]:
+        """One reading at each stop, in order."""
+        return [self.stop_at(stop, samples=samples) for stop in stops_deg]
+
+    def _pulses(self, i: int, theta_deg: float) -> int:
+        spec = self._spec
+        return round(spec.sign[i] * (theta_deg - spec.zero_at_deg[i]) * spec.pulses_per_deg)

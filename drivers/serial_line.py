@@ -1,0 +1,165 @@
+"""One serial line: opened from a URL, written to, and read into a parser of one's own with a deadline."""
+
+from __future__ import annotations
+
+import errno
+import sys
+import time
+from collections.abc import Callable
+from contextlib import suppress
+from typing import Literal
+
+import serial
+
+from drivers.line_url import LineFormat, NetAddress, SerialAddress, parse_line_url
+from drivers.protocols import DeviceError, LinkLost
+
+Trace = Callable[[Literal["tx", "rx"], bytes], None]
+"""A flight recorder's hook: what crossed the wire, and which way."""
+
+# Waiting happens in slices: changing a port's time-out re-applies all its settings, which a
+# pseudo-terminal refuses, so the time-out is set once and deadlines are kept here.
+_SLICE_S = 0.02
+
+
+class SerialLine:
+    """An open line.  XON/XOFF is honoured by the operating system on serial ports."""
+
+    def __init__(self, url: str, *, default_baud: int = 9600, default_format: str = "8N1") -> None:
+        """Read the URL; nothing is opened yet.
+
+        :raises BadUrl: one sentence about what is wrong in it
+        """
+        self.address = parse_line_url(
+            url, serial="serial", net="socket", default_baud=default_baud, default_format=default_format
+        )
+        self.trace: Trace | None = None
+        self._port: serial.Serial | None = None
+
+    @property
+    def notice(self) -> str | None:
+        """One sentence to log at start when the line format is overridden, else None."""
+        return self.address.notice if isinstance(self.address, SerialAddress) else None
+
+    @property
+    def is_open(self) -> bool:
+        return self._port is not None
+
+    def byte_time_s(self, count: int) -> float:
+        """How long `count` bytes take on the wire; 0 on a network."""
+        if isinstance(self.address, NetAddress):
+            return 0.0
+        return count * self.address.format.bits_per_byte / self.address.baud
+
+    def open(self) -> None:
+        """Open for this process alone.
+
+        :raises LinkLost: the port is missing, busy or unreachable
+        :raises DeviceError: the port cannot carry the line format
+        """
+        self.close()
+        try:
+            port = self._open_port()
+        except (OSError, ValueError) as error:
+            raise LinkLost(f"{self.address} cannot be opened: {_reason(error)}.") from error
+        if isinstance(self.address, SerialAddress):
+            wanted = self.address.effective_format
+            if not _carries(port, wanted):
+                port.close()
+                raise DeviceError(
+                    f"{self.address} cannot carry {wanted} (a pseudo-terminal has neither parity nor 7 bits);"
+                    f" add override=8N1 to its URL if that is intended."
+                )
+        self._port = port
+
+    def _open_port(self) -> serial.Serial:
+        if isinstance(self.address, NetAddress):
+            port: serial.Serial = serial.serial_for_url(f"socket://{self.address}", timeout=_SLICE_S)
+            return port
+        line_format = self.address.effective_format
+        return serial.Serial(
+            self.address.port,
+            baudrate=self.address.baud,
+            bytesize=line_format.data_bits,
+            parity=line_format.parity,
+            stopbits=line_format.stop_bits,
+            xonxoff=True,
+            timeout=_SLICE_S,
+            write_timeout=1.0,
+            exclusive=True,
+        )
+
+    def close(self) -> None:
+        """Release the port; never raises."""
+        if self._port is not None:
+            port, self._port = self._port, None
+            with suppress(OSError):  # the cable may be out
+                port.close()
+
+    def write(self, data: bytes) -> None:
+        """:raises LinkLost: the line is not open or broke"""
+        port = self._opened()
+        try:
+            port.write(data)
+        except OSError as error:
+            self.close()
+            raise LinkLost(f"{self.address} broke while writing: {_reason(error)}.") from error
+        if self.trace is not None:
+            self.trace("tx", data)
+
+    def read_some(self, deadline_s: float) -> bytes:
+        """Whatever has come in, at least one byte; empty once `time.monotonic()` passes the deadline.
+
+        :raises LinkLost: the line is not open or broke
+        """
+        port = self._opened()
+        while True:
+            expired = time.monotonic() >= deadline_s
+            try:
+                # read() waits for a slice of time when nothing is there
+                data = b"" if expired and not port.in_waiting else bytes(port.read(max(1, port.in_waiting)))
+            except OSError as error:
+                self.close()
+                raise LinkLost(f"{self.address} broke while reading: {_reason(error)}.") from error
+            if data:
+                if self.trace is not None:
+                    self.trace("rx", data)
+                return data
+            if expired:
+                return b""
+
+    def drain(self, seconds: float) -> None:
+        """Throw away everything that arrives within the next `seconds` (0: what is there already).
+
+        :raises LinkLost: the line is not open or broke
+        """
+        deadline_s = time.monotonic() + seconds
+        while self._opened().in_waiting or time.monotonic() < deadline_s:
+            self.read_some(deadline_s)
+
+    def _opened(self) -> serial.Serial:
+        if self._port is None:
+            raise LinkLost(f"{self.address} is not open; connect again.")
+        return self._port
+
+
+def _carries(port: serial.SerialBase, wanted: LineFormat) -> bool:
+    """Whether the port took data bits and parity; a pseudo-terminal drops both without a word."""
+    if sys.platform == "win32":
+        return True  # the port's driver refuses by itself there
+    import termios
+
+    control_flags = termios.tcgetattr(port.fileno())[2]
+    data_bits = {termios.CS7: 7, termios.CS8: 8}.get(control_flags & termios.CSIZE)
+    return data_bits == wanted.data_bits and bool(control_flags & termios.PARENB) == (wanted.parity != "N")
+
+
+def _reason(error: Exception) -> str:
+    code = error.errno if isinstance(error, OSError) else None
+    if code == errno.ENOENT:
+        return "there is no such port (is the adapter plugged in?)"
+    if code == errno.EACCES:
+        return "permission denied (is the user in the group of serial ports?)"
+    if code in (errno.EAGAIN, errno.EBUSY):
+        return "another program holds it"
+    return str(error).rstrip(".")
