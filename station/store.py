@@ -10,6 +10,7 @@ import json
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from datetime import datetime
 from pathlib import Path
 from threading import Lock
 from typing import Any
@@ -30,6 +31,7 @@ from station.store_rows import (
     pack_result,
     reading_from_row,
     reading_row,
+    row_id,
     unsound,
     utc,
 )
@@ -224,21 +226,32 @@ class Store:
             raise NotFound(f"There is no calibration {calibration_id}.")
         return calibration_dict(row, full=True)
 
+    def summary(self, calibration_id: int) -> dict[str, Any]:
+        """One calibration as the list shows it.  :raises NotFound:"""
+        row = self._readers.one(
+            f"SELECT {LIST_COLUMNS} FROM calibrations LEFT JOIN results ON calibration_id = id WHERE id = ?",
+            [calibration_id],
+        )
+        if row is None:
+            raise NotFound(f"There is no calibration {calibration_id}.")
+        return calibration_dict(row, full=False)
+
     def calibrations(
         self,
         *,
         limit: int = 50,
-        cursor: int | None = None,
+        cursor: int | str | None = None,
         robot_serial: str | None = None,
         state: str | None = None,
         verdict: str | None = None,
-        since: str | None = None,
-        until: str | None = None,
+        since: datetime | None = None,
+        until: datetime | None = None,
     ) -> Page:
         """A page of summaries, newest first; `cursor` is the `next` of the page before.
 
-        :param since: ISO 8601, from then on; `until` up to and including.
-        :raises InputRefused: a time that cannot be read.
+        :param since: created then or later; a time without a zone is UTC.
+        :param until: created before.
+        :raises InputRefused: a cursor that is none.
         """
         conditions: list[str] = []
         values: list[Any] = []
@@ -248,7 +261,7 @@ class Store:
                 values.append(wanted)
         if cursor is not None:
             conditions.append("id < ?")
-            values.append(cursor)
+            values.append(row_id(cursor))
         if since is not None:
             conditions.append(
                 "id >= (SELECT id FROM calibrations WHERE created_ms >= ? ORDER BY created_ms, id LIMIT 1)"
@@ -256,7 +269,7 @@ class Store:
             values.append(millis(since))
         if until is not None:
             conditions.append(
-                "id <= (SELECT id FROM calibrations WHERE created_ms <= ?"
+                "id <= (SELECT id FROM calibrations WHERE created_ms < ?"
                 " ORDER BY created_ms DESC, id DESC LIMIT 1)"
             )
             values.append(millis(until))

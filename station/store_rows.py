@@ -45,13 +45,20 @@ def utc(ms: int | None) -> str | None:
     return datetime.fromtimestamp(ms / 1000, UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
 
 
-def millis(text: str) -> int:
-    """From ISO 8601; a time without a zone is UTC.  :raises InputRefused:"""
-    try:
-        time = datetime.fromisoformat(text)
-    except ValueError as error:
-        raise InputRefused(f"{text!r} is not a time; write it like 2026-11-22T08:00:00Z.") from error
+def millis(time: datetime) -> int:
+    """Since 1970; a time without a zone is UTC."""
     return round((time if time.tzinfo else time.replace(tzinfo=UTC)).timestamp() * 1000)
+
+
+def row_id(cursor: int | str) -> int:
+    """The number in a page's cursor.  :raises InputRefused: it is none."""
+    try:
+        number = int(cursor)
+    except ValueError:
+        number = 0
+    if not 0 < number < 2**63:
+        raise InputRefused(f"The cursor {cursor!r} is not one that a page gave.")
+    return number
 
 
 def unsound(value: Any, where: str = "") -> str | None:

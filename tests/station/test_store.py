@@ -5,6 +5,7 @@ from __future__ import annotations
 import sqlite3
 from collections.abc import Iterator
 from dataclasses import replace
+from datetime import datetime, timedelta
 from pathlib import Path
 
 import pytest
@@ -144,7 +145,7 @@ def test_pages_meet_without_gap_or_overlap_under_every_filter(store: Store) -> N
         ids: list[int] = []
         cursor = None
         while True:
-            page = store.calibrations(limit=4, cursor=cursor, **query)
+            page = store.calibrations(limit=4, cursor=cursor, **query)  # type: ignore[arg-type]
             ids += [item["id"] for item in page.items]
             cursor = page.next
             if cursor is None:
@@ -156,12 +157,18 @@ def test_pages_meet_without_gap_or_overlap_under_every_filter(store: Store) -> N
 
 def test_a_period_of_time_selects_by_creation(store: Store) -> None:
     run = start(store)
-    created = store.calibration(run)["created_at"]
-    assert len(store.calibrations(since=created, until=created).items) == 1
-    assert store.calibrations(since="2999-01-01").items == []
-    assert store.calibrations(until="1999-01-01T00:00:00+00:00").items == []
-    with pytest.raises(InputRefused, match="is not a time"):
-        store.calibrations(since="yesterday")
+    created = datetime.fromisoformat(store.calibration(run)["created_at"])
+    later = created + timedelta(milliseconds=1)
+    assert [item["id"] for item in store.calibrations(since=created, until=later).items] == [run]
+    assert store.calibrations(since=later).items == []
+    assert store.calibrations(until=created).items == []
+    assert store.calibrations(until=datetime(1999, 1, 1)).items == []
+
+
+@pytest.mark.parametrize("cursor", ["x", "-1", str(2**70)])
+def test_a_cursor_that_no_page_gave_is_refused(store: Store, cursor: str) -> None:
+    with pytest.raises(InputRefused, match="cursor"):
+        store.calibrations(cursor=cursor)
 
 
 def test_events_of_a_run_and_of_the_station(store: Store) -> None:

@@ -1,0 +1,108 @@
+"""The one place that starts the emulated rig: a child process behind the same wires as a real one.
+
+Its standard input stays open as long as it is wanted; it ends by itself when that closes, even when
+the station is killed.
+"""
+
+from __future__ import annotations
+
+import json
+import logging
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from queue import Empty, Queue
+from threading import Thread
+from typing import IO
+
+from station.errors import InputRefused
+from station.settings import DEFAULT_JOINTS, ScaleSettings, ServoSettings, Settings
+
+log = logging.getLogger(__name__)
+
+_START_LIMIT_S = 20.0
+_END_LIMIT_S = 3.0
+
+
+class EmulatedRig:
+    """A running emulated machine."""
+
+    def __init__(self, rig: Path | None, state_file: Path, speed: float) -> None:
+        """Start it and wait until its lines are up.
+
+        :param rig: rig file; None is the one that ships
+        :param state_file: where its joints stand between two starts
+        :param speed: how much faster than real time it lives
+        :raises InputRefused: it did not start, with what it said.
+        """
+        from drivers.emulated import DEFAULT_RIG
+
+        self.speed = speed
+        rig = rig or DEFAULT_RIG
+        if not rig.is_file():
+            raise InputRefused(f"Rig file {rig} does not exist.")
+        state_file.parent.mkdir(parents=True, exist_ok=True)
+        command = [sys.executable, "-m", "drivers.emulated", str(rig)]
+        command += ["--state", str(state_file), "--speed", f"{speed:g}"]
+        # A session of its own: Ctrl-C at the terminal must reach the station alone, which then stops
+        # the machine through its wires.
+        self._process = subprocess.Popen(
+            command,
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+            start_new_session=True,
+        )
+        assert self._process.stdout is not None and self._process.stderr is not None
+        self._complaints: list[str] = []
+        self._lines: Queue[str] = Queue()
+        self._readers = [
+            Thread(target=_read, args=(self._process.stdout, self._lines.put), daemon=True),
+            Thread(target=_read, args=(self._process.stderr, self._complain), daemon=True),
+        ]
+        for reader in self._readers:
+            reader.start()
+        try:
+            urls = json.loads(self._lines.get(timeout=_START_LIMIT_S))
+            self.scale_url, self.servo_url = urls["scale_url"], urls["servo_url"]
+        except (Empty, json.JSONDecodeError, KeyError, TypeError) as error:
+            self.close()
+            said = self._complaints[-1] if self._complaints else "it did not say why"
+            raise InputRefused(f"The emulated rig {rig} did not start: {said}.") from error
+
+    def settings(self, settings: Settings) -> Settings:
+        """The same station with its devices at this rig's addresses."""
+        joints = settings.servo.joint if settings.servo else DEFAULT_JOINTS
+        return settings.model_copy(
+            update={
+                "scale": ScaleSettings(protocol="heidenhain-nd", url=self.scale_url),
+                "servo": ServoSettings(profile="leadshine-el7", url=self.servo_url, joint=joints),
+            }
+        )
+
+    def close(self) -> None:
+        """End it; twice is harmless."""
+        assert self._process.stdin is not None
+        self._process.stdin.close()
+        try:
+            self._process.wait(_END_LIMIT_S)
+        except subprocess.TimeoutExpired:
+            log.warning("The emulated rig does not end by itself and is killed")
+            self._process.kill()
+            self._process.wait()
+        for reader in self._readers:
+            reader.join()
+
+    def _complain(self, line: str) -> None:
+        if line:
+            self._complaints.append(line)
+            log.info("emulated rig: %s", line)
+
+
+def _read(stream: IO[str], take: Callable[[str], None]) -> None:
+    with stream:
+        for line in stream:
+            take(line.strip())
+    take("")  # the end, so that nobody waits for a line that will not come

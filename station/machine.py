@@ -1,0 +1,272 @@
+"""The devices as one machine: what is known about each, where the arm stands, what forbids motion."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from threading import Lock
+from typing import Any, Literal
+
+import numpy as np
+
+from drivers.protocols import AxisStatus, Device, DeviceError, DeviceFault, ServoAxis
+from station.bounded import each_within
+from station.devices import Devices
+from station.events import Listeners
+from station.kinematics import Unreachable, forward
+from station.robot import Robot
+from station.settings import LimitSettings
+
+STOP_LIMIT_S = 1.5
+STANDSTILL_LIMIT_S = 3.0
+CLOSE_LIMIT_S = 2.0
+
+DeviceState = Literal["ok", "lost", "fault", "unknown"]
+
+
+class NotReady(DeviceError):
+    """Something forbids to start; the text names all of it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pose:
+    """Where the arm stood at a moment of the monotonic clock."""
+
+    theta_deg: tuple[float, float]
+    scale_mm: float
+    at: float
+
+
+@dataclass(slots=True)
+class _Known:
+    state: DeviceState = "unknown"
+    text: str = "not connected yet"
+    alarm: int | None = None
+
+
+class Machine:
+    """Scale and two axes.  One thread works with it; `quick_stop` and the views may be called by any."""
+
+    def __init__(self, devices: Devices, limits: LimitSettings, listeners: Listeners) -> None:
+        self.devices = devices
+        self.limits = limits
+        self.robot = Robot.default()
+        """Whose geometry turns joint angles into a place."""
+        self._listeners = listeners
+        self._lock = Lock()
+        self._all: tuple[Device, ...] = (devices.scale, *devices.axes)
+        self._known = {device.name: _Known() for device in self._all}
+        self._pose: Pose | None = None
+
+    # Working with the devices --------------------------------------------------------------------
+
+    @contextmanager
+    def using(self, device: Device) -> Iterator[None]:
+        """Around any use of a device: what it says about the device is kept and published."""
+        try:
+            yield
+        except DeviceError as error:
+            self._learn(device, "fault" if isinstance(error, DeviceFault) else "lost", str(error))
+            raise
+        else:
+            if self._known[device.name].alarm is None:
+                self._learn(device, "ok", "")
+
+    def connect_missing(self) -> None:
+        """Connect every device that is not known to answer.
+
+        :raises NotReady: naming all that could not be connected, each with its cause.
+        """
+        failures = []
+        for device in self._all:
+            if self._known[device.name].state in ("ok", "fault"):
+                continue
+            device.close()
+            try:
+                with self.using(device):
+                    device.connect()
+            except DeviceError as error:
+                failures.append(str(error))
+        if failures:
+            raise NotReady(" ".join(failures))
+
+    def status(self, axis: ServoAxis) -> AxisStatus:
+        """An axis's status, its alarm remembered.  :raises DeviceError:"""
+        with self.using(axis):
+            status = axis.status()
+            self._known[axis.name].alarm = status.alarm
+        if status.alarm is not None:
+            self._learn(axis, "fault", f"alarm {status.alarm:X}h")
+        return status
+
+    def look(self) -> Pose:
+        """Read where the arm stands.  :raises DeviceError:"""
+        angles = []
+        for axis in self.devices.axes:
+            with self.using(axis):
+                angles.append(axis.feedback_deg())
+        with self.using(self.devices.scale):
+            scale_mm = self.devices.scale.read_mm()
+        return self.moved((angles[0], angles[1]), scale_mm)
+
+    def moved(self, theta_deg: tuple[float, float], scale_mm: float | None = None) -> Pose:
+        """Keep and publish where the arm stands now."""
+        if scale_mm is None:
+            scale_mm = self._pose.scale_mm if self._pose else math.nan
+        pose = self._pose = Pose(theta_deg, scale_mm, time.monotonic())
+        self._listeners.publish("machine", self.view())
+        return pose
+
+    def watch(self) -> None:
+        """One look while nothing runs: connects what is missing, reads what is there."""
+        try:
+            self.connect_missing()
+            for axis in self.devices.axes:
+                self.status(axis)
+            self.look()
+        except DeviceError:
+            self._pose = None  # a place that is not known is not shown
+
+    def ready_axes(self) -> None:
+        """Reset what alarm can be reset and power both axes.  :raises DeviceError:"""
+        for axis in self.devices.axes:
+            status = self.status(axis)
+            with self.using(axis):
+                if status.alarm is not None:
+                    axis.reset_alarm()
+                    self._known[axis.name].alarm = None
+                if status.alarm is not None or not status.enabled:
+                    axis.enable()
+
+    # Stopping ------------------------------------------------------------------------------------
+
+    def quick_stop(self) -> dict[str, str | None]:
+        """Stop both axes now, from any thread; by axis None or what went wrong."""
+        return each_within(STOP_LIMIT_S, {axis.name: axis.quick_stop for axis in self.devices.axes})
+
+    def standstill(self) -> str | None:
+        """Wait until both axes say that they stand; None, or a sentence that it is not confirmed."""
+        deadline = time.monotonic() + STANDSTILL_LIMIT_S
+        moving = {axis.name: True for axis in self.devices.axes}
+
+        def ask(axis: ServoAxis) -> Callable[[], None]:
+            def look() -> None:
+                moving[axis.name] = axis.status().moving
+
+            return look
+
+        outcome: dict[str, str | None] = {}
+        while time.monotonic() < deadline:
+            outcome = each_within(
+                STOP_LIMIT_S, {axis.name: ask(axis) for axis in self.devices.axes if moving[axis.name]}
+            )
+            if not any(moving.values()):
+                return None
+            if any(outcome.values()):
+                break
+            time.sleep(0.01)
+        causes = "; ".join(text or f"{name} still moves" for name, text in outcome.items() if moving[name])
+        return f"Standstill could not be confirmed: {causes}"
+
+    def make_safe(self) -> str | None:
+        """Quick stop, every device made safe, standstill seen.  None or what could not be confirmed."""
+        self.quick_stop()
+        each_within(STOP_LIMIT_S, {device.name: device.make_safe for device in self._all})
+        return self.standstill()
+
+    def close(self) -> None:
+        """Release all lines."""
+        each_within(CLOSE_LIMIT_S, {device.name: device.close for device in self._all})
+
+    # What is known -------------------------------------------------------------------------------
+
+    def view(self) -> dict[str, Any] | None:
+        """The `machine` part of the snapshot; None while the place is not known."""
+        pose = self._pose
+        if pose is None:
+            return None
+        place = self.place(pose.theta_deg)
+        return {
+            "theta1_deg": pose.theta_deg[0],
+            "theta2_deg": pose.theta_deg[1],
+            "x_mm": place and place[0],
+            "y_mm": place and place[1],
+            "scale_mm": pose.scale_mm if math.isfinite(pose.scale_mm) else None,
+            "age_s": round(time.monotonic() - pose.at, 3),
+        }
+
+    def place(self, theta_deg: tuple[float, ...]) -> tuple[float, float] | None:
+        """Nominal x, y in mm of joint angles; None where the linkage does not close."""
+        try:
+            point = forward(self.robot.geometry, np.radians(np.array([theta_deg])))[0]
+        except Unreachable:
+            return None
+        return float(point.real), float(point.imag)
+
+    def device_views(self) -> list[dict[str, Any]]:
+        """The `devices` part of the snapshot."""
+        return [self._device_view(device) for device in self._all]
+
+    def _device_view(self, device: Device) -> dict[str, Any]:
+        index = self._all.index(device)
+        known = self._known[device.name]
+        return {
+            "name": device.name,
+            "kind": "scale" if index == 0 else "axis",
+            "address": self.devices.addresses[index],
+            "state": known.state,
+            "text": known.text,
+        }
+
+    def interlocks(self) -> list[dict[str, Any]]:
+        """What must hold before and during motion, as data."""
+        missing = [name for name, known in self._known.items() if known.state in ("lost", "unknown")]
+        alarms = [
+            f"{name}: alarm {known.alarm:X}h; the next run tries to reset it"
+            for name, known in self._known.items()
+            if known.alarm is not None
+        ]
+        outside = self._outside()
+        scale_mm = self._pose.scale_mm if self._pose else math.nan
+        return [
+            _interlock(
+                "devices", "All devices answer", "no answer: " + ", ".join(missing) if missing else ""
+            ),
+            _interlock("alarm", "No drive shows an alarm", "; ".join(alarms)),
+            _interlock("workspace", "The arm stands within its workspace", outside),
+            _interlock("scale", "The scale reads", "" if math.isfinite(scale_mm) else "no reading"),
+        ]
+
+    def _outside(self) -> str:
+        if self._pose is None:
+            return "its place is not known"
+        place = self.place(self._pose.theta_deg)
+        if place is None:
+            return "the linkage cannot close at these joint angles"
+        return outside_text(self.robot, place, self.limits.swing_mm)
+
+    def _learn(self, device: Device, state: DeviceState, text: str) -> None:
+        known = self._known[device.name]
+        if (known.state, known.text) == (state, text):
+            return
+        known.state, known.text = state, text
+        self._listeners.publish("device", self._device_view(device))
+        self._listeners.publish("interlock", self.interlocks())
+
+
+def outside_text(robot: Robot, place: tuple[float, float], margin_mm: float) -> str:
+    """Empty when a place lies within the workspace and its margin, else how far outside it is."""
+    excess = max(
+        max(low - value, value - high)
+        for value, (low, high) in zip(place, (robot.workspace_x, robot.workspace_y), strict=True)
+    )
+    if excess <= margin_mm:
+        return ""
+    return f"({place[0]:.1f}, {place[1]:.1f}) mm is {excess:.1f} mm outside; {margin_mm:g} mm is allowed"
+
+
+def _interlock(id: str, text: str, detail: str) -> dict[str, Any]:
+    return {"id": id, "text": text, "ok": not detail, "detail": detail}

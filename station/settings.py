@@ -1,0 +1,171 @@
+"""The station file (TOML) and the data folder, checked before anything is opened."""
+
+from __future__ import annotations
+
+import os
+import tomllib
+from pathlib import Path
+from typing import Annotated, Self
+
+import platformdirs
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic_core import ErrorDetails
+
+from drivers.protocols import JointScaling
+from station.errors import InputRefused
+
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+
+
+class _Section(BaseModel):
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+class ScaleSettings(_Section):
+    """`[scale]`: the readout of the linear scale."""
+
+    protocol: str
+    url: str
+    timeout_s: Annotated[float, Field(gt=0, le=10)] = 1.0
+
+
+class JointSettings(_Section):
+    """`[[servo.joint]]`: one drive and how its pulses become a joint angle."""
+
+    unit: Annotated[int, Field(ge=1, le=247)]
+    sign: Annotated[int, Field(ge=-1, le=1, multiple_of=1)] = 1
+    zero_at_deg: Finite
+    counts_per_rev: Annotated[int, Field(gt=0)] = 10_000
+    ratio: Annotated[float, Field(gt=0, allow_inf_nan=False)] = 20.0
+    reach_deg: Annotated[float, Field(gt=0, le=180)] = 60.0
+    """How far from `zero_at_deg` the joint may be sent."""
+
+    @model_validator(mode="after")
+    def _sign_is_a_sign(self) -> Self:
+        if self.sign == 0:
+            raise ValueError("sign must be 1 or -1")
+        return self
+
+    @property
+    def scaling(self) -> JointScaling:
+        return JointScaling(self.counts_per_rev, self.ratio, self.zero_at_deg, self.sign)
+
+
+DEFAULT_JOINTS = (JointSettings(unit=1, zero_at_deg=0.0), JointSettings(unit=2, zero_at_deg=180.0))
+
+
+class ServoSettings(_Section):
+    """`[servo]`: the line of the two drives."""
+
+    profile: str
+    url: str
+    timeout_s: Annotated[float, Field(gt=0, le=10)] = 0.3
+    joint: tuple[JointSettings, JointSettings] = DEFAULT_JOINTS
+
+    @model_validator(mode="after")
+    def _drives_differ(self) -> Self:
+        if self.joint[0].unit == self.joint[1].unit:
+            raise ValueError("the two joints must have different units")
+        return self
+
+
+class LimitSettings(_Section):
+    """`[limits]`: how the machine is moved and when a reading is believed."""
+
+    speed_deg_s: Annotated[float, Field(gt=0, le=180)] = 30.0
+    workspace_margin_mm: Annotated[float, Field(ge=0, le=50)] = 5.0
+    """How far outside the workspace a stop may lie."""
+    swing_mm: Annotated[float, Field(ge=0, le=200)] = 80.0
+    """How far outside it the arm may swing on the way, zero offsets not yet known included."""
+    settle_s: Annotated[float, Field(ge=0, le=10)] = 0.3
+    samples: Annotated[int, Field(ge=2, le=100)] = 5
+    scale_spread_mm: Annotated[float, Field(gt=0, le=1)] = 0.05
+    """Largest minus smallest sample of one reading."""
+    feedback_deg: Annotated[float, Field(gt=0, le=1)] = 0.05
+    """How far the feedback may stand from the command."""
+    corridor_deg: Annotated[float, Field(gt=0, le=10)] = 2.0
+    """How far a moving joint may leave the way from its start to its target."""
+    overshoot_deg: Annotated[float, Field(gt=0, le=5)] = 0.5
+    """Run-up of a stop that must be approached from a given side."""
+    travel_error_mm: Annotated[float, Field(gt=0, le=500)] = 60.0
+    """How far the scale's travel may differ from what the joints say."""
+
+
+class ServiceSettings(_Section):
+    """`[service]`: where the page and the REST interface listen."""
+
+    host: str = "127.0.0.1"
+    port: Annotated[int, Field(ge=0, le=65535)] = 8000
+    database: Path | None = None
+    api_keys: Path | None = None
+
+
+class EmulatedSettings(_Section):
+    """`[emulated]`: the machine that stands in when no devices are named."""
+
+    rig: Path | None = None
+    speed: Annotated[float, Field(gt=0, le=1000)] = 50.0
+    """How much faster than real time it lives."""
+
+
+class Settings(_Section):
+    """The whole station file; without one, the emulated rig."""
+
+    name: str = "Five-bar station"
+    scale: ScaleSettings | None = None
+    servo: ServoSettings | None = None
+    limits: LimitSettings = LimitSettings()
+    service: ServiceSettings = ServiceSettings()
+    emulated: EmulatedSettings = EmulatedSettings()
+
+    @model_validator(mode="after")
+    def _devices_come_together(self) -> Self:
+        if (self.scale is None) != (self.servo is None):
+            raise ValueError("[scale] and [servo] belong together: give both, or none for the emulated rig")
+        return self
+
+    @property
+    def joints(self) -> tuple[JointSettings, JointSettings]:
+        return self.servo.joint if self.servo is not None else DEFAULT_JOINTS
+
+
+def load_settings(path: Path | None) -> Settings:
+    """Read a station file; None gives the defaults.
+
+    :raises InputRefused: one sentence naming section, option, bounds and value.
+    """
+    if path is None:
+        return Settings()
+    try:
+        with path.open("rb") as file:
+            data = tomllib.load(file)
+    except OSError as error:
+        raise InputRefused(f"Station file {path} cannot be read: {error.strerror}.") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputRefused(f"Station file {path} is not valid TOML: {error}.") from error
+    try:
+        return Settings.model_validate(data)
+    except ValidationError as error:
+        raise InputRefused(f"Station file {path}: {_sentence(error.errors()[0])}") from error
+
+
+def _sentence(error: ErrorDetails) -> str:
+    *section, option = ["", *(str(part) for part in error["loc"])]
+    where = f"[{'.'.join(section[1:])}] {option}" if len(section) > 1 else f"[{option}]" if option else ""
+    message = error["msg"].removeprefix("Value error, ")
+    if error["type"] == "extra_forbidden":
+        return f"{where} is not an option; check its spelling and section."
+    if error["type"] == "missing":
+        return f"{where} is missing."
+    given = error["input"]
+    value = f" (given: {given!r})" if not isinstance(given, dict) else ""
+    return f"{where}: {message}{value}.".removeprefix(": ")
+
+
+def station_home(option: Path | None) -> Path:
+    """The folder of database, logs and backups: the option, STATION_HOME, or the platform's."""
+    if option is not None:
+        return option
+    if named := os.environ.get("STATION_HOME"):
+        return Path(named)
+    return platformdirs.user_data_path("fivebar-station")

@@ -1,0 +1,57 @@
+"""Fixtures: a store, fake devices, an orchestrator on them; no thread is left behind."""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from pathlib import Path
+
+import pytest
+
+from station.orchestrator import Orchestrator, ProcedureFactory
+from station.settings import LimitSettings, Settings
+from station.store import Store
+from tests.station.fakes import Rig, make_rig, two_walks
+
+SETTINGS = Settings(limits=LimitSettings(settle_s=0.1, samples=2))
+
+
+@pytest.fixture(autouse=True)
+def no_thread_left() -> Iterator[None]:
+    before = set(threading.enumerate())
+    yield
+    for thread in set(threading.enumerate()) - before:
+        thread.join(5)
+        assert not thread.is_alive(), thread.name
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> Iterator[Store]:
+    store = Store(tmp_path / "station.db")
+    yield store
+    store.close()
+
+
+@pytest.fixture
+def rig() -> Iterator[Rig]:
+    rig = make_rig()
+    yield rig
+    rig.released.set()
+
+
+Start = Callable[..., Orchestrator]
+
+
+@pytest.fixture
+def start(store: Store, rig: Rig) -> Iterator[Start]:
+    """Orchestrators on the fake rig; shut down at the end, after what hangs was released."""
+    with ExitStack() as opened:
+
+        def start(procedure: ProcedureFactory = two_walks, settings: Settings = SETTINGS) -> Orchestrator:
+            orchestrator = Orchestrator(rig.devices, store, settings, procedure)
+            opened.callback(orchestrator.shutdown)
+            opened.callback(rig.released.set)
+            return orchestrator
+
+        yield start
