@@ -36,15 +36,12 @@ class EmulatedRig:
         :param speed: how much faster than real time it lives
         :raises InputRefused: it did not start, with what it said.
         """
-        from drivers.emulated import DEFAULT_RIG
-
         self.speed = speed
-        rig = rig or DEFAULT_RIG
-        if not rig.is_file():
-            raise InputRefused(f"Rig file {rig} does not exist.")
         state_file.parent.mkdir(parents=True, exist_ok=True)
-        command = [sys.executable, "-m", "drivers.emulated", str(rig)]
+        command = [sys.executable, "-m", "drivers.emulated"]
         command += ["--state", str(state_file), "--speed", f"{speed:g}"]
+        if rig is not None:
+            command.append(str(rig))
         # A session of its own: Ctrl-C at the terminal must reach the station alone, which then stops
         # the machine through its wires.
         self._process = subprocess.Popen(
@@ -70,7 +67,7 @@ class EmulatedRig:
         except (Empty, json.JSONDecodeError, KeyError, TypeError) as error:
             self.close()
             said = self._complaints[-1] if self._complaints else "it did not say why"
-            raise InputRefused(f"The emulated rig {rig} did not start: {said}.") from error
+            raise InputRefused(f"The emulated rig did not start: {said.rstrip('.')}.") from error
 
     def settings(self, settings: Settings) -> Settings:
         """The same station with its devices at this rig's addresses."""

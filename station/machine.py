@@ -55,6 +55,8 @@ class Machine:
         self.limits = limits
         self.robot = Robot.default()
         """Whose geometry turns joint angles into a place."""
+        self.compensation_deg = (0.0, 0.0)
+        """What the run has found so far; added where a place is shown, never where one is judged."""
         self._listeners = listeners
         self._lock = Lock()
         self._all: tuple[Device, ...] = (devices.scale, *devices.axes)
@@ -188,7 +190,7 @@ class Machine:
         pose = self._pose
         if pose is None:
             return None
-        place = self.place(pose.theta_deg)
+        place = self.shown_place(pose.theta_deg)
         return {
             "theta1_deg": pose.theta_deg[0],
             "theta2_deg": pose.theta_deg[1],
@@ -197,6 +199,10 @@ class Machine:
             "scale_mm": pose.scale_mm if math.isfinite(pose.scale_mm) else None,
             "age_s": round(time.monotonic() - pose.at, 3),
         }
+
+    def shown_place(self, theta_deg: tuple[float, ...]) -> tuple[float, float] | None:
+        """x, y in mm for the eye: with what is known of the zero offsets; None as in `place`."""
+        return self.place(tuple(map(sum, zip(theta_deg, self.compensation_deg, strict=True))))
 
     def place(self, theta_deg: tuple[float, ...]) -> tuple[float, float] | None:
         """Nominal x, y in mm of joint angles; None where the linkage does not close."""

@@ -289,7 +289,7 @@ class Orchestrator:
             reading = walker.measure(stop, run.step + 1, walk.number)
             self._store.add_reading(run.id, reading)
             readings.append(reading)
-            row = run.add_reading(index, reading, self._machine.place(reading.theta_deg))
+            row = run.add_reading(index, reading, self._machine.shown_place(reading.theta_deg))
             self._listeners.publish("reading", row)
             self._listeners.publish("run", run.brief())
         return readings

@@ -11,7 +11,7 @@ from threading import Event
 import numpy as np
 
 from drivers.protocols import ServoAxis
-from station.kinematics import forward
+from station.kinematics import forward, inverse
 from station.machine import Machine, NotReady, outside_text
 from station.records import Reading, Stop
 from station.robot import Robot
@@ -56,7 +56,7 @@ class Walker:
 
         :raises DeviceError: naming what is missing or forbids to start.
         """
-        self.machine.robot = self.robot
+        self.machine.robot, self.machine.compensation_deg = self.robot, (0.0, 0.0)
         self.machine.connect_missing()
         self._check_cancel()
         self.machine.ready_axes()
@@ -72,7 +72,9 @@ class Walker:
         :raises DeviceError: a device failed.
         :raises StepFailed: a limit forbids the stop, it was not reached, or its reading is in doubt.
         """
-        for target in self._check_way(stop):
+        way = self._check_way(stop)
+        self.machine.compensation_deg = self._compensation(stop)
+        for target in way:
             self._go(stop, target)
         self._pause(self.machine.limits.settle_s)
         samples, theta = self._samples(stop, number)
@@ -103,6 +105,11 @@ class Walker:
             self._check_swing(stop, start, target)
             start = target
         return way
+
+    def _compensation(self, stop: Stop) -> Angles:
+        """What the procedure has taken off this stop's command."""
+        wanted = np.degrees(inverse(self.robot.geometry, np.array([complex(*stop.target_mm)])))[0]
+        return float(wanted[0]) - stop.theta_deg[0], float(wanted[1]) - stop.theta_deg[1]
 
     def _check_swing(self, stop: Stop, start: Angles, target: Angles) -> None:
         line = np.linspace(start, target, _WAY_POINTS)

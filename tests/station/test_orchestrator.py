@@ -368,22 +368,15 @@ def test_an_abort_at_any_step_ends_in_standstill_and_is_stored(
 def test_an_abort_during_the_last_computation_wins_over_the_result(
     start: Start, store: Store, rig: Rig
 ) -> None:
-    orchestrator = (
-        start(
-            lambda plan, robot: procedure()  # noqa: F821
-        )
-        if False
-        else None
-    )
+    started: list[Orchestrator] = []
 
     def slow(plan: PlanName, robot: Robot) -> Procedure:
         readings = yield Walk("Measuring", 1, STOPS)
-        nonlocal orchestrator
-        assert orchestrator is not None
-        orchestrator.stop("ada")
+        started[0].stop("ada")
         return result_of(readings)
 
     orchestrator = start(slow)
+    started.append(orchestrator)
     assert outcome(store, run_to_end(orchestrator)) == ("aborted", None, "Stopped by ada.")
 
 
