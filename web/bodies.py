@@ -15,6 +15,10 @@ Serial = Annotated[
 Name = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64)]
 
 
+PLANS: tuple[PlanName, ...] = ("paper",)
+"""The plans that the station can run so far."""
+
+
 class Answer(BaseModel):
     """Base of all answers: a field is always there, null when nothing is known."""
 
@@ -165,7 +169,7 @@ class StationInfo(Answer):
     name: str
     emulated: bool
     limits: dict[str, Any] = Field(default_factory=dict)
-    plans: list[PlanName] = Field(default=["paper"], description="plans this station can run")
+    plans: list[PlanName] = Field(default=list(PLANS), description="plans this station can run")
 
 
 class Device(Answer):
@@ -258,10 +262,10 @@ class Station(Answer):
     last: CalibrationSummary | None
 
 
-class Stopped(Answer):
-    """Both axes were told to stop."""
+class StopSent(Answer):
+    """The quick stop went out to both axes, and a run under way is being aborted."""
 
-    stopped: Literal[True] = True
+    sent: Literal[True] = True
     by: str
 
 

@@ -589,16 +589,16 @@ export interface components {
             plans: ("paper" | "rapid" | "full")[];
         };
         /**
-         * Stopped
-         * @description Both axes were told to stop.
+         * StopSent
+         * @description The quick stop went out to both axes, and a run under way is being aborted.
          */
-        Stopped: {
+        StopSent: {
             /**
-             * Stopped
+             * Sent
              * @default true
              * @constant
              */
-            stopped: true;
+            sent: true;
             /** By */
             by: string;
         };
@@ -1069,7 +1069,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Stopped"];
+                    "application/json": components["schemas"]["StopSent"];
                 };
             };
             /** @description Unprocessable Entity */
@@ -1083,15 +1083,6 @@ export interface operations {
             };
             /** @description Internal Server Error */
             500: {
-                headers: {
-                    [name: string]: unknown;
-                };
-                content: {
-                    "application/problem+json": components["schemas"]["Problem"];
-                };
-            };
-            /** @description Service Unavailable */
-            503: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -50,7 +50,7 @@ export const start = (body: CalibrationBody, key: string) =>
 
 export const abort = (id: number) => call<Summary>("POST", `/calibrations/${id}/abort`);
 
-export const stop = () => call<Schemas["Stopped"]>("POST", "/stop", { headers: { "X-Operator": "page" } });
+export const stop = () => call<Schemas["StopSent"]>("POST", "/stop", { headers: { "X-Operator": "page" } });
 
 export const calibration = (id: number) => call<Calibration>("GET", `/calibrations/${id}`);
 

@@ -37,7 +37,7 @@ type Event =
   | { type: "residuals"; data: Pick<RunReading, "reading" | "residual_mm" | "limit_mm">[] }
   | { type: "machine"; data: Machine | null }
   | { type: "device"; data: Device }
-  | { type: "interlock"; data: Interlock }
+  | { type: "interlock"; data: Interlock[] }
   | { type: "ended"; data: Summary };
 type Message = Event & { number: number; at: string; build: string };
 
@@ -111,9 +111,9 @@ function apply(before: Station, event: Event): Station {
     case "machine":
       return { ...before, machine: event.data };
     case "device":
-      return { ...before, devices: replaced(before.devices, event.data, (device) => device.name) };
+      return { ...before, devices: before.devices.map((d) => (d.name === event.data.name ? event.data : d)) };
     case "interlock":
-      return { ...before, interlocks: replaced(before.interlocks, event.data, (interlock) => interlock.id) };
+      return { ...before, interlocks: event.data };
     case "ended":
       if (run) finished.value = run;
       return { ...before, run: null, last: event.data };
@@ -127,8 +127,4 @@ function withReading(run: Run, reading: RunReading): Run {
   const visited = run.stops.findIndex((stop) => stop.position === reading.position && !stop.done);
   const stops = run.stops.map((stop, i) => (i === visited ? { ...stop, done: true } : stop));
   return { ...run, stops, readings: [...run.readings, reading] };
-}
-
-function replaced<T>(items: T[], item: T, key: (item: T) => string): T[] {
-  return items.map((other) => (key(other) === key(item) ? item : other));
 }

@@ -1,12 +1,13 @@
 /** The workspace from above the table: positions to come, done and next, and where the robot stands. */
 import type { Run } from "../api";
+import { fixed } from "../format";
 import { station } from "../live";
 
-const MARGIN_MM = 34;
+const MARGIN_MM = { left: 66, right: 30, top: 24, bottom: 30 };
 
 export function WorkspaceMap({ run }: { run: Run | null }) {
   const workspace = station.value?.workspace;
-  if (!workspace) return <svg class="map" viewBox="-274 598 548 218" role="img" aria-label="Workspace, not known yet" />;
+  if (!workspace) return <svg class="map" viewBox="-306 608 576 204" role="img" aria-label="Workspace, not known yet" />;
   const [left, right] = workspace.x;
   const [bottom, top] = workspace.y;
   const width = right - left;
@@ -21,19 +22,26 @@ export function WorkspaceMap({ run }: { run: Run | null }) {
       role="img"
       aria-label={`Workspace: ${done} of ${stops.length} positions of this pass done`}
       // y grows upwards in the robot's frame and downwards on the screen
-      viewBox={`${left - MARGIN_MM} ${-top - MARGIN_MM / 2} ${width + 2 * MARGIN_MM} ${height + 1.5 * MARGIN_MM}`}
+      viewBox={`${left - MARGIN_MM.left} ${-top - MARGIN_MM.top} ${width + MARGIN_MM.left + MARGIN_MM.right} ${height + MARGIN_MM.top + MARGIN_MM.bottom}`}
     >
       <rect class="area" x={left} y={-top} width={width} height={height} />
       <line class="axis" x1={0} x2={0} y1={-top} y2={-bottom} />
-      <text x={left} y={-bottom + 17} text-anchor="middle">{`x ${left}`}</text>
-      <text x={0} y={-bottom + 17} text-anchor="middle">
-        0 mm
+      {[left, 0, right].map((x) => (
+        <text x={x} y={-bottom + 25} text-anchor="middle">
+          {fixed(x, 0)}
+        </text>
+      ))}
+      <text x={(left + right) / 2 + 60} y={-bottom + 25} text-anchor="middle">
+        x, mm
       </text>
-      <text x={right} y={-bottom + 17} text-anchor="middle">
-        {right}
+      {[top, bottom].map((y) => (
+        <text x={left - 16} y={-y + 4} text-anchor="end">
+          {fixed(y, 0)}
+        </text>
+      ))}
+      <text x={left - 16} y={-(top + bottom) / 2 + 4} text-anchor="end">
+        y, mm
       </text>
-      <text x={left + 4} y={-top + 13}>{`y ${top}`}</text>
-      <text x={left + 4} y={-bottom - 5}>{`${bottom} mm`}</text>
       {stops.map((stop, i) => (
         <g class={stop.done ? "done" : i === next ? "next" : "to-come"}>
           {i === next && <circle class="ring" cx={stop.x_mm} cy={-stop.y_mm} r={13} />}
@@ -43,7 +51,7 @@ export function WorkspaceMap({ run }: { run: Run | null }) {
       {machine?.x_mm != null && machine.y_mm != null && (
         <path class="machine" d={`M${machine.x_mm - 11},${-machine.y_mm}h22M${machine.x_mm},${-machine.y_mm - 11}v22`} />
       )}
-      <g class="key" transform={`translate(${right - 196} ${-top - 6})`}>
+      <g class="key" transform={`translate(${right - 190} ${-top - 12})`}>
         <g class="done">
           <circle cx={0} cy={-4} r={4} />
         </g>

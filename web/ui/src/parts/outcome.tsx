@@ -1,20 +1,24 @@
 /** How the last run ended; it stays until the next serial is scanned. */
-import { signal } from "@preact/signals";
+import { computed, signal } from "@preact/signals";
 import { station } from "../live";
 import { Link } from "./link";
 import { VerdictLine } from "./verdict";
 
 const dismissed = signal<number | null>(null);
 
+export const outcome = computed(() => {
+  const last = station.value?.last;
+  return station.value?.run || !last || last.id === dismissed.value ? null : last;
+});
+
 export function dismissOutcome(): void {
   dismissed.value = station.value?.last?.id ?? null;
 }
 
 export function Outcome() {
-  const now = station.value;
-  const last = now?.run || now?.last?.id === dismissed.value ? null : now?.last;
+  const last = outcome.value;
   return (
-    <section class="outcome" aria-label="Last run" aria-live="polite" hidden={!last}>
+    <div class="outcome" aria-live="polite" hidden={!last}>
       {last && (
         <>
           <VerdictLine run={last} />
@@ -23,6 +27,6 @@ export function Outcome() {
           </Link>
         </>
       )}
-    </section>
+    </div>
   );
 }

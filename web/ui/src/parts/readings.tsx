@@ -6,17 +6,17 @@ export function Readings() {
   const readings = (station.value?.run ?? finished.value)?.readings ?? [];
   return (
     <section class="readings">
-      <h2>Readings{readings.length > 0 && ` (${readings.length})`}</h2>
+      <h2>Readings in mm{readings.length > 0 && ` (${readings.length})`}</h2>
       <div class="scroll" tabIndex={0} role="region" aria-label="Readings">
         <table>
           <thead>
             <tr>
               <th scope="col">No.</th>
-              <th scope="col">Position</th>
-              <th scope="col">Scale mm</th>
-              <th scope="col">Residual mm</th>
-              <th scope="col">Limit mm</th>
-              <th scope="col">Verdict</th>
+              <th scope="col" class="text">Position</th>
+              <th scope="col">Scale</th>
+              <th scope="col">Residual</th>
+              <th scope="col">Limit</th>
+              <th scope="col" class="text">Verdict</th>
             </tr>
           </thead>
           <tbody>

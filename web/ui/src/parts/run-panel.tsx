@@ -1,6 +1,8 @@
 import { duration, fixed } from "../format";
 import { finished, machineAgeS, remainingS, station } from "../live";
+import { AbortButton } from "./abort";
 import { WorkspaceMap } from "./map";
+import { Outcome, outcome } from "./outcome";
 
 /** Values older than this are marked as old. */
 const STALE_S = 3;
@@ -11,20 +13,16 @@ export function RunPanel() {
   const steps = run?.steps ?? 0;
   return (
     <section class="run" aria-label="Run">
-      <div class="progress">
-        <h2>{run ? (run.walk?.title ?? "Waiting to start") : "No run under way"}</h2>
-        <p>
-          {run && (
-            <>
-              {run.robot_serial} · run {run.id} · {run.operator}
-            </>
-          )}
-        </p>
-        <progress aria-label="Progress" value={step} max={Math.max(steps, 1)} />
-        <p class="figures">
-          <span>{run ? `step ${step} of ${steps || "?"}` : "–"}</span>
-          <span>{run ? `time left ${duration(remainingS.value)}` : ""}</span>
-        </p>
+      <div class="top">
+        <Outcome />
+        <div class="progress" hidden={outcome.value !== null}>
+          <h2>{run ? (run.walk?.title ?? "Waiting to start") : "No run under way"}</h2>
+          <p>{run && `${run.robot_serial} · run ${run.id} · ${run.operator}`}</p>
+          <progress aria-label="Progress" value={step} max={Math.max(steps, 1)} />
+          <p>{run ? `step ${step} of ${steps || "?"}` : ""}</p>
+          <p>{run && remainingS.value !== null ? `about ${duration(remainingS.value)} left in this pass` : ""}</p>
+        </div>
+        <AbortButton />
       </div>
       <WorkspaceMap run={run ?? finished.value} />
       <LiveValues />

@@ -1,7 +1,7 @@
 /** Two steps to move the machine: Calibrate, then confirm.  Scanner and keyboard alone are enough. */
 import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { abort, type CalibrationBody, newKey, Refused, start } from "../api";
+import { type CalibrationBody, newKey, Refused, start } from "../api";
 import { connected, station } from "../live";
 import { dismissOutcome } from "./outcome";
 
@@ -127,7 +127,7 @@ export function StartForm() {
       </button>
       <div class="confirm" role="group" aria-label="Confirm the start" hidden={armed.value === null}>
         <p>
-          <strong>The robot will move.</strong> Nobody within its reach?
+          <strong>Robot {serial.value.trim()} will move.</strong> Nobody within its reach?
         </p>
         <button
           class="act"
@@ -137,7 +137,7 @@ export function StartForm() {
           onKeyDown={(event) => event.repeat && event.preventDefault()}
           onClick={() => void confirm()}
         >
-          Confirm: move {serial.value.trim()}
+          Confirm
         </button>
         <button
           type="button"
@@ -149,24 +149,7 @@ export function StartForm() {
           Back
         </button>
       </div>
-      <AbortButton id={run?.id ?? null} />
     </section>
-  );
-}
-
-function AbortButton({ id }: { id: number | null }) {
-  const press = async () => {
-    if (id === null) return;
-    try {
-      await abort(id);
-    } catch (error) {
-      trouble.value = { text: error instanceof Refused ? error.message : String(error), field: null };
-    }
-  };
-  return (
-    <button class="abort" type="button" disabled={id === null || !connected.value} onClick={() => void press()}>
-      Abort run
-    </button>
   );
 }
 

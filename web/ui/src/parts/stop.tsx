@@ -11,7 +11,7 @@ async function press(): Promise<void> {
   report.value = { text: `Stop sent at ${at} …`, failed: false };
   try {
     await stop();
-    report.value = { text: `Stopped at ${at}.`, failed: false };
+    report.value = { text: `Stop sent at ${at}; the drives were told to stand.`, failed: false };
   } catch (error) {
     const cause = error instanceof Refused ? error.message : String(error);
     report.value = { text: `STOP FAILED at ${at}: ${cause} Press the emergency stop.`, failed: true };

@@ -57,13 +57,10 @@ export function HistoryView() {
                   Robot
                 </th>
                 <th scope="col" class="text">
-                  Outcome
+                  Outcome and reason
                 </th>
                 <th scope="col">Offset 1, °</th>
                 <th scope="col">Offset 2, °</th>
-                <th scope="col" class="text">
-                  Reason
-                </th>
                 <th scope="col" class="text">
                   Readings
                 </th>
@@ -103,12 +100,12 @@ function Row({ run }: { run: Summary }) {
       </td>
       <td class="text">{dateTime(run.started_at ?? run.created_at)}</td>
       <td class="text serial">{run.robot_serial}</td>
-      <td class="text">
+      <td class="text outcome-cell">
         <Badge run={run} />
+        {run.reason && <small>{run.reason}</small>}
       </td>
       <td>{cell(1)}</td>
       <td>{cell(2)}</td>
-      <td class="text reason">{run.reason ?? ""}</td>
       <td class="text">
         <a class="cell" href={`/api/v1/calibrations/${run.id}/readings.csv`} download aria-label={`Readings of run ${run.id}, CSV`}>
           CSV
