@@ -69,7 +69,7 @@ class FiveBar:
     @cached_property
     def row_sd(self) -> Real:
         """(K,) head noise (eq. 34) and the half pulse that feedback cannot tell, through d rho / d theta."""
-        joint_sd = np.radians(self.robot.pulse_deg) / np.sqrt(12.0)
+        joint_sd = np.radians(self.robot.joint_sd_deg)
         by_joint = distance_by_joint(pose(self._geometry(self._start()), self.theta))
         head_variance = SCALE_SD_MM**2 / self.measurements.samples
         return np.asarray(np.sqrt(head_variance + joint_sd**2 * np.sum(by_joint**2, axis=1)))

@@ -15,7 +15,7 @@ from station import noise, outliers, weak_direction
 from station.errors import InputRefused
 from station.five_bar import FiveBar
 from station.kinematics import Real, Unreachable, forward
-from station.least_squares import NotConvergedError, Solution, solve
+from station.least_squares import NotConvergedError, Prior, Solution, solve
 from station.measurements import Measurements
 from station.records import Quantity
 from station.robot import Robot
@@ -149,13 +149,12 @@ def identify(robot: Robot, measurements: Measurements) -> Identification:
     check_places(measurements)
     kept, left_out = _without_outliers(robot, measurements)
     mechanism = FiveBar(robot, kept)
-    row_sd = mechanism.row_sd
-    solution = _solve(mechanism, row_sd)
+    prior, row_sd = tolerance_prior(mechanism), mechanism.row_sd
+    solution = _solve(mechanism, prior, row_sd)
     estimate = noise.estimate(kept, solution.residual, row_sd)
     if estimate.source == "repeats":
-        solution = _solve(mechanism, estimate.row_sd)
-    free = sum(np.isinf(p.prior_sd) for p in mechanism.parameters)
-    p_value, ratio = noise.lack_of_fit(solution, estimate, free, kept)
+        solution = _solve(mechanism, prior, estimate.row_sd)
+    p_value, ratio = noise.lack_of_fit(solution, estimate, prior.free, kept)
     fit = Identification(
         mechanism=mechanism,
         measurements=kept,
@@ -177,8 +176,8 @@ def _without_outliers(
     kept = measurements
     while True:
         mechanism = FiveBar(robot, kept)
-        row_sd = mechanism.row_sd
-        worst = outliers.find(kept, _solve(mechanism, row_sd), row_sd)
+        prior, row_sd = tolerance_prior(mechanism), mechanism.row_sd
+        worst = outliers.find(kept, _solve(mechanism, prior, row_sd), row_sd)
         if worst is None:
             return kept, left_out
         left_out = (*left_out, worst)
@@ -187,17 +186,23 @@ def _without_outliers(
         check_places(kept)
 
 
-def _solve(mechanism: FiveBar, row_sd: Real) -> Solution:
+def tolerance_prior(mechanism: FiveBar) -> Prior:
+    """The tolerances of the robot file as the prior of every parameter."""
+    return Prior.independent(
+        np.array([p.prior_mean for p in mechanism.parameters]),
+        np.array([p.prior_sd for p in mechanism.parameters]),
+    )
+
+
+def _solve(mechanism: FiveBar, prior: Prior, row_sd: Real) -> Solution:
     theta, measured = mechanism.theta, mechanism.measured
 
     def residuals(p: Real) -> tuple[Real, Real]:
         at = mechanism.observe(p, theta)
         return (at.value - measured) / row_sd, at.by_parameter / row_sd[:, None]
 
-    mean = np.array([p.prior_mean for p in mechanism.parameters])
-    sd = np.array([p.prior_sd for p in mechanism.parameters])
     try:
-        return solve(residuals, mean, mean, sd)
+        return solve(residuals, prior.mean, prior)
     except NotConvergedError as error:
         raise InputRefused(
             f"The identification did not converge ({error}); check that angles and distances belong together."

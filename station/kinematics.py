@@ -11,8 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-Complex = NDArray[np.complex128]
-Real = NDArray[np.float64]
+Complex = NDArray[np.complexfloating]
+Real = NDArray[np.floating]
 
 HOME = np.array([0.0, np.pi])
 """Joint angles of P_0 (section 3)."""

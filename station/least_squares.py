@@ -1,7 +1,7 @@
 """Whitened Gauss-Newton with Levenberg-Marquardt step control, SVD inside.
 
-The problem is to minimise |r(x)|^2 + |(x - m) / s|^2, where r is already divided by its standard
-deviation and (m, s) is the prior.  Each step solves the linearised problem through the QR
+The problem is to minimise |r(x)|^2 + |W (x - m)|^2, where r is already divided by its standard
+deviation and (m, W) is the prior.  Each step solves the linearised problem through the QR
 factors of the scaled, stacked Jacobian and the SVD of R, so singular values and blind directions
 come with the answer.  Converged means: the next full step is below `TOLERANCE` standard deviations.
 """
@@ -26,6 +26,29 @@ Residuals = Callable[[Real], tuple[Real, Real]]
 
 class NotConvergedError(ArithmeticError):
     """The fit did not converge; the text says how far it came."""
+
+
+@dataclass(frozen=True)
+class Prior:
+    """What is known before the data: x ~ N(mean, inverse of root' root)."""
+
+    mean: Real
+    """(P,)"""
+    root: Real
+    """(H, P) W; an unknown without prior has a column of zeros."""
+
+    @classmethod
+    def independent(cls, mean: Real, sd: Real) -> Prior:
+        """One standard deviation each, inf for none."""
+        held = np.flatnonzero(np.isfinite(sd))
+        root = np.zeros((len(held), len(sd)))
+        root[np.arange(len(held)), held] = 1.0 / sd[held]
+        return cls(mean, root)
+
+    @property
+    def free(self) -> int:
+        """Number of unknowns that the prior says nothing about."""
+        return len(self.mean) - len(self.root)
 
 
 @dataclass(frozen=True)
@@ -55,15 +78,13 @@ class Solution:
         return int(np.sum(self.singular_values <= BLIND * self.singular_values[0]))
 
 
-def solve(residuals: Residuals, start: Real, prior_mean: Real, prior_sd: Real) -> Solution:
+def solve(residuals: Residuals, start: Real, prior: Prior) -> Solution:
     """Minimise from `start` (P,).
 
     :raises NotConvergedError: no convergence in `MAX_STEPS`, or not a number at the start.
     """
-    weight = 1.0 / prior_sd
-    held = np.flatnonzero(weight)
     x = start.astype(float)
-    stacked, target, r, J = _stack(residuals, x, prior_mean, weight, held)
+    stacked, target, r, J = _stack(residuals, x, prior)
     cost = float(target @ target)
     if not np.isfinite(cost):
         raise NotConvergedError("the model cannot be evaluated at the starting values")
@@ -79,7 +100,7 @@ def solve(residuals: Residuals, start: Real, prior_mean: Real, prior_sd: Real) -
             along = projected * sigma_safe / (sigma_safe**2 + damping) if damping else projected / sigma_safe
             delta = -(Vt.T @ along) / scale
             trial = x + delta
-            new_stacked, new_target, new_r, new_J = _stack(residuals, trial, prior_mean, weight, held)
+            new_stacked, new_target, new_r, new_J = _stack(residuals, trial, prior)
             new_cost = float(new_target @ new_target)
             # rounding of the cost itself must not be mistaken for an uphill step
             if new_cost <= cost * (1.0 + 1e-10) + 1e-12:
@@ -102,14 +123,12 @@ def solve(residuals: Residuals, start: Real, prior_mean: Real, prior_sd: Real) -
     )
 
 
-def _stack(
-    residuals: Residuals, x: Real, mean: Real, weight: Real, held: np.ndarray
-) -> tuple[Real, Real, Real, Real]:
-    """Rows of data above rows of prior: Jacobian (R + H, P) and residual (R + H,)."""
+def _stack(residuals: Residuals, x: Real, prior: Prior) -> tuple[Real, Real, Real, Real]:
+    """Rows of data above rows of prior: Jacobian (R + H, P), residual (R + H,), and the data's own."""
     r, J = residuals(x)
-    rows = len(r)
-    stacked = np.zeros((rows + len(held), len(x)))
-    stacked[:rows] = J
-    stacked[rows + np.arange(len(held)), held] = weight[held]
-    target = np.concatenate([r, (x[held] - mean[held]) * weight[held]])
-    return stacked, target, r, J
+    return (
+        np.concatenate([J, prior.root]),
+        np.concatenate([r, prior.root @ (x - prior.mean)]),
+        r,
+        J,
+    )

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from station.kinematics import Complex, Real, inverse
+from station.kinematics import inverse
 from station.published import boundary_positions, identification_matrix
-from station.records import Stop
 from station.robot import Robot
 
 EPSILON_0 = 0.01
@@ -43,21 +42,3 @@ def positions_per_edge(robot: Robot, largest: int = 20) -> int:
         if conditioning(robot, n).epsilon <= EPSILON_0:
             return n
     return largest
-
-
-def boundary_stops(robot: Robot, dtheta: Real) -> tuple[Stop, ...]:
-    """The 2n places of Fig. 7 in measuring order, commands compensated by dtheta (2,) rad."""
-    n = positions_per_edge(robot)
-    return stops(robot, boundary_positions(robot.workspace_x, robot.workspace_y, n), dtheta)
-
-
-def stops(robot: Robot, places: Complex, dtheta: Real) -> tuple[Stop, ...]:
-    """Stops at places (K,) mm, numbered P1, P2, ...; commands compensated by dtheta (2,) rad.
-
-    :raises Unreachable: a place out of reach.
-    """
-    theta = np.degrees(inverse(robot.geometry, places) - dtheta)
-    return tuple(
-        Stop(f"P{k + 1}", (float(r.real), float(r.imag)), (float(t[0]), float(t[1])))
-        for k, (r, t) in enumerate(zip(places, theta, strict=True))
-    )

@@ -60,6 +60,8 @@ class Robot:
     ratio: float = 20.0
     zero_at_deg: Pair = (0.0, 180.0)
     sign: tuple[int, int] = (1, 1)
+    feedback_sd_deg: float | None = None
+    """What feedback leaves open of a joint's true angle; None is the unresolved part of one pulse."""
 
     @classmethod
     def default(cls, serial: str = "unnamed") -> Robot:
@@ -119,6 +121,7 @@ class Robot:
                 "ratio": self.ratio,
                 "zero_at_deg": self.zero_at_deg,
                 "sign": self.sign,
+                "feedback_sd_deg": self.joint_sd_deg,
             },
         }
 
@@ -141,6 +144,11 @@ class Robot:
     def pulse_deg(self) -> float:
         """One pulse at the joint, degrees."""
         return 360.0 / (self.counts_per_rev * self.ratio)
+
+    @property
+    def joint_sd_deg(self) -> float:
+        """Standard deviation of a joint angle read from feedback: by default of a uniform pulse."""
+        return self.pulse_deg / np.sqrt(12.0) if self.feedback_sd_deg is None else self.feedback_sd_deg
 
     def workspace_grid(self, nx: int, ny: int) -> Complex:
         """(nx * ny,) evenly spaced points of the workspace, its edges included."""
@@ -195,6 +203,7 @@ class _JointsSection(_Section):
     ratio: Positive = Robot.ratio
     zero_at_deg: tuple[Finite, Finite] = Robot.zero_at_deg
     sign: Sign | tuple[Sign, Sign] = Robot.sign  # type: ignore[assignment]
+    feedback_sd_deg: Annotated[float, Field(ge=0, allow_inf_nan=False)] | None = None
 
 
 class RobotFile(_Section):
@@ -227,6 +236,7 @@ class RobotFile(_Section):
             ratio=self.joints.ratio,
             zero_at_deg=self.joints.zero_at_deg,
             sign=self.joints.sign if isinstance(self.joints.sign, tuple) else (self.joints.sign,) * 2,
+            feedback_sd_deg=self.joints.feedback_sd_deg,
         )
         try:
             inverse(robot.geometry, robot.workspace_grid(3, 3))

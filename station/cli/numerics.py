@@ -1,0 +1,103 @@
+"""`station identify` and `station plan`: numbers without a machine."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+from typing import Any
+
+import click
+from rich.console import Console
+from rich.table import Table
+
+from station import measurement_file
+from station.identification import Identification, identify
+from station.plans import make_plan
+from station.records import PlanName
+from station.robot import Robot
+
+existing = click.Path(path_type=Path)
+
+
+@click.command("identify")
+@click.argument("data", type=existing)
+@click.option("--robot", "robot_file", type=existing, help="Robot file; without it the paper's Table 1.")
+@click.option("--json", "json_file", type=existing, help="Write the whole result here.")
+def identify_command(data: Path, robot_file: Path | None, json_file: Path | None) -> None:
+    """Zero offsets with uncertainty from a measurement file."""
+    robot = Robot.from_toml(robot_file) if robot_file else Robot.default()
+    fit = identify(robot, measurement_file.read(data))
+    content = {"data": describe(data, len(fit.measurements) + len(fit.outliers)), **fit.as_json()}
+    if json_file:
+        write_json(json_file, content)
+    _print(fit, content)
+
+
+def describe(path: Path, readings: int) -> dict[str, Any]:
+    """What a result was made from."""
+    return {
+        "file": path.name,
+        "readings": readings,
+        "sha256": hashlib.sha256(path.read_bytes()).hexdigest(),
+    }
+
+
+def write_json(path: Path, content: dict[str, Any]) -> None:
+    """:raises click.ClickException: the file cannot be written."""
+    try:
+        path.write_text(json.dumps(content, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+    except OSError as error:
+        raise click.UsageError(f"{path} cannot be written: {error.strerror}.") from error
+
+
+def _print(fit: Identification, content: dict[str, Any]) -> None:
+    console = Console()
+    k = fit.noise.coverage_factor
+    table = Table("parameter", "value", "sd", "unit", title=f"{len(fit.measurements)} readings")
+    for column in table.columns[1:3]:
+        column.justify = "right"
+    for q in (*fit.quantities(), *fit.modes()):
+        table.add_row(q.name, f"{q.value:.4f}", f"{q.sd:.4f}", q.unit)
+    console.print(table)
+    weak, residual = content["weak_direction"], content["residual"]
+    console.print(
+        f"95 % interval: value +- {k:.2f} sd. Noise {fit.noise.sigma_mm * 1e3:.2f} um "
+        f"({fit.noise.source}), residual rms {residual['rms_mm'] * 1e3:.2f} um."
+    )
+    console.print(f"Weakest: {weak['text']}, sd {weak['sd_deg']:.4f} deg.")
+    for remedy in weak["remedies"]:
+        console.print(f"  {remedy['text']}: sd {remedy['sd_deg']:.4f} deg")
+    console.print("Blind to one distance: " + "; ".join(weak["blind"]) + ".")
+    for outlier in fit.outliers:
+        console.print(f"Left out: reading {outlier.reading}, {outlier.reason}.")
+    if not fit.adequate:
+        console.print(
+            f"The model does not fit (p = {fit.lack_of_fit_p:.1g}): the uncertainties were widened by "
+            f"{fit.sd_factor:.1f}; `station diagnose` looks for the cause."
+        )
+
+
+@click.command("plan")
+@click.option("--plan", "name", type=click.Choice(["paper", "rapid", "full"]), default="paper")
+@click.option("--robot", "robot_file", type=existing, help="Robot file; without it the paper's Table 1.")
+@click.option("--json", "json_file", type=existing, help="Write the plan here.")
+def plan_command(name: PlanName, robot_file: Path | None, json_file: Path | None) -> None:
+    """The positions of a plan, their order and the accuracy they predict."""
+    robot = Robot.from_toml(robot_file) if robot_file else Robot.default()
+    plan = make_plan(name, robot)
+    content = plan.as_json()
+    if json_file:
+        write_json(json_file, content)
+    table = Table("stop", "position", "x mm", "y mm", "theta1 deg", "theta2 deg", "approach")
+    for k, stop in enumerate(plan.stops):
+        table.add_row(
+            str(k + 1),
+            stop.position,
+            *(f"{v:.1f}" for v in stop.target_mm),
+            *(f"{v:.4f}" for v in stop.theta_deg),
+            " ".join(f"{a:+d}" if a else "any" for a in stop.approach),
+        )
+    console = Console()
+    console.print(table)
+    console.print(plan.summary())

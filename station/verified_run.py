@@ -1,0 +1,135 @@
+"""Verification at fresh places, and the result of a calibration by the measurement model."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy import stats
+from scipy.stats import qmc
+
+from station.five_bar import FiveBar
+from station.identification import Identification
+from station.kinematics import Real, inverse
+from station.measurements import Measurements, from_readings
+from station.records import CalibrationResult, Reading, Stop
+from station.weak_direction import describe
+
+FRESH_PLACES = 8
+FRESH_INSET_MM = 15.0
+REFUSED_P = 1e-3
+"""A true model fails the verification this often."""
+LIMIT_SDS = 3.5
+
+
+def fresh_stops(fit: Identification) -> tuple[Stop, ...]:
+    """Interior places that no plan visits, commands compensated by what was identified."""
+    robot = fit.mechanism.robot
+    low = (robot.workspace_x[0] + FRESH_INSET_MM, robot.workspace_y[0] + FRESH_INSET_MM)
+    high = (robot.workspace_x[1] - FRESH_INSET_MM, robot.workspace_y[1] - FRESH_INSET_MM)
+    # a new set each run, so that no place is ever learned by heart
+    points = qmc.scale(qmc.Sobol(2, rng=len(fit.measurements)).random(FRESH_PLACES), low, high)
+    places = points[:, 0] + 1j * points[:, 1]
+    theta = np.degrees(inverse(robot.geometry, places) - fit.dtheta)
+    return tuple(
+        Stop(f"V{k + 1}", (float(r.real), float(r.imag)), (float(t[0]), float(t[1])))
+        for k, (r, t) in enumerate(zip(places, theta, strict=True))
+    )
+
+
+@dataclass(frozen=True)
+class Verification:
+    """Fresh readings against the frozen model."""
+
+    residual_mm: Real
+    """(K,) measured less predicted, the common offset taken out of neither."""
+    sd_mm: Real
+    """(K,) prediction uncertainty with noise."""
+    p_value: float
+
+    @property
+    def passed(self) -> bool:
+        return bool(self.p_value >= REFUSED_P)
+
+    @property
+    def rms_mm(self) -> float:
+        return float(np.sqrt(np.mean(self.residual_mm**2)))
+
+
+def verify(fit: Identification, fresh: Measurements) -> Verification:
+    """Predict fresh readings with everything frozen; chi-square with the prediction covariance."""
+    mechanism = FiveBar(fit.mechanism.robot, fresh)
+    at = mechanism.observe(fit.p, fresh.theta)
+    residual = fresh.distance - at.value
+    ratio = fit.noise.sigma_mm / float(np.sqrt(np.mean(fit.mechanism.row_sd**2)))
+    noise = np.diag((mechanism.row_sd * ratio * fit.sd_factor) ** 2)
+    covariance = at.by_parameter @ fit.covariance @ at.by_parameter.T + noise
+    square = float(residual @ np.linalg.solve(covariance, residual))
+    return Verification(residual, np.sqrt(np.diag(covariance)), float(stats.chi2.sf(square, len(residual))))
+
+
+def result_of(fit: Identification, readings: list[Reading], fresh: list[Reading]) -> CalibrationResult:
+    """Zero offsets with uncertainty, before and after, and a verdict that fails closed."""
+    check = verify(fit, from_readings(fresh))
+    quantities = fit.quantities()
+    everything = from_readings(readings)
+    mechanism = FiveBar(fit.mechanism.robot, everything)
+    start = np.array([p.prior_mean for p in mechanism.parameters])
+    raw = everything.distance - mechanism.observe(start, everything.theta).value
+    residual = everything.distance - mechanism.observe(fit.p, everything.theta).value
+    limit = LIMIT_SDS * fit.noise.sigma_mm
+    reason = _fault(fit, check)
+    return CalibrationResult(
+        verdict="fail" if reason else "pass",
+        reason=reason or f"fresh readings agree within {check.rms_mm * 1e3:.1f} um",
+        method="measurement model",
+        zero_offsets=quantities[:2],
+        parameters=quantities[2:],
+        weak_direction=_weak(fit),
+        before={
+            "reading_rms_mm": float(np.std(raw)),
+            "predicted_position_error_mm": fit.position_error(compensated=False),
+        },
+        after={
+            "reading_rms_mm": float(np.sqrt(np.mean(fit.residual_mm**2))),
+            "fresh_reading_rms_mm": check.rms_mm,
+            "fresh_reading_max_mm": float(np.abs(check.residual_mm).max()),
+            "predicted_position_error_mm": fit.position_error(compensated=True),
+        },
+        iterations=(),
+        residuals=tuple(
+            {
+                "reading": r.reading,
+                "position": r.position,
+                "residual_mm": float(value),
+                "limit_mm": limit,
+            }
+            for r, value in zip(readings, residual, strict=True)
+        ),
+    )
+
+
+def _weak(fit: Identification) -> dict[str, object]:
+    words = describe(fit)
+    best = min(words["remedies"], key=lambda remedy: remedy["sd_deg"])
+    words["remedy"] = f"{best['text']} (sd {best['sd_deg']:.3f} deg)"
+    return words
+
+
+def _fault(fit: Identification, check: Verification) -> str:
+    """Why the run is not a pass; empty when every check passed on finite numbers."""
+    sd = np.sqrt(np.diag(fit.covariance)[:2])
+    if not (np.isfinite(sd).all() and np.isfinite(fit.p).all() and np.isfinite(check.p_value)):
+        return "the result is not a finite number"
+    if not fit.adequate:
+        return (
+            f"the model does not fit the readings (p = {fit.lack_of_fit_p:.1g}); "
+            "an effect is missing from it: run the diagnosis"
+        )
+    if not check.passed:
+        worst = int(np.argmax(np.abs(check.residual_mm) / check.sd_mm))
+        return (
+            f"fresh readings are not predicted (p = {check.p_value:.1g}); the worst, number {worst + 1}, "
+            f"is off by {check.residual_mm[worst] * 1e3:.1f} um, sd {check.sd_mm[worst] * 1e3:.1f} um"
+        )
+    return ""
