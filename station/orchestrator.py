@@ -161,12 +161,11 @@ class Orchestrator:
     def shutdown(self) -> None:
         """Abort what runs, make the machine safe, end the worker, close the devices.  Twice is harmless."""
         with self._submitting:
-            if self._closing:
-                return
-            self._closing = True
-        if self._run is not None:
-            self._halt(self._run, "the station's shutdown")
-        self._queue.put(None)
+            first, self._closing = not self._closing, True
+        if first:
+            if self._run is not None:
+                self._halt(self._run, "the station's shutdown")
+            self._queue.put(None)
         self._worker.join(SHUTDOWN_LIMIT_S)
         if self._worker.is_alive():
             log.error("The worker hangs in a device; the run will be marked interrupted at the next start")

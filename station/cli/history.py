@@ -1,0 +1,137 @@
+"""`station runs` and `station show`: the history from the terminal, while the service runs or not."""
+
+from __future__ import annotations
+
+import csv
+import json
+import sys
+from collections.abc import Iterator
+from contextlib import closing
+from itertools import islice
+from pathlib import Path
+from typing import Any
+
+import click
+from rich.box import SIMPLE
+from rich.console import Console
+from rich.table import Table
+
+from station.records import State
+from station.runtime import database_path
+from station.settings import load_settings
+from station.store import Store
+
+_COLUMNS = (
+    "id",
+    "created_at",
+    "robot_serial",
+    "plan",
+    "operator",
+    "work_order",
+    "state",
+    "verdict",
+    "dtheta1_deg",
+    "dtheta1_sd_deg",
+    "dtheta2_deg",
+    "dtheta2_sd_deg",
+    "step",
+    "steps",
+    "started_at",
+    "ended_at",
+    "reason",
+)
+_SHOWN = ("id", "created_at", "robot_serial", "plan", "state", "verdict", "dtheta1_deg", "dtheta2_deg")
+
+_config = click.option(
+    "--config", type=click.Path(path_type=Path), help="Station file that names the database."
+)
+
+
+@click.command("runs")
+@click.option("--csv", "as_csv", is_flag=True, help="All columns, comma separated, on standard output.")
+@click.option("--limit", type=click.IntRange(1), help="Newest so many; 20 on the screen, all as CSV.")
+@click.option("--serial", help="Of this robot only.")
+@click.option("--state", type=click.Choice([str(state) for state in State]))
+@click.option("--verdict", type=click.Choice(["pass", "fail"]))
+@_config
+@click.pass_obj
+def runs_command(
+    home: Path,
+    as_csv: bool,
+    limit: int | None,
+    serial: str | None,
+    state: str | None,
+    verdict: str | None,
+    config: Path | None,
+) -> None:
+    """The runs, newest first."""
+    with closing(Store(database_path(load_settings(config), home))) as store:
+        rows = _every(store, robot_serial=serial, state=state, verdict=verdict)
+        if as_csv:
+            writer = csv.DictWriter(sys.stdout, _COLUMNS)
+            writer.writeheader()
+            writer.writerows(islice(rows, limit))
+        else:
+            _print_table(list(islice(rows, limit or 20)))
+
+
+def _every(store: Store, **wanted: str | None) -> Iterator[dict[str, Any]]:
+    cursor: int | None = None
+    while True:
+        page = store.calibrations(limit=500, cursor=cursor, **wanted)  # type: ignore[arg-type]
+        for item in page.items:
+            zeros = item.pop("zero_offsets")
+            for zero in zeros:
+                item[f"dtheta{zero['joint']}_deg"] = zero["value_deg"]
+                item[f"dtheta{zero['joint']}_sd_deg"] = zero["sd_deg"]
+            yield item
+        cursor = page.next
+        if cursor is None:
+            return
+
+
+def _print_table(rows: list[dict[str, Any]]) -> None:
+    console = Console()
+    if not rows:
+        console.print("No runs.")
+        return
+    table = Table(*(column.split("_")[0] for column in _SHOWN), box=SIMPLE, padding=(0, 1, 0, 0))
+    for row in rows:
+        created = row["created_at"][:16].replace("T", " ")
+        table.add_row(*(_cell(value) for value in ({**row, "created_at": created}.get(c) for c in _SHOWN)))
+    console.print(table)
+
+
+def _cell(value: Any) -> str:
+    if value is None:
+        return ""
+    return f"{value:+.4f}" if isinstance(value, float) else str(value)
+
+
+@click.command("show")
+@click.argument("calibration_id", metavar="ID", type=click.IntRange(1, 2**63 - 1))
+@click.option("--json", "as_json", is_flag=True, help="Everything, readings and events included, as JSON.")
+@_config
+@click.pass_obj
+def show_command(home: Path, calibration_id: int, as_json: bool, config: Path | None) -> None:
+    """One run."""
+    with closing(Store(database_path(load_settings(config), home))) as store:
+        calibration = store.calibration(calibration_id)
+        readings = store.readings(calibration_id)
+        events = store.events(calibration_id)
+    if as_json:
+        rows = [{name: getattr(r, name) for name in r.__slots__} for r in readings]
+        click.echo(json.dumps({**calibration, "readings": rows, "events": events}, indent=1))
+        return
+    console = Console(highlight=False)
+    for key in ("id", "robot_serial", "plan", "operator", "work_order", "state", "verdict", "reason"):
+        console.print(f"{key.replace('_', ' '):>14}  {calibration[key] or ''}", soft_wrap=True)
+    for key in ("created_at", "started_at", "ended_at"):
+        console.print(f"{key.removesuffix('_at'):>14}  {calibration[key] or ''}")
+    for zero in calibration["zero_offsets"]:
+        console.print(
+            f"{'dtheta' + str(zero['joint']):>14}  {zero['value_deg']:+.4f} deg, sd {zero['sd_deg']:.4f}"
+        )
+    console.print(f"{'readings':>14}  {len(readings)}")
+    for event in events:
+        console.print(f"{event['kind']:>14}  {event['at']} {event['data']}", soft_wrap=True)

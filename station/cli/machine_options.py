@@ -1,0 +1,55 @@
+"""What `serve` and `calibrate` share: which machine, and where the log goes."""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable
+from logging.handlers import RotatingFileHandler
+from pathlib import Path
+from typing import Any, TypeVar
+
+import click
+
+from station.errors import InputRefused
+from station.settings import Settings, load_settings
+
+_Command = TypeVar("_Command", bound=Callable[..., Any])
+
+_FORMAT = "%(asctime)s %(levelname)s %(name)s: %(message)s"
+_LOG_BYTES, _LOG_FILES = 2_000_000, 5
+
+
+def machine_options(command: _Command) -> _Command:
+    """--config, --emulate and --speed."""
+    for option in (
+        click.option(
+            "--speed", type=click.FloatRange(0, 1000, min_open=True), help="Of the emulated machine."
+        ),
+        click.option("--emulate", type=click.Path(path_type=Path), help="Rig file of the emulated machine."),
+        click.option("--config", type=click.Path(path_type=Path), help="Station file; without it, emulated."),
+    ):
+        command = option(command)
+    return command
+
+
+def read_settings(config: Path | None, speed: float | None) -> Settings:
+    """The station file with the terminal's word on top.  :raises InputRefused:"""
+    settings = load_settings(config)
+    if speed is None:
+        return settings
+    return settings.model_copy(update={"emulated": settings.emulated.model_copy(update={"speed": speed})})
+
+
+def log_to(home: Path, *, terminal: int) -> None:
+    """Everything to a file in the home folder, what is at least `terminal` to standard error too.
+
+    :raises InputRefused: the folder cannot be written.
+    """
+    try:
+        home.mkdir(parents=True, exist_ok=True)
+        file = RotatingFileHandler(home / "station.log", maxBytes=_LOG_BYTES, backupCount=_LOG_FILES)
+    except OSError as error:
+        raise InputRefused(f"The data folder {home} cannot be used: {error.strerror}.") from error
+    screen = logging.StreamHandler()
+    screen.setLevel(terminal)
+    logging.basicConfig(level=logging.INFO, format=_FORMAT, handlers=[file, screen])

@@ -1,0 +1,84 @@
+"""`station serve`: the page and the REST interface, until told to end."""
+
+from __future__ import annotations
+
+import logging
+import os
+import signal
+import socket
+from importlib import import_module
+from pathlib import Path
+from threading import Thread
+from types import FrameType
+
+import click
+import uvicorn
+
+from station.cli.machine_options import log_to, machine_options, read_settings
+from station.errors import InputRefused
+from station.orchestrator import Orchestrator
+from station.runtime import Runtime
+
+_APPLICATION = "web.app"
+"""Named, not imported: `station` knows nothing of the web beyond who to hand its runtime to."""
+_GRACE_S = 3
+
+
+@click.command("serve")
+@click.option("--host", help="Address to listen on; else the station file's, 127.0.0.1.")
+@click.option(
+    "--port", type=click.IntRange(0, 65535), help="Else the station file's, 8000; 0 takes a free one."
+)
+@machine_options
+@click.pass_obj
+def serve_command(
+    home: Path,
+    host: str | None,
+    port: int | None,
+    config: Path | None,
+    emulate: Path | None,
+    speed: float | None,
+) -> None:
+    """The service with the operator's page."""
+    settings = read_settings(config, speed)
+    log_to(home, terminal=logging.WARNING)
+    listener = _listen(host or settings.service.host, settings.service.port if port is None else port)
+    with listener, Runtime.open(settings, home, emulate) as runtime:
+        application = import_module(_APPLICATION).create_app(runtime)
+        server = _Server(
+            uvicorn.Config(
+                application, log_config=None, access_log=False, timeout_graceful_shutdown=_GRACE_S
+            ),
+            runtime.orchestrator,
+        )
+        # uvicorn raises a signal again once it has ended; by then it has been obeyed.
+        for ending in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(ending, signal.SIG_IGN)
+        server.run(sockets=[listener])
+
+
+def _listen(host: str, port: int) -> socket.socket:
+    """:raises InputRefused: the address is taken or not this computer's."""
+    try:
+        return socket.create_server((host, port), backlog=128)
+    except OSError as error:
+        raise InputRefused(f"Cannot listen on {host}:{port}: {os.strerror(error.errno or 0)}.") from error
+
+
+class _Server(uvicorn.Server):
+    """Says when it listens, and stops the machine the moment it is told to end."""
+
+    def __init__(self, config: uvicorn.Config, orchestrator: Orchestrator) -> None:
+        super().__init__(config)
+        self._orchestrator = orchestrator
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        await super().startup(sockets)
+        for listener in sockets or ():
+            host, port = listener.getsockname()[:2]
+            click.echo(f"Station ready: http://{host}:{port}")
+
+    def handle_exit(self, sig: int, frame: FrameType | None) -> None:
+        # Not here: a signal handler may have interrupted somebody who holds the locks this needs.
+        Thread(target=self._orchestrator.shutdown, name="shutdown").start()
+        super().handle_exit(sig, frame)
