@@ -160,7 +160,7 @@ class HeidenhainND:
         if not self._may_have_stale_bytes:
             self._line.drain(0)
             return
-        self._line.drain(self._timeout_s / 2 + self._line.byte_time_s(_LONGEST_REPLY_BYTES))
+        self._line.drain(self._timeout_s + self._line.byte_time_s(_LONGEST_REPLY_BYTES))
         identity = self._ask_identity()
         if self.identity and identity != self.identity:
             raise GarbledReply(f"The {self._name} gave another identity than at connect; connect again.")

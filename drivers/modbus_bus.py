@@ -99,7 +99,7 @@ class ModbusBus:
         """
 
         def ask() -> list[int]:
-            with self._lane.hold(urgent=False):
+            with self._turn():
                 reply = self._ask(
                     unit,
                     lambda: self._client.read_holding_registers(address, count=count, device_id=unit),
@@ -162,12 +162,12 @@ class ModbusBus:
         urgent: bool = False,
         stops_seen: int | None = None,
     ) -> None:
-        with self._lane.hold(urgent=urgent):
+        with self._turn(urgent=urgent):
             if stops_seen is not None and stops_seen != self.stops:
                 raise DeviceFault(f"Drive {unit} was not given its command: a stop came first.")
             self._connect()
             try:
-                reply = self._ask(unit, send, at_once=urgent)
+                reply = self._ask(unit, send)
             except _PathClosed:
                 raise
             except (LinkLost, GarbledReply) as error:
@@ -178,14 +178,9 @@ class ModbusBus:
                     f"Drive {unit} confirmed another command than it was given; check the line."
                 )
 
-    def _ask(self, unit: int, send: Callable[[], ModbusPDU], *, at_once: bool = False) -> ModbusPDU:
-        """One exchange, with the lane held.
-
-        :param at_once: do not wait for late replies to pass; a stop must not wait for them
-        """
+    def _ask(self, unit: int, send: Callable[[], ModbusPDU]) -> ModbusPDU:
+        """One exchange, in one's turn."""
         self._connect()
-        if not at_once:
-            self._drain()
         time.sleep(max(0.0, self._free_from_s - time.monotonic()))
         try:
             reply = send()
@@ -213,13 +208,21 @@ class ModbusBus:
     def _expect_stale_bytes(self) -> None:
         self._stale_until_s = time.monotonic() + self._drain_s
 
-    def _drain(self) -> None:
-        """On RS-485, wait until no late reply can come any more, and throw away what came."""
-        if not isinstance(self._client, _SerialClient):
-            return
-        while (rest_s := self._stale_until_s - time.monotonic()) > 0:
-            time.sleep(min(rest_s, 0.01))
-            self._client.discard()
+    @contextmanager
+    def _turn(self, *, urgent: bool = False) -> Iterator[None]:
+        """The line for one exchange, clean of late replies.
+
+        On RS-485 that means waiting until none can come any more, without holding the line: a stop
+        goes out at once, since whatever may arrive then only leaves it unconfirmed.
+        """
+        while True:
+            if not urgent:
+                time.sleep(max(0.0, self._stale_until_s - time.monotonic()))
+            with self._lane.hold(urgent=urgent):
+                if urgent or time.monotonic() >= self._stale_until_s:
+                    self._client.discard()
+                    yield
+                    return
 
     def _record(self, direction: str, data: bytes) -> None:
         if self.trace is not None and data:
@@ -274,6 +277,9 @@ class _TcpClient(ModbusTcpClient):
         self._record("rx", data)
         return data
 
+    def discard(self) -> None:
+        """Nothing to do: each reply carries the number of its request."""
+
 
 class _SerialClient(ModbusSerialClient):
     """The same on RS-485."""
@@ -302,7 +308,7 @@ class _SerialClient(ModbusSerialClient):
         return data
 
     def discard(self) -> None:
-        """Throw away what has come in."""
+        """Throw away what has come in, so that it is not taken for a reply."""
         if self.socket is not None and self.socket.in_waiting:
             self._record("rx", self.socket.read(self.socket.in_waiting))
 

@@ -134,8 +134,8 @@ class SerialLine:
         :raises LinkLost: the line is not open or broke
         """
         deadline_s = time.monotonic() + seconds
-        while self._opened().in_waiting or time.monotonic() < deadline_s:
-            self.read_some(deadline_s)
+        while self.read_some(deadline_s):
+            pass
 
     def _opened(self) -> serial.Serial:
         if self._port is None:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 import time
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
 from random import Random
 from threading import RLock
@@ -232,7 +233,8 @@ class Machine:
             steps = self._steps if until_s > self._looked_s else 0
             for step in range(1, steps + 1):
                 at_s = self._looked_s + (until_s - self._looked_s) * step / steps
-                self._reading_mm(self._scene(at_s))
+                with suppress(Unreachable):  # the head has lost the scale; nothing follows the arms there
+                    self._reading_mm(self._scene(at_s))
             if now_s >= rests_s:
                 self._rested = True
                 self._stops += 1

@@ -12,6 +12,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from drivers.emulated.faults import Faults
+from drivers.emulated.machine import Unreachable
 
 _STX, _ENQ, _ACK, _NAK, _ESC = b"\x02", b"\x05", b"\x06", b"\x15", b"\x1b"
 _LONGEST_COMMAND_BYTES = 7
@@ -81,7 +82,10 @@ class ND280:
             return Reply(_NAK)
         letter, number = match[1], int(match[2])
         if letter == b"A":
-            text = self._screen(number)
+            try:
+                text = self._screen(number)
+            except Unreachable:
+                text = None
             return Reply(_NAK if text is None else _STX + text.encode("ascii"))
         if letter == b"F" and number == 200:
             line = self._measured_value()
@@ -94,8 +98,11 @@ class ND280:
         if self._faults.due("scale_silent"):
             return None
         fault_mark = self._faults.due("scale_fault_mark") is not None
+        try:
+            value_mm = self._value_mm()
+        except Unreachable:  # arms where no slider can be: the head is off its scale
+            value_mm, fault_mark = 0.0, True
         self._error = _ERROR_TEXT if fault_mark else None
-        value_mm = self._value_mm()
         unit = "?" if fault_mark else " "
         line = f"{'-' if value_mm < 0 else '+'}{abs(value_mm):10.4f} {unit}  \r\n".encode("ascii")
         if self._faults.due("scale_garbled"):

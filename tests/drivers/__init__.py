@@ -1,0 +1,1 @@
+"""Drivers against literal bytes, and against the emulated rig."""
