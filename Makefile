@@ -1,0 +1,45 @@
+# One verb per chore; continuous integration uses the same.
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+PAGE := $(shell find web/ui -path web/ui/node_modules -prune -o -type f -print) hatch_build.py
+
+.PHONY: run test lint format bench lock clean
+
+run: $(VENV)/installed  ## install and start the service on the emulated rig; prints the address
+	$(BIN)/station serve
+
+test: $(VENV)/installed-for-tests  ## everything that can be checked
+	deploy/debian-packages chromium mbpoll
+	$(BIN)/pytest
+
+lint: $(VENV)/installed-for-tests  ## style, types, import layers
+	$(BIN)/ruff check .
+	$(BIN)/ruff format --check .
+	$(BIN)/mypy
+	$(BIN)/lint-imports
+
+format: $(VENV)/installed-for-tests
+	$(BIN)/ruff check --fix .
+	$(BIN)/ruff format .
+
+bench: $(VENV)/installed-for-tests  ## the figures of docs/benchmarks.md
+	$(BIN)/station bench
+
+lock: $(VENV)/installed-for-tests  ## newest versions that fit, with hashes
+	deploy/lock $(BIN)
+
+clean:
+	rm -rf $(VENV) web/static web/ui/node_modules
+
+$(VENV)/bin/python:
+	deploy/python-venv $(PYTHON) $(VENV)
+
+$(VENV)/installed: deploy/requirements.lock pyproject.toml $(PAGE) | $(VENV)/bin/python
+	$(BIN)/python -m pip install --quiet --require-hashes -r deploy/requirements.lock
+	$(BIN)/python -m pip install --quiet --no-deps --editable .
+	touch $@
+
+$(VENV)/installed-for-tests: tests/requirements.lock $(VENV)/installed
+	$(BIN)/python -m pip install --quiet --require-hashes -r tests/requirements.lock
+	touch $@
