@@ -9,9 +9,7 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from web.problems import problem
 
-CONTENT_SECURITY_POLICY = (
-    "default-src 'self'; style-src-attr 'unsafe-inline'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
-)
+CONTENT_SECURITY_POLICY = "default-src 'self'; style-src-attr 'unsafe-inline'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
 """Own files only.  Style attributes are allowed because the SVG charts are drawn with them."""
 
 SAFE_METHODS = ("GET", "HEAD", "OPTIONS")
@@ -30,7 +28,11 @@ class SameOrigin:
         self.app = app
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if scope["type"] == "http" and scope["method"] not in SAFE_METHODS and not same_origin(Headers(scope=scope)):
+        if (
+            scope["type"] == "http"
+            and scope["method"] not in SAFE_METHODS
+            and not same_origin(Headers(scope=scope))
+        ):
             answer = problem(403, "Another site's page may not command this station.", kind="foreign-origin")
             await answer(scope, receive, send)
             return

@@ -28,7 +28,12 @@ class LiveFeed:
     """Numbers the orchestrator's events and hands them to every client."""
 
     def __init__(
-        self, orchestrator: Orchestrator, *, build: str, beat_s: float = BEAT_S, queue_length: int = QUEUE_LENGTH
+        self,
+        orchestrator: Orchestrator,
+        *,
+        build: str,
+        beat_s: float = BEAT_S,
+        queue_length: int = QUEUE_LENGTH,
     ) -> None:
         self.build = build
         self._orchestrator = orchestrator

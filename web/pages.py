@@ -72,4 +72,6 @@ def _docs(app: FastAPI) -> HTMLResponse:
 def _inline_scripts(html: str) -> str:
     """The page's inline scripts as CSP hashes, so that no other may run."""
     scripts = re.findall(r"<script>(.*?)</script>", html, re.DOTALL)
-    return " ".join(f"'sha256-{base64.b64encode(hashlib.sha256(s.encode()).digest()).decode()}'" for s in scripts)
+    return " ".join(
+        f"'sha256-{base64.b64encode(hashlib.sha256(s.encode()).digest()).decode()}'" for s in scripts
+    )

@@ -27,7 +27,9 @@ class FieldAtFault(BaseModel):
 class Problem(BaseModel):
     """RFC 9457 problem document."""
 
-    type: str = Field(description="`urn:station:problem:<kind>`, or `about:blank` when the status says it all")
+    type: str = Field(
+        description="`urn:station:problem:<kind>`, or `about:blank` when the status says it all"
+    )
     title: str
     status: int
     detail: str
@@ -42,7 +44,12 @@ class ProblemResponse(JSONResponse):
 
 
 def problem(
-    status: int, detail: str, *, kind: str | None = None, headers: Mapping[str, str] | None = None, **more: Any
+    status: int,
+    detail: str,
+    *,
+    kind: str | None = None,
+    headers: Mapping[str, str] | None = None,
+    **more: Any,
 ) -> ProblemResponse:
     """The answer for an error; `more` are the extension members that apply."""
     document = Problem(
@@ -82,7 +89,9 @@ def add(app: FastAPI) -> None:
     async def invalid(request: Request, error: RequestValidationError) -> ProblemResponse:
         errors = [FieldAtFault(field=_field(e["loc"]), detail=e["msg"]) for e in error.errors()]
         first = errors[0]
-        return problem(422, f"{first.field}: {first.detail}", kind="invalid", field=first.field, errors=errors)
+        return problem(
+            422, f"{first.field}: {first.detail}", kind="invalid", field=first.field, errors=errors
+        )
 
     @app.exception_handler(InputRefused)
     async def refused(request: Request, error: InputRefused) -> ProblemResponse:

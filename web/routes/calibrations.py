@@ -73,11 +73,17 @@ def list_calibrations(
 @router.get("/{calibration_id}", response_model=Calibration, responses=documented(404))
 def read_calibration(calibration_id: CalibrationId, runtime: TheRuntime) -> dict[str, Any]:
     """One run in full."""
-    return {**runtime.store.calibration(calibration_id), "zero_offset_tolerance_deg": _tolerance(runtime, calibration_id)}
+    return {
+        **runtime.store.calibration(calibration_id),
+        "zero_offset_tolerance_deg": _tolerance(runtime, calibration_id),
+    }
 
 
 @router.post(
-    "/{calibration_id}/abort", status_code=202, response_model=CalibrationSummary, responses=documented(404, 504)
+    "/{calibration_id}/abort",
+    status_code=202,
+    response_model=CalibrationSummary,
+    responses=documented(404, 504),
 )
 async def abort_calibration(calibration_id: CalibrationId, runtime: TheRuntime) -> dict[str, Any]:
     """End a run at once and make the machine safe; calling it again changes nothing."""
@@ -89,7 +95,9 @@ async def abort_calibration(calibration_id: CalibrationId, runtime: TheRuntime) 
     try:
         return await aside(abort, timeout_s=ABORT_TIMEOUT_S)
     except TimeoutError as late:
-        raise HTTPException(504, "The abort was sent but not confirmed; use the stop or the emergency stop.") from late
+        raise HTTPException(
+            504, "The abort was sent but not confirmed; use the stop or the emergency stop."
+        ) from late
 
 
 def _tolerance(runtime: Runtime, calibration_id: int) -> float:

@@ -43,5 +43,9 @@ async def readyz(runtime: TheRuntime) -> Ready | JSONResponse:
 
 
 def _missing(snapshot: dict[str, Any]) -> list[str]:
-    devices = [f"{d['name']}: {d['text'] or d['state']}" for d in snapshot["devices"] if d["state"] in ("lost", "fault")]
+    devices = [
+        f"{d['name']}: {d['text'] or d['state']}"
+        for d in snapshot["devices"]
+        if d["state"] in ("lost", "fault")
+    ]
     return devices + [f"interlock: {i['text']}" for i in snapshot["interlocks"] if not i["ok"]]

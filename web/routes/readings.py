@@ -20,7 +20,9 @@ router = APIRouter(prefix="/calibrations/{calibration_id}", tags=["readings"])
 @router.get("/readings", response_model=ReadingList, responses=documented(404))
 def list_readings(calibration_id: CalibrationId, runtime: TheRuntime) -> ReadingList:
     """Every reading of the run, in the order taken."""
-    return ReadingList(items=[ReadingAnswer.of(reading) for reading in runtime.store.readings(calibration_id)])
+    return ReadingList(
+        items=[ReadingAnswer.of(reading) for reading in runtime.store.readings(calibration_id)]
+    )
 
 
 @router.get("/readings.csv", response_class=CsvResponse, responses=documented(404))

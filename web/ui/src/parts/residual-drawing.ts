@@ -29,7 +29,7 @@ export function draw(place: HTMLElement, residuals: NonNullable<Calibration["res
   chart.setOption({
     animation: false,
     grid: { left: 76, right: 24, top: 34, bottom: 48 },
-    xAxis: { ...axis, type: "value", name: "reading", nameLocation: "middle", nameGap: 30, min: 0, minInterval: 1 },
+    xAxis: { ...axis, type: "value", name: "reading", nameLocation: "middle", nameGap: 30, minInterval: 1, min: ({ min }: { min: number }) => min - 1, max: ({ max }: { max: number }) => max + 1 },
     yAxis: { ...axis, type: "value", name: "residual, mm (dashed: limits)", nameTextStyle: { ...axis.nameTextStyle, align: "left" } },
     series: [
       limits(1),

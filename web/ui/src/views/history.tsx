@@ -59,8 +59,8 @@ export function HistoryView() {
                 <th scope="col" class="text">
                   Outcome and reason
                 </th>
-                <th scope="col">Offset 1, °</th>
-                <th scope="col">Offset 2, °</th>
+                <th scope="col">Offset 1 ± U, °</th>
+                <th scope="col">Offset 2 ± U, °</th>
                 <th scope="col" class="text">
                   Readings
                 </th>

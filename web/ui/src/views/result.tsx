@@ -89,14 +89,14 @@ function ZeroOffsets({ result }: { result: Calibration }) {
   const tolerance = result.zero_offset_tolerance_deg;
   return (
     <section class="panel">
-      <h2>Zero offsets</h2>
+      <h2>Zero offsets, in °</h2>
       <table>
         <thead>
           <tr>
             <th scope="col">Joint</th>
-            <th scope="col">Offset ± U (k = {K}), °</th>
-            <th scope="col">sd, °</th>
-            <th scope="col">Tolerance, °</th>
+            <th scope="col">Value ± U</th>
+            <th scope="col">sd</th>
+            <th scope="col">Tolerance</th>
             <th scope="col" class="text">
               Verdict
             </th>
@@ -118,6 +118,7 @@ function ZeroOffsets({ result }: { result: Calibration }) {
           ))}
         </tbody>
       </table>
+      <p class="note">U is the expanded uncertainty, k = {K}.</p>
       {result.parameters?.length ? (
         <p class="note">
           Also identified:{" "}
@@ -151,13 +152,13 @@ function BeforeAfter({ result: { before, after } }: { result: Calibration }) {
   ];
   return (
     <section class="panel">
-      <h2>Before and after</h2>
+      <h2>Before and after, in mm</h2>
       <table>
         <thead>
           <tr>
             <td />
-            <th scope="col">Before, mm</th>
-            <th scope="col">After, mm</th>
+            <th scope="col">Before</th>
+            <th scope="col">After</th>
           </tr>
         </thead>
         <tbody>
@@ -194,16 +195,16 @@ function Iterations({ result: { iterations } }: { result: Calibration }) {
   if (!iterations?.length) return null;
   return (
     <section class="panel">
-      <h2>Passes</h2>
+      <h2>Passes, in °</h2>
       <table>
         <thead>
           <tr>
             <th scope="col">Pass</th>
-            <th scope="col">Change 1, °</th>
-            <th scope="col">Change 2, °</th>
-            <th scope="col">Total 1, °</th>
-            <th scope="col">Total 2, °</th>
-            <th scope="col">μ, °</th>
+            <th scope="col">Change 1</th>
+            <th scope="col">Change 2</th>
+            <th scope="col">Total 1</th>
+            <th scope="col">Total 2</th>
+            <th scope="col">μ</th>
           </tr>
         </thead>
         <tbody>

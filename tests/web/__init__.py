@@ -1,0 +1,1 @@
+"""The service over HTTP and WebSocket, on fake devices and a real store."""

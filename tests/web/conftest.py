@@ -1,0 +1,81 @@
+"""A station on fake devices behind the real application; nothing is left behind."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import ExitStack
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pytest
+from fastapi.testclient import TestClient
+
+from station.orchestrator import Orchestrator
+from station.runtime import Runtime
+from station.store import Store
+from tests.station.conftest import SETTINGS
+from tests.station.fakes import Rig, make_rig, two_walks
+from web.app import create_app
+
+BODY = {"robot_serial": "FB-1", "plan": "paper", "operator": "ada"}
+LIMIT_S = 10.0
+
+
+@pytest.fixture(autouse=True)
+def no_thread_left() -> Iterator[None]:
+    before = set(threading.enumerate())
+    yield
+    for thread in set(threading.enumerate()) - before:
+        thread.join(5)
+        assert not thread.is_alive(), thread.name
+
+
+@dataclass
+class Service:
+    """The application and what it stands on."""
+
+    client: TestClient
+    runtime: Runtime
+    rig: Rig
+
+    def start(self, key: str | None = None, **changes: Any) -> Any:
+        headers = {"Idempotency-Key": key} if key else {}
+        return self.client.post("/api/v1/calibrations", json={**BODY, **changes}, headers=headers)
+
+    def hold(self) -> int:
+        """Start a run that goes on until it is aborted; its id."""
+        self.rig.axes[0].stuck = True
+        run = int(self.start().json()["id"])
+        self.wait_for("axis 1 move_to")
+        return run
+
+    def complete(self, **changes: Any) -> int:
+        """One run from start to end; its id."""
+        run = int(self.start(**changes).json()["id"])
+        assert self.runtime.orchestrator.wait(run, LIMIT_S).ended
+        return run
+
+    def wait_for(self, call: str) -> None:
+        """Until the worker has made this call to a device."""
+        deadline = time.monotonic() + LIMIT_S
+        while call not in self.rig.script.calls:
+            assert time.monotonic() < deadline, f"no {call}"
+            time.sleep(0.005)
+
+
+@pytest.fixture
+def service(tmp_path: Path) -> Iterator[Service]:
+    rig = make_rig()
+    with ExitStack() as opened:
+        store = Store(tmp_path / "station.db")
+        opened.callback(store.close)
+        orchestrator = Orchestrator(rig.devices, store, SETTINGS, two_walks)
+        opened.callback(orchestrator.shutdown)
+        opened.callback(rig.released.set)
+        runtime = Runtime(SETTINGS, tmp_path, store, orchestrator, ExitStack())
+        # a failure inside the service must come back as its answer, not as the test's exception
+        client = TestClient(create_app(runtime), base_url="http://station", raise_server_exceptions=False)
+        yield Service(opened.enter_context(client), runtime, rig)

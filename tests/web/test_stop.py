@@ -1,0 +1,50 @@
+"""The stop works whatever else hangs."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+
+from tests.web.conftest import LIMIT_S, Service
+from web.routes import stop as stop_route
+
+
+def test_stop_reaches_both_axes_and_ends_the_run(service: Service) -> None:
+    run = service.hold()
+    answer = service.client.post("/api/v1/stop", headers={"X-Operator": "ada"})
+    assert (answer.status_code, answer.json()) == (200, {"sent": True, "by": "ada"})
+    assert {"axis 1 quick_stop", "axis 2 quick_stop"} <= set(service.rig.script.calls)
+    assert service.runtime.orchestrator.wait(run, LIMIT_S) == "aborted"
+
+
+def test_stop_without_a_run_still_stops(service: Service) -> None:
+    assert service.client.post("/api/v1/stop").status_code == 200
+    assert {"axis 1 quick_stop", "axis 2 quick_stop"} <= set(service.rig.script.calls)
+
+
+def test_stop_passes_a_worker_that_hangs_in_a_device(service: Service) -> None:
+    service.rig.script.do("scale read", lambda: service.rig.released.wait() and None)
+    service.start()
+    service.wait_for("scale read")
+    began = time.monotonic()
+    assert service.client.post("/api/v1/stop").status_code == 200
+    assert time.monotonic() - began < 1.0
+    service.rig.released.set()
+
+
+def test_a_stop_that_does_not_come_back_says_so(service: Service, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(stop_route, "STOP_TIMEOUT_S", 0.1)
+    monkeypatch.setattr(service.runtime.orchestrator, "stop", lambda who: service.rig.released.wait())
+    answer = service.client.post("/api/v1/stop")
+    assert answer.status_code == 504
+    assert "emergency stop" in answer.json()["detail"]
+    service.rig.released.set()
+
+
+def test_a_refused_stop_is_not_called_sent(service: Service, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fails(who: str) -> None:
+        raise OSError("no bus")
+
+    monkeypatch.setattr(service.runtime.orchestrator, "stop", fails)
+    assert service.client.post("/api/v1/stop").status_code == 500
