@@ -14,7 +14,7 @@ from typing import Any
 import click
 from rich.console import Console
 
-from station.cli.machine_options import log_to, machine_options, read_settings
+from station.cli.machine_options import logging_to, machine_options, read_settings
 from station.cli.progress import progress
 from station.records import CalibrationRequest, PlanName, State
 from station.robot import Robot
@@ -49,8 +49,8 @@ def calibrate_command(
         raise click.UsageError(
             f"--serial {serial} is not the robot of {robot_file}, which is {robot.serial}."
         )
-    log_to(home, terminal=logging.ERROR)
-    with _interruptible(), Runtime.open(settings, home, emulate) as runtime:
+    logs = logging_to(home, terminal=logging.ERROR)
+    with _interruptible(), logs, Runtime.open(settings, home, emulate) as runtime:
         if robot_file:
             runtime.store.save_robot(robot)
         request = CalibrationRequest(serial or robot.serial, plan, operator or getpass.getuser(), work_order)

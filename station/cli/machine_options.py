@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from logging.handlers import RotatingFileHandler
 from pathlib import Path
 from typing import Any, TypeVar
@@ -40,7 +41,8 @@ def read_settings(config: Path | None, speed: float | None) -> Settings:
     return settings.model_copy(update={"emulated": settings.emulated.model_copy(update={"speed": speed})})
 
 
-def log_to(home: Path, *, terminal: int) -> None:
+@contextmanager
+def logging_to(home: Path, *, terminal: int) -> Iterator[None]:
     """Everything to a file in the home folder, what is at least `terminal` to standard error too.
 
     :raises InputRefused: the folder cannot be written.
@@ -52,4 +54,14 @@ def log_to(home: Path, *, terminal: int) -> None:
         raise InputRefused(f"The data folder {home} cannot be used: {error.strerror}.") from error
     screen = logging.StreamHandler()
     screen.setLevel(terminal)
-    logging.basicConfig(level=logging.INFO, format=_FORMAT, handlers=[file, screen])
+    root = logging.getLogger()
+    root.setLevel(logging.INFO)
+    for handler in (file, screen):
+        handler.setFormatter(logging.Formatter(_FORMAT))
+        root.addHandler(handler)
+    try:
+        yield
+    finally:
+        for handler in (file, screen):
+            root.removeHandler(handler)
+            handler.close()

@@ -14,7 +14,7 @@ from types import FrameType
 import click
 import uvicorn
 
-from station.cli.machine_options import log_to, machine_options, read_settings
+from station.cli.machine_options import logging_to, machine_options, read_settings
 from station.errors import InputRefused
 from station.orchestrator import Orchestrator
 from station.runtime import Runtime
@@ -41,9 +41,9 @@ def serve_command(
 ) -> None:
     """The service with the operator's page."""
     settings = read_settings(config, speed)
-    log_to(home, terminal=logging.WARNING)
+    logs = logging_to(home, terminal=logging.WARNING)
     listener = _listen(host or settings.service.host, settings.service.port if port is None else port)
-    with listener, Runtime.open(settings, home, emulate) as runtime:
+    with logs, listener, Runtime.open(settings, home, emulate) as runtime:
         application = import_module(_APPLICATION).create_app(runtime)
         server = _Server(
             uvicorn.Config(
