@@ -161,6 +161,7 @@ class Machine:
         self._on_s = self._looked_s = clock()
         self._rested = True
         self._stops = 0
+        self._start_memories()
 
     # -- what the drives do ------------------------------------------------------------------
 
@@ -221,6 +222,12 @@ class Machine:
             for axis, shaft, zero in zip(self.axes, state.shaft_pulses, state.zero_pulses, strict=True):
                 axis.put(shaft)
                 axis.zero_pulses = zero
+            self._start_memories()
+
+    def _start_memories(self) -> None:
+        """Let effects with a memory see where everything stands before the first move."""
+        with suppress(Unreachable):
+            self._reading_mm(self._scene(self._clock()))
 
     # -- physics ---------------------------------------------------------------------------------
 

@@ -96,11 +96,11 @@ class JointEffect(Effect):
         return scene.theta_deg[self.joint - 1]
 
 
+@dataclass(slots=True)
 class Play:
     """What is dragged along with a play: it stays until its driver has crossed the width."""
 
-    def __init__(self) -> None:
-        self._follower: float | None = None
+    _follower: float | None = None
 
     def follow(self, driver: float, width: float) -> float:
         """Where the follower is, less where its driver is; starts in the middle."""

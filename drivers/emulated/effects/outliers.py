@@ -14,7 +14,7 @@ class Outliers(Effect):
     kind: Literal["outliers"] = "outliers"
     rate: float = Field(ge=0, le=1)
     size_mm: float
-    _rng: Random = PrivateAttr(default_factory=Random)
+    _rng: Random = PrivateAttr()
     _present_mm: float = PrivateAttr(default=0.0)
 
     def start(self, rng: Random) -> None:

@@ -13,7 +13,7 @@ class RandomWalk(Effect):
 
     kind: Literal["random_walk"] = "random_walk"
     mm_per_stop: float = Field(ge=0)
-    _rng: Random = PrivateAttr(default_factory=Random)
+    _rng: Random = PrivateAttr()
     _shift_mm: float = PrivateAttr(default=0.0)
 
     def start(self, rng: Random) -> None:
