@@ -16,7 +16,7 @@ from web.routes import calibrations, health, live, readings, station, stop
 
 DESCRIPTION = """Zero-offset calibration of a 2-DOF five-bar robot, for the operator's page and the MES alike.
 
-State is pushed on the WebSocket `/api/v1/live`: first a full snapshot, then numbered events, a beat each second.
+State is pushed on the WebSocket `/api/v1/live`: first a snapshot, then numbered events, a beat each second.
 Errors are problem documents (RFC 9457)."""
 
 

@@ -1,4 +1,4 @@
-"""What travels over HTTP: request bodies and answers.  The OpenAPI file and the page's types come from here."""
+"""What travels over HTTP: bodies and answers.  The OpenAPI file and the page's types come from here."""
 
 from __future__ import annotations
 

@@ -9,7 +9,10 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from web.problems import problem
 
-CONTENT_SECURITY_POLICY = "default-src 'self'; style-src-attr 'unsafe-inline'; base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
+CONTENT_SECURITY_POLICY = (
+    "default-src 'self'; style-src-attr 'unsafe-inline'; "
+    "base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
+)
 """Own files only.  Style attributes are allowed because the SVG charts are drawn with them."""
 
 SAFE_METHODS = ("GET", "HEAD", "OPTIONS")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import pytest
 
 from tests.web.conftest import LIMIT_S, Service
@@ -79,7 +81,7 @@ def test_abort_may_be_called_twice(service: Service) -> None:
         ({"speed": 5}, "speed"),
     ],
 )
-def test_a_wrong_body_names_the_field(service: Service, changes: dict[str, object], field: str) -> None:
+def test_a_wrong_body_names_the_field(service: Service, changes: dict[str, Any], field: str) -> None:
     answer = service.start(**changes)
     assert (answer.status_code, answer.json()["field"]) == (422, field)
 
@@ -121,7 +123,7 @@ def test_the_list_is_filtered(service: Service) -> None:
     assert listed(verdict="pass", robot_serial="FB-1") == [passed]
     created = service.client.get(f"{LIST}/{other}").json()["created_at"]
     assert listed(since=created) == [aborted, other]
-    assert listed(until=created) == [other, passed]
+    assert listed(until=created) == [passed]
     assert listed(since="2100-01-01") == []
 
 

@@ -24,7 +24,10 @@ def test_stop_without_a_run_still_stops(service: Service) -> None:
 
 
 def test_stop_passes_a_worker_that_hangs_in_a_device(service: Service) -> None:
-    service.rig.script.do("scale read", lambda: service.rig.released.wait() and None)
+    def hang() -> None:
+        service.rig.released.wait()
+
+    service.rig.script.do("scale read", hang)
     service.start()
     service.wait_for("scale read")
     began = time.monotonic()

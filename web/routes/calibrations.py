@@ -56,7 +56,7 @@ def list_calibrations(
     state: State | None = None,
     verdict: Literal["pass", "fail"] | None = None,
     since: Annotated[datetime | None, Query(description="created at or after")] = None,
-    until: Annotated[datetime | None, Query(description="created at or before")] = None,
+    until: Annotated[datetime | None, Query(description="created before")] = None,
 ) -> Page:
     """Newest first, page by page."""
     return runtime.store.calibrations(
@@ -65,8 +65,8 @@ def list_calibrations(
         robot_serial=robot_serial,
         state=state,
         verdict=verdict,
-        since=since and since.isoformat(),
-        until=until and until.isoformat(),
+        since=since,
+        until=until,
     )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from contextlib import suppress
 
 from fastapi import APIRouter, WebSocket
 from starlette.websockets import WebSocketDisconnect
@@ -24,16 +25,14 @@ async def live(websocket: WebSocket) -> None:
         return
     await websocket.accept()
     feed: LiveFeed = websocket.app.state.feed
-    feeding = asyncio.create_task(feed.serve(websocket.send_text))
-    leaving = asyncio.create_task(_until_left(websocket))
-    _, pending = await asyncio.wait((feeding, leaving), return_when=asyncio.FIRST_COMPLETED)
-    for task in pending:
-        task.cancel()
-    for outcome in await asyncio.gather(feeding, leaving, return_exceptions=True):
-        if isinstance(outcome, Exception) and not isinstance(outcome, WebSocketDisconnect):
-            raise outcome
+    async with asyncio.TaskGroup() as tasks:
+        feeding = tasks.create_task(_feed(feed, websocket))
+        while (await websocket.receive())["type"] != "websocket.disconnect":
+            pass
+        feeding.cancel()
 
 
-async def _until_left(websocket: WebSocket) -> None:
-    while (await websocket.receive())["type"] != "websocket.disconnect":
-        pass
+async def _feed(feed: LiveFeed, websocket: WebSocket) -> None:
+    # who is gone is found out by sending as well as by receiving
+    with suppress(WebSocketDisconnect):
+        await feed.serve(websocket.send_text)

@@ -753,7 +753,7 @@ export interface operations {
                 verdict?: ("pass" | "fail") | null;
                 /** @description created at or after */
                 since?: string | null;
-                /** @description created at or before */
+                /** @description created before */
                 until?: string | null;
             };
             header?: never;

@@ -162,6 +162,10 @@ function toApi(filters: URLSearchParams): URLSearchParams {
   const since = filters.get("since");
   const until = filters.get("until");
   if (since) asked.set("since", new Date(`${since}T00:00:00`).toISOString());
-  if (until) asked.set("until", new Date(`${until}T23:59:59.999`).toISOString());
+  if (until) {
+    const end = new Date(`${until}T00:00:00`);
+    end.setDate(end.getDate() + 1);
+    asked.set("until", end.toISOString());
+  }
   return asked;
 }
