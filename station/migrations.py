@@ -31,12 +31,13 @@ def first_tables(db: Database) -> None:
     )
     for column in ("robot_serial", "state", "verdict", "created_ms"):
         db.execute(f"CREATE INDEX calibrations_{column} ON calibrations ({column})")
+    # `samples`: a JSON list, each sample's distance from scale_mm rounded to 10 nm, in units of 10 nm.
     db.execute(
         """CREATE TABLE readings (
             calibration_id INTEGER NOT NULL REFERENCES calibrations (id), reading INTEGER NOT NULL,
             walk INTEGER NOT NULL, t_s REAL NOT NULL, theta1_deg REAL NOT NULL, theta2_deg REAL NOT NULL,
             approach1 INTEGER NOT NULL, approach2 INTEGER NOT NULL, scale_mm REAL NOT NULL,
-            position TEXT NOT NULL, samples_mm TEXT, temperature_c REAL, payload_kg REAL, mount TEXT,
+            position TEXT NOT NULL, samples TEXT, temperature_c REAL, payload_kg REAL, mount TEXT,
             PRIMARY KEY (calibration_id, reading)) WITHOUT ROWID"""
     )
     # What is asked for across runs has columns of its own; the rest is read one run at a time.

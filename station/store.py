@@ -255,9 +255,10 @@ class Store:
         """
         conditions: list[str] = []
         values: list[Any] = []
-        for column, wanted in (("robot_serial", robot_serial), ("state", state), ("verdict", verdict)):
+        for column, wanted in (("robot_serial", robot_serial), ("verdict", verdict), ("state", state)):
             if wanted is not None:
-                conditions.append(f"{column} = ?")
+                # Only the first, most selective one may choose the index: + takes the others out.
+                conditions.append(f"{'+' if conditions else ''}{column} = ?")
                 values.append(wanted)
         if cursor is not None:
             conditions.append("id < ?")

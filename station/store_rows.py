@@ -16,12 +16,25 @@ from station.records import CalibrationResult, Reading
 
 READING_COLUMNS = (
     "reading, walk, t_s, theta1_deg, theta2_deg, approach1, approach2, scale_mm, position,"
-    " samples_mm, temperature_c, payload_kg, mount"
+    " samples, temperature_c, payload_kg, mount"
 )
 LIST_COLUMNS = (
     "id, robot_serial, plan, operator, work_order, state, verdict, reason, step, steps,"
     " created_ms, started_ms, ended_ms, zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg"
 )
+# What results have in common need not be stored with each.  Never change it: old results need it.
+_WORDS = (
+    b'measure the mechanism\'s mounting error, or use the plan `full`","separating_experiment":"alias_set":'
+    b'both arms together with a sideways error of the mechanism","share":"p_value":"effect":"joint":"source":'
+    b'"findings":[{"effect":"predicted_position_error_mm":{"rms":,"max":}}"before":{"reading_rms_mm":,"after":'
+    b'{"reading_rms_mm":"method":"published","parameters":[{"name":"rMx","value":,"sd":,"unit":"mm"},{"name":'
+    b'"rMy","unit":"deg"}],"weak_direction":{"singular_ratio":0.00,"text":","sd_deg":,"remedy":"remedies":'
+    b'"iterations":[{"pass":1,"dtheta1_deg":,"dtheta2_deg":-,"total1_deg":,"total2_deg":-,"mu_deg":null,'
+    b'"condition":47"residuals":[{"reading":1,"position":"P1","residual_mm":0.000,"limit_mm":0.00},{"reading":'
+)
+_SAMPLE_DIGITS = 5
+_SAMPLE_UNIT_MM = 10.0**-_SAMPLE_DIGITS
+"""A tenth of the finest step of any supported readout."""
 _REST = ("before", "after", "findings", "method", "parameters", "weak_direction", "iterations", "residuals")
 
 
@@ -78,21 +91,30 @@ def unsound(value: Any, where: str = "") -> str | None:
 def pack_result(
     result: CalibrationResult,
 ) -> tuple[float | None, float | None, float | None, float | None, bytes]:
-    """Zero offsets as columns, the rest as one compressed JSON text, numbers to 9 digits."""
+    """Zero offsets as columns, the rest as one compressed JSON text."""
     zeros = {offset.name: offset for offset in result.zero_offsets}
     first, second = zeros.get("dtheta1"), zeros.get("dtheta2")
     rest = {key: value for key, value in _storable(result.to_json()).items() if key in _REST and value}
     return (
         *((_finite(first.value), _finite(first.sd)) if first else (None, None)),
         *((_finite(second.value), _finite(second.sd)) if second else (None, None)),
-        zlib.compress(compact(rest).encode(), 9),
+        _press(compact(rest)),
     )
 
 
+def _press(text: str) -> bytes:
+    pressing = zlib.compressobj(level=9, zdict=_WORDS)
+    return pressing.compress(text.encode()) + pressing.flush()
+
+
+def _expand(blob: bytes) -> str:
+    return zlib.decompressobj(zdict=_WORDS).decompress(blob).decode()
+
+
 def _storable(value: Any) -> Any:
-    """Nine significant digits are more than any device has, and a third of the bytes."""
+    """Six significant digits are more than any uncertainty asks for, and a third of the bytes."""
     if isinstance(value, float):
-        return float(f"{value:.9g}") if math.isfinite(value) else None
+        return float(f"{value:.6g}") if math.isfinite(value) else None
     if isinstance(value, Mapping):
         return {str(key): _storable(part) for key, part in value.items()}
     if isinstance(value, Sequence) and not isinstance(value, str):
@@ -118,7 +140,7 @@ def calibration_dict(row: sqlite3.Row, *, full: bool) -> dict[str, Any]:
     item["zero_offsets"] = zeros
     if full:
         item["metadata"] = json.loads(row["metadata"]) if row["metadata"] else {}
-        rest = json.loads(zlib.decompress(row["rest"])) if row["rest"] else {}
+        rest = json.loads(_expand(row["rest"])) if row["rest"] else {}
         empty: dict[str, Any] = {"before": None, "after": None, "method": None, "weak_direction": None}
         item |= {key: rest.get(key, empty.get(key, [])) for key in _REST}
     return item
@@ -129,7 +151,9 @@ def reading_row(reading: Reading) -> tuple[Any, ...]:
     numbers = (reading.t_s, *reading.theta_deg, reading.scale_mm, *reading.samples_mm)
     if not all(math.isfinite(number) for number in numbers):
         raise ValueError(f"reading {reading.reading} has a number that is not finite")
-    samples = [round(sample, 5) for sample in reading.samples_mm]
+    # Samples differ in their last digits: whole units from the mean take a third of the bytes.
+    mean = round(reading.scale_mm, _SAMPLE_DIGITS)
+    samples = [round((sample - mean) / _SAMPLE_UNIT_MM) for sample in reading.samples_mm]
     return (
         reading.reading,
         reading.walk,
@@ -155,8 +179,15 @@ def reading_from_row(row: sqlite3.Row) -> Reading:
         scale_mm=row["scale_mm"],
         position=row["position"],
         walk=row["walk"],
-        samples_mm=tuple(json.loads(row["samples_mm"])) if row["samples_mm"] else (),
+        samples_mm=_samples(row["scale_mm"], row["samples"]),
         temperature_c=row["temperature_c"],
         payload_kg=row["payload_kg"],
         mount=row["mount"],
     )
+
+
+def _samples(scale_mm: float, units: str | None) -> tuple[float, ...]:
+    if units is None:
+        return ()
+    mean = round(scale_mm, _SAMPLE_DIGITS)
+    return tuple(round(mean + unit * _SAMPLE_UNIT_MM, _SAMPLE_DIGITS) for unit in json.loads(units))
