@@ -117,7 +117,7 @@ class HeidenhainND:
             return self._retried(self._ask_value)
 
     def indicators(self) -> dict[str, Indicator]:
-        """The display's status symbols by name (an ND 281B has more of them than an ND 280).
+        """The display's status symbols by name; which there are depends on the model.
 
         :raises DeviceError:
         """
@@ -215,9 +215,12 @@ class HeidenhainND:
         return tuple(text.decode("ascii").strip() for text in texts)
 
     def _ask_indicators(self) -> dict[str, Indicator]:
-        reply = self._ask_screen("A0900")
+        self._send_screen_command("A0900")
+        reply = self._read_lines(1)
+        if reply == _NAK:
+            return {}
         digits = reply[1:-2]
-        if not re.fullmatch(rb"[012]{10}([012]{4})?", digits):
+        if reply[:1] != _STX or not re.fullmatch(rb"[012]{10}([012]{4})?", digits):
             raise self._garbled(reply)
         return {
             name: Indicator(int(digit))

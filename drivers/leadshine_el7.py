@@ -154,7 +154,10 @@ class LeadshineEL7:
         self._target_pulses = target
 
     def status(self) -> AxisStatus:
-        """:raises DeviceError:"""
+        """One look at the drive; in position means: at the target of this object's latest move.
+
+        :raises DeviceError:
+        """
         motion = MotionStatus(self._read(MOTION_STATUS) & 0x77)
         outputs = self._read(OUTPUT_STATUS)
         alarm = None

@@ -11,7 +11,7 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from threading import Condition
 from typing import TypeVar
 
@@ -22,7 +22,7 @@ from tenacity import Retrying, retry_if_exception_type, stop_after_attempt
 
 from drivers.line_url import NetAddress, SerialAddress, parse_line_url
 from drivers.protocols import DeviceFault, GarbledReply, LinkLost
-from drivers.serial_line import Trace
+from drivers.serial_line import Trace, open_serial_port
 
 # Every failure is raised as a sentence of our own; the library's log would say it a second time.
 logging.getLogger("pymodbus.logging").setLevel(logging.CRITICAL)
@@ -77,6 +77,7 @@ class ModbusBus:
         """Open the line for `owner`; it stays open until its last owner has released it.
 
         :raises LinkLost: the port or host cannot be reached
+        :raises DeviceError: the port cannot carry the line format
         """
         with self._lane.hold(urgent=False):
             self._connect()
@@ -87,7 +88,8 @@ class ModbusBus:
         with self._lane.hold(urgent=False):
             self._owners.discard(id(owner))
             if not self._owners:
-                self._client.close()  # type: ignore[no-untyped-call]
+                with suppress(OSError):  # the cable may be out
+                    self._client.close()  # type: ignore[no-untyped-call]
 
     def read(self, unit: int, address: int, count: int) -> list[int]:
         """Holding registers (function 03), asked for again when the reply is lost or malformed.
@@ -196,14 +198,11 @@ class ModbusBus:
         return reply
 
     def _connect(self) -> None:
-        try:
-            connected = self._client.connect()
-        except OSError as error:
-            raise LinkLost(f"{self.address} cannot be opened: {error}.") from error
-        if not connected:
-            raise LinkLost(
-                f"{self.address} cannot be opened; check that it is there and that nobody else holds it."
-            )
+        if self._client.connect():
+            return
+        if isinstance(self.address, SerialAddress):
+            open_serial_port(self.address, xonxoff=False).close()  # says what the library only logs
+        raise LinkLost(f"{self.address} cannot be reached; check cable, power and address.")
 
     def _expect_stale_bytes(self) -> None:
         self._stale_until_s = time.monotonic() + self._drain_s

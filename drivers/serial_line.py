@@ -14,6 +14,13 @@ import serial
 from drivers.line_url import LineFormat, NetAddress, SerialAddress, parse_line_url
 from drivers.protocols import DeviceError, LinkLost
 
+if sys.platform == "win32":
+    _FORMAT_REFUSED = serial.SerialException
+else:
+    import termios
+
+    _FORMAT_REFUSED = termios.error
+
 Trace = Callable[[Literal["tx", "rx"], bytes], None]
 """A flight recorder's hook: what crossed the wire, and which way."""
 
@@ -58,36 +65,13 @@ class SerialLine:
         :raises DeviceError: the port cannot carry the line format
         """
         self.close()
-        try:
-            port = self._open_port()
-        except (OSError, ValueError) as error:
-            raise LinkLost(f"{self.address} cannot be opened: {_reason(error)}.") from error
         if isinstance(self.address, SerialAddress):
-            wanted = self.address.effective_format
-            if not _carries(port, wanted):
-                port.close()
-                raise DeviceError(
-                    f"{self.address} cannot carry {wanted} (a pseudo-terminal has neither parity nor 7 bits);"
-                    f" add override=8N1 to its URL if that is intended."
-                )
-        self._port = port
-
-    def _open_port(self) -> serial.Serial:
-        if isinstance(self.address, NetAddress):
-            port: serial.Serial = serial.serial_for_url(f"socket://{self.address}", timeout=_SLICE_S)
-            return port
-        line_format = self.address.effective_format
-        return serial.Serial(
-            self.address.port,
-            baudrate=self.address.baud,
-            bytesize=line_format.data_bits,
-            parity=line_format.parity,
-            stopbits=line_format.stop_bits,
-            xonxoff=True,
-            timeout=_SLICE_S,
-            write_timeout=1.0,
-            exclusive=True,
-        )
+            self._port = open_serial_port(self.address, xonxoff=True)
+            return
+        try:
+            self._port = serial.serial_for_url(f"socket://{self.address}", timeout=_SLICE_S)
+        except OSError as error:
+            raise LinkLost(f"{self.address} cannot be reached: {_reason(error)}.") from error
 
     def close(self) -> None:
         """Release the port; never raises."""
@@ -143,12 +127,49 @@ class SerialLine:
         return self._port
 
 
+def open_serial_port(address: SerialAddress, *, xonxoff: bool) -> serial.Serial:
+    """Open a port for this process alone, and make sure that it took the line format.
+
+    :raises LinkLost: the port is missing or busy
+    :raises DeviceError: the port cannot carry the line format
+    """
+    wanted = address.effective_format
+    try:
+        port = serial.Serial(
+            address.port,
+            baudrate=address.baud,
+            bytesize=wanted.data_bits,
+            parity=wanted.parity,
+            stopbits=wanted.stop_bits,
+            xonxoff=xonxoff,
+            timeout=_SLICE_S,
+            write_timeout=1.0,
+            exclusive=True,
+        )
+    except (OSError, ValueError) as error:
+        raise LinkLost(f"{address} cannot be opened: {_reason(error)}.") from error
+    except _FORMAT_REFUSED as error:
+        raise _cannot_carry(address) from error
+    if not _carries(port, wanted):
+        port.close()
+        raise _cannot_carry(address)
+    return port
+
+
+def _cannot_carry(address: SerialAddress) -> DeviceError:
+    return DeviceError(
+        f"{address} cannot carry {address.effective_format}"
+        f" (a pseudo-terminal has neither parity nor 7 bits); add override=8N1 to its URL if that is intended."
+    )
+
+
 def _carries(port: serial.SerialBase, wanted: LineFormat) -> bool:
-    """Whether the port took data bits and parity; a pseudo-terminal drops both without a word."""
+    """Whether the port took data bits and parity.
+
+    A pseudo-terminal drops both without a word the first time, and refuses the second time.
+    """
     if sys.platform == "win32":
         return True  # the port's driver refuses by itself there
-    import termios
-
     control_flags = termios.tcgetattr(port.fileno())[2]
     data_bits = {termios.CS7: 7, termios.CS8: 8}.get(control_flags & termios.CSIZE)
     return data_bits == wanted.data_bits and bool(control_flags & termios.PARENB) == (wanted.parity != "N")

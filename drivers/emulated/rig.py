@@ -99,6 +99,12 @@ class _StateKeeper:
     def __enter__(self) -> Self:
         if self._path.exists():
             self._machine.restore(_load_state(self._path))
+        try:
+            self._save()
+        except OSError as error:
+            raise StateFileError(
+                f"The state file {self._path} cannot be written: {error.strerror}."
+            ) from error
         self._thread.start()
         return self
 

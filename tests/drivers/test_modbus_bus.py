@@ -12,7 +12,7 @@ import pytest
 
 from drivers.line_url import BadUrl
 from drivers.modbus_bus import ModbusBus, UnansweredWrite
-from drivers.protocols import DeviceFault, GarbledReply, LinkLost
+from drivers.protocols import DeviceError, DeviceFault, GarbledReply, LinkLost
 from tests.drivers.wire import SILENCE, Exchange, PtyEnd, Say, TcpEnd, rtu
 
 READ_1000 = rtu("01 03 1000 0001")
@@ -182,13 +182,27 @@ def test_a_late_tcp_reply_is_told_by_its_number() -> None:
 def test_nobody_listens() -> None:
     with TcpEnd([]) as end:
         pass
-    with pytest.raises(LinkLost, match="cannot be opened"):
+    with pytest.raises(LinkLost, match="cannot be reached"):
         tcp_bus(end.port).open("test")
 
 
 def test_a_missing_port_is_a_lost_link() -> None:
-    with pytest.raises(LinkLost, match="cannot be opened"):
+    with pytest.raises(LinkLost, match="there is no such port"):
         ModbusBus("modbus+rtu:///dev/nowhere").open("test")
+
+
+def test_parity_on_a_pseudo_terminal_needs_the_override() -> None:
+    with PtyEnd([]) as end, pytest.raises(DeviceError, match="cannot carry 8E1"):
+        ModbusBus(f"modbus+rtu://{end.port}?format=8E1").open("test")
+
+
+def test_a_port_that_is_held_is_a_lost_link() -> None:
+    with PtyEnd([]) as end:
+        first, second = ModbusBus(f"modbus+rtu://{end.port}"), ModbusBus(f"modbus+rtu://{end.port}")
+        first.open("test")
+        with pytest.raises(LinkLost, match="another program holds it"):
+            second.open("test")
+        first.release("test")
 
 
 def test_a_bad_url_is_refused_at_once() -> None:

@@ -53,8 +53,10 @@ def test_an_order_to_drop_the_link_ends_the_connection() -> None:
 
 
 def test_closing_with_a_client_connected() -> None:
-    gateway = ModbusTcpGateway({})
+    gateway = ModbusTcpGateway({1: lambda pdu: DriveReply(pdu)})
     with socket.create_connection(("127.0.0.1", gateway.port), timeout=5) as connection:
+        connection.sendall(bytes.fromhex("0007 0000 0002 01 03"))
+        assert connection.recv(100) == bytes.fromhex("0007 0000 0002 01 03")
         gateway.close()
         assert connection.recv(1) == b""
 

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
+import serial
 
 from drivers.emulated.rig import EmulatedRig, StateFileError
 from drivers.emulated.rig_file import DEFAULT_RIG, load_rig
@@ -131,6 +132,23 @@ def test_a_damaged_state_file_is_refused(tmp_path: Path) -> None:
         EmulatedRig(RigSpec(), state_file=state_file),
     ):
         pass
+
+
+def test_a_state_file_that_cannot_be_written_is_refused(tmp_path: Path) -> None:
+    with (
+        pytest.raises(StateFileError, match="cannot be written"),
+        EmulatedRig(RigSpec(), state_file=tmp_path / "nowhere" / "place.json"),
+    ):
+        pass
+
+
+def test_the_display_waits_between_xoff_and_xon(rig: EmulatedRig) -> None:
+    with serial.Serial(rig.scale_url.split("//")[1].split("?")[0], timeout=0.1) as port:
+        port.write(b"\x13\x02")
+        assert port.read(17) == b""
+        port.write(b"\x11")
+        port.timeout = PATIENCE_S
+        assert port.read(17).startswith(b"+  111.6")
 
 
 # -- scripted wire faults --------------------------------------------------------------------------
