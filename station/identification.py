@@ -20,12 +20,11 @@ from station.measurements import Measurements
 from station.records import Quantity
 from station.robot import Robot
 
-OUTSIDE_MM = 100.0
+OUTSIDE_MM = 80.0
 """A pose further outside the workspace than zero offsets of a few degrees explain is a wrong unit or row."""
 LACK_OF_FIT_P = 1e-3
-IMPOSSIBLE_SDS = 50.0
-"""A parameter this many tolerances from nominal (a link 1.5 mm off) is a wrong file, not a calibration;
-what an undeclared effect does to the parameters stays below it and is for the diagnosis to name."""
+IMPOSSIBLE_SDS = 20.0
+"""A parameter this many tolerances from nominal is a wrong file or a missing effect, not a calibration."""
 
 
 @dataclass(frozen=True)
@@ -171,19 +170,16 @@ def identify(robot: Robot, measurements: Measurements) -> Identification:
 def _without_outliers(
     robot: Robot, measurements: Measurements
 ) -> tuple[Measurements, tuple[outliers.Outlier, ...]]:
-    """One at a time, the worst first, so that a gross reading does not drag good ones out with it."""
-    left_out: tuple[outliers.Outlier, ...] = ()
-    kept = measurements
-    while True:
-        mechanism = FiveBar(robot, kept)
-        prior, row_sd = tolerance_prior(mechanism), mechanism.row_sd
-        worst = outliers.find(kept, _solve(mechanism, prior, row_sd), row_sd)
-        if worst is None:
-            return kept, left_out
-        left_out = (*left_out, worst)
-        outliers.check_share(left_out, len(measurements))
-        kept = kept.take(np.array([i != worst.reading for i in kept.ids]))
-        check_places(kept)
+    mechanism = FiveBar(robot, measurements)
+    prior = tolerance_prior(mechanism)
+    found = outliers.find(measurements, lambda sd: _solve(mechanism, prior, sd), mechanism.row_sd)
+    outliers.check_share(found, len(measurements))
+    if not found:
+        return measurements, ()
+    named = {o.reading for o in found}
+    kept = measurements.take(np.array([i not in named for i in measurements.ids]))
+    check_places(kept)
+    return kept, found
 
 
 def tolerance_prior(mechanism: FiveBar) -> Prior:
@@ -212,11 +208,16 @@ def _solve(mechanism: FiveBar, prior: Prior, row_sd: Real) -> Solution:
 def check_poses(robot: Robot, measurements: Measurements) -> None:
     """:raises InputRefused: naming the first reading whose angles cannot be of this robot."""
     theta = measurements.theta
+    if np.abs(np.degrees(theta)).max() < 2.0 * np.pi:
+        raise InputRefused(
+            f"Reading {measurements.ids[0]}, columns theta1_deg and theta2_deg: "
+            "the angles look like radians; give degrees."
+        )
     try:
         r = forward(robot.geometry, theta)
     except Unreachable as error:
         k = int(error.indices[0])
-        raise InputRefused(_pose_refusal(robot, measurements, k, str(error))) from error
+        raise InputRefused(_pose_refusal(measurements, k, str(error))) from error
     (x0, x1), (y0, y1) = robot.workspace_x, robot.workspace_y
     dx = np.maximum(np.maximum(x0 - r.real, r.real - x1), 0.0)
     dy = np.maximum(np.maximum(y0 - r.imag, r.imag - y1), 0.0)
@@ -225,15 +226,14 @@ def check_poses(robot: Robot, measurements: Measurements) -> None:
     if bad.size:
         k = int(bad[0])
         text = f"the platform would stand {outside[k]:.0f} mm outside the workspace."
-        raise InputRefused(_pose_refusal(robot, measurements, k, text))
+        raise InputRefused(_pose_refusal(measurements, k, text))
 
 
-def _pose_refusal(robot: Robot, measurements: Measurements, k: int, text: str) -> str:
-    where = f"Reading {measurements.ids[k]}, columns theta1_deg and theta2_deg: {text}"
-    degrees = np.degrees(measurements.theta)
-    if np.abs(degrees).max() < 2.0 * np.pi:
-        return f"{where} The angles look like radians; give degrees."
-    return f"{where} Check unit, sign and order of the joints and the robot file."
+def _pose_refusal(measurements: Measurements, k: int, text: str) -> str:
+    return (
+        f"Reading {measurements.ids[k]}, columns theta1_deg and theta2_deg: {text} "
+        "Check unit, sign and order of the joints and the robot file."
+    )
 
 
 def check_places(measurements: Measurements) -> None:
@@ -258,5 +258,6 @@ def _check_possible(fit: Identification) -> None:
         p = parameters[worst]
         raise InputRefused(
             f"Impossible result: {p.name} would be {fit.p[worst] * p.shown:.3f} {p.unit}, "
-            f"{offset[worst]:.0f} times its tolerance; check the robot file and the columns of the readings."
+            f"{offset[worst]:.0f} times its tolerance; check the robot file and the readings' columns, "
+            "then run the diagnosis."
         )

@@ -6,6 +6,7 @@ effect at a place (a dent, a cable) shows in all of them and must not be thrown 
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any
 
@@ -15,13 +16,18 @@ from scipy import stats
 from station.errors import InputRefused
 from station.kinematics import Real
 from station.least_squares import Solution
-from station.measurements import Measurements
+from station.measurements import Index, Measurements
 
 SIGNIFICANCE = 1e-3
 """For the whole set of readings (Bonferroni)."""
 LARGEST_SHARE = 0.1
 FEW = 15
 """Below this many readings their own scatter cannot be trusted to be smaller than specified."""
+SUSPICIOUS = 1.5
+"""More scatter than specified may be gross readings in hiding."""
+CAUCHY = 2.385
+"""Tuning constant of the Cauchy weight, in standard deviations (95 % efficient for normal noise)."""
+ROBUST_STEPS = 12
 
 
 @dataclass(frozen=True)
@@ -40,28 +46,63 @@ class Outlier:
         return {"reading": self.reading, "residual_mm": self.residual_mm, "reason": self.reason}
 
 
-def find(measurements: Measurements, solution: Solution, row_sd: Real) -> Outlier | None:
-    """The worst outlying reading of a fit, or None.  `row_sd` (K,) whitened the fit."""
+Fit = Callable[[Real], Solution]
+"""Row standard deviations (K,) -> fit of all readings whitened with them."""
+
+
+def find(measurements: Measurements, fit: Fit, row_sd: Real) -> tuple[Outlier, ...]:
+    """The outlying readings against a robust fit; `row_sd` (K,) is what the readings should scatter by.
+
+    Plain least squares bends towards gross readings until good ones look wrong, so the fit is
+    repeated with Cauchy weights until the majority alone decides.
+    """
+    solution = fit(row_sd)
     residual = -solution.residual
+    t = residual / np.sqrt(_left(solution))
+    scale = _scale(t)
+    limit = float(stats.norm.isf(SIGNIFICANCE / (2 * len(measurements))))
+    if np.abs(t).max() <= limit * scale and scale < SUSPICIOUS:
+        return ()
+    for _ in range(ROBUST_STEPS):
+        stretch = np.sqrt(1.0 + (t / (CAUCHY * scale)) ** 2)
+        solution = fit(row_sd * stretch)
+        residual = -solution.residual * stretch
+        t = residual / np.sqrt(_left(solution))
+        scale = _scale(t)
+    suspects = np.flatnonzero(np.abs(t) > limit * scale)
+    return tuple(
+        Outlier(measurements.ids[k], float(residual[k] * row_sd[k]), float(abs(t[k]) / scale))
+        for k in suspects
+        if _apart(measurements, residual, int(k), suspects) > limit * scale
+    )
+
+
+def _left(solution: Solution) -> Real:
+    """(K,) share of each reading's variance that the fit leaves in its residual."""
     finite = np.isfinite(np.diag(solution.covariance))
     J, C = solution.jacobian[:, finite], solution.covariance[np.ix_(finite, finite)]
     left = 1.0 - np.einsum("ki,ij,kj->k", J, C, J)
     # a reading that alone determines a parameter cannot be judged
-    judged = left > 0.05
-    t = np.where(judged, residual / np.sqrt(np.where(judged, left, 1.0)), 0.0)
-    scale = 1.4826 * float(np.median(np.abs(t[judged]))) if judged.any() else 1.0
-    if len(measurements) < FEW:
-        scale = max(scale, 1.0)
-    limit = float(stats.norm.isf(SIGNIFICANCE / (2 * len(measurements)))) * scale
-    for k in np.argsort(-np.abs(t)):
-        if abs(t[k]) <= limit:
-            return None
-        companions = np.flatnonzero(measurements.position == measurements.position[k])
-        companions = companions[companions != k]
-        apart = abs(residual[k] - np.mean(residual[companions])) if companions.size else np.inf
-        if apart > limit:
-            return Outlier(measurements.ids[k], float(residual[k] * row_sd[k]), float(abs(t[k]) / scale))
-    return None
+    return np.where(left > 0.05, left, np.inf)
+
+
+def _scale(t: Real) -> float:
+    """Scatter of the majority, in specified standard deviations."""
+    judged = np.abs(t[t != 0.0])
+    if len(judged) == 0:
+        return 1.0
+    scale = 1.4826 * float(np.median(judged))
+    return max(scale, 1.0) if len(t) < FEW else scale
+
+
+def _apart(measurements: Measurements, residual: Real, k: int, suspects: Index) -> float:
+    """How far reading k is from the others of its place; inf when it is alone there."""
+    companions = np.flatnonzero(measurements.position == measurements.position[k])
+    companions = companions[companions != k]
+    if not companions.size:
+        return np.inf
+    sound = companions[~np.isin(companions, suspects)]
+    return float(np.abs(residual[k] - residual[sound if sound.size else companions].mean()))
 
 
 def check_share(left_out: tuple[Outlier, ...], readings: int) -> None:
