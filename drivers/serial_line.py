@@ -159,7 +159,8 @@ def open_serial_port(address: SerialAddress, *, xonxoff: bool) -> serial.Serial:
 def _cannot_carry(address: SerialAddress) -> DeviceError:
     return DeviceError(
         f"{address} cannot carry {address.effective_format}"
-        f" (a pseudo-terminal has neither parity nor 7 bits); add override=8N1 to its URL if that is intended."
+        " (a pseudo-terminal has neither parity nor 7 bits);"
+        " add override=8N1 to its URL if that is intended."
     )
 
 

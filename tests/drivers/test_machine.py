@@ -13,6 +13,7 @@ from drivers.emulated import effects
 from drivers.emulated.effects import AnyEffect
 from drivers.emulated.machine import Machine, Unreachable, lower_meeting_point
 from drivers.emulated.motion import braking, standing, trapezoid
+from drivers.emulated.rig_file import RIGS, load_rig
 from drivers.emulated.spec import MachineSpec
 from drivers.emulated.virtual import VirtualClock, VirtualReading, VirtualRig
 
@@ -81,6 +82,42 @@ def test_maemm_is_what_the_distance_is_short_of() -> None:
     """rho = |r - c - d - dr_M| = |(-1, -558.686)|."""
     reading = read(quiet(drm_mm=(1.0, 0.5)), HOME)[0]
     assert reading.scale_mm == pytest.approx(math.hypot(1.0, 558.686), abs=5e-4)
+
+
+def joints_deg(x_mm: float, y_mm: float) -> tuple[float, float]:
+    """Nominal joint angles of a place, by the cosine rule in the triangle A_i, B_i, P."""
+    angles = []
+    for e_x, outwards in ((80.0, 1), (-80.0, -1)):
+        reach = math.hypot(x_mm - e_x, y_mm)
+        opening = math.acos((375**2 + reach**2 - 825**2) / (2 * 375 * reach))
+        angles.append(math.degrees(math.atan2(y_mm, x_mm - e_x) + outwards * opening) % 360)
+    return (angles[0] + 180) % 360 - 180, angles[1]
+
+
+@pytest.mark.parametrize(
+    ("group", "home_mm", "largest_mm"),
+    [
+        (1, 10.933, 12.906),
+        (2, 5.482, 6.418),
+        (3, 3.796, 4.672),
+        (4, 10.897, 12.868),
+        (5, 5.518, 6.455),
+        (6, 3.798, 4.663),
+    ],
+)
+def test_position_errors_before_calibration_are_the_papers(
+    group: int, home_mm: float, largest_mm: float
+) -> None:
+    """Tables 3 and 4, column "before": the error of P_0 and the largest at the six boundary positions."""
+    paper = load_rig(RIGS / f"paper_group{group}.toml").machine
+    rig = VirtualRig(paper.model_copy(update={"scatter": False, "counts_per_rev": 10**9}))
+
+    def error_mm(x_mm: float, y_mm: float) -> float:
+        return math.dist(rig.stop_at(joints_deg(x_mm, y_mm)).true_point_mm, (x_mm, y_mm))
+
+    assert error_mm(0.0, -math.sqrt(825**2 - 455**2)) == pytest.approx(home_mm, abs=0.002)
+    boundary = [(x, y) for x in (-240.0, 0.0, 240.0) for y in (-632.0, -782.0)]
+    assert max(error_mm(*place) for place in boundary) == pytest.approx(largest_mm, abs=0.001)
 
 
 def test_head_constant() -> None:
