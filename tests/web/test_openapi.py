@@ -3,18 +3,10 @@
 from __future__ import annotations
 
 import json
-import os
-import shutil
-import subprocess
-from pathlib import Path
 from typing import Any
-
-import pytest
 
 from tests.web.conftest import Service
 from web import openapi
-
-UI = Path(openapi.__file__).parent / "ui"
 
 
 def operations(document: dict[str, Any]) -> list[tuple[str, dict[str, Any]]]:
@@ -43,15 +35,3 @@ def test_every_answer_has_a_schema() -> None:
                 assert kinds[wanted]["schema"], f"{name} {status}"
             else:
                 assert list(kinds) == ["text/csv"], f"{name} {status}"
-
-
-def test_the_pages_types_are_up_to_date(tmp_path: Path) -> None:
-    npx = shutil.which("npx")
-    if npx is None or not (UI / "node_modules").is_dir():
-        if os.environ.get("CI") == "true":
-            pytest.fail("the page's tools are not installed: run `npm ci` in web/ui")
-        pytest.skip("the page's tools are not installed")
-    made = tmp_path / "api-types.ts"
-    command = [npx, "openapi-typescript", str(openapi.FILE), "-o", str(made)]
-    subprocess.run(command, cwd=UI, check=True, capture_output=True)
-    assert made.read_text() == (UI / "src/api-types.ts").read_text(), "run `npm run types` in web/ui"
