@@ -87,7 +87,10 @@ def test_agrees_with_a_general_solver(unknowns: str, number: int) -> None:
 
     # the general solver stops where its cost no longer changes in double precision; restarted, it goes on
     x = start[free]
-    for _ in range(3):
+    for _ in range(2):
+        x = least_squares(
+            stacked, x, stacked_jacobian, method="dogbox", x_scale="jac", xtol=1e-15, ftol=1e-15, gtol=1e-15
+        ).x
         x = least_squares(stacked, x, stacked_jacobian, method="lm", xtol=1e-15, ftol=1e-15, gtol=1e-15).x
     sd = np.sqrt(np.diag(ours.covariance))
     assert np.linalg.norm(ours.x - x) <= 1e-9 * np.linalg.norm(x)

@@ -13,9 +13,8 @@ from station.robot import Robot
 def test_without_a_file_it_is_table_1() -> None:
     robot = Robot.default()
     assert robot.geometry.e == pytest.approx([80, -80])
-    assert robot.L == (375, 375)
-    assert robot.l == (825, 825)
-    assert robot.geometry.cd == -130j
+    assert [*robot.L, *robot.l] == pytest.approx([375, 375, 825, 825])
+    assert robot.geometry.cd == pytest.approx(-130j)
     assert robot.pulse_deg == pytest.approx(0.0018)
 
 
