@@ -7,7 +7,6 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from threading import Lock
 from typing import Any, Literal
 
 import numpy as np
@@ -17,6 +16,7 @@ from station.bounded import each_within
 from station.devices import Devices
 from station.events import Listeners
 from station.kinematics import Unreachable, forward
+from station.limits import outside_text
 from station.robot import Robot
 from station.settings import LimitSettings
 
@@ -42,6 +42,7 @@ class Pose:
 
 @dataclass(slots=True)
 class _Known:
+    connected: bool = False
     state: DeviceState = "unknown"
     text: str = "not connected yet"
     alarm: int | None = None
@@ -58,7 +59,6 @@ class Machine:
         self.compensation_deg = (0.0, 0.0)
         """What the run has found so far; added where a place is shown, never where one is judged."""
         self._listeners = listeners
-        self._lock = Lock()
         self._all: tuple[Device, ...] = (devices.scale, *devices.axes)
         self._known = {device.name: _Known() for device in self._all}
         self._pose: Pose | None = None
@@ -71,25 +71,28 @@ class Machine:
         try:
             yield
         except DeviceError as error:
-            self._learn(device, "fault" if isinstance(error, DeviceFault) else "lost", str(error))
+            works = isinstance(error, DeviceFault)
+            self._known[device.name].connected &= works
+            self._learn(device, "fault" if works else "lost", str(error))
             raise
         else:
             if self._known[device.name].alarm is None:
                 self._learn(device, "ok", "")
 
     def connect_missing(self) -> None:
-        """Connect every device that is not known to answer.
+        """Connect every device that was never connected or was lost.
 
         :raises NotReady: naming all that could not be connected, each with its cause.
         """
         failures = []
         for device in self._all:
-            if self._known[device.name].state in ("ok", "fault"):
+            if self._known[device.name].connected:
                 continue
             device.close()
             try:
                 with self.using(device):
                     device.connect()
+                    self._known[device.name].connected = True
             except DeviceError as error:
                 failures.append(str(error))
         if failures:
@@ -229,7 +232,7 @@ class Machine:
 
     def interlocks(self) -> list[dict[str, Any]]:
         """What must hold before and during motion, as data."""
-        missing = [name for name, known in self._known.items() if known.state in ("lost", "unknown")]
+        missing = [name for name, known in self._known.items() if not known.connected]
         alarms = [
             f"{name}: alarm {known.alarm:X}h; the next run tries to reset it"
             for name, known in self._known.items()
@@ -252,7 +255,7 @@ class Machine:
         place = self.place(self._pose.theta_deg)
         if place is None:
             return "the linkage cannot close at these joint angles"
-        return outside_text(self.robot, place, self.limits.swing_mm)
+        return outside_text(self.robot, complex(*place), self.limits.swing_mm)
 
     def _learn(self, device: Device, state: DeviceState, text: str) -> None:
         known = self._known[device.name]
@@ -261,17 +264,6 @@ class Machine:
         known.state, known.text = state, text
         self._listeners.publish("device", self._device_view(device))
         self._listeners.publish("interlock", self.interlocks())
-
-
-def outside_text(robot: Robot, place: tuple[float, float], margin_mm: float) -> str:
-    """Empty when a place lies within the workspace and its margin, else how far outside it is."""
-    excess = max(
-        max(low - value, value - high)
-        for value, (low, high) in zip(place, (robot.workspace_x, robot.workspace_y), strict=True)
-    )
-    if excess <= margin_mm:
-        return ""
-    return f"({place[0]:.1f}, {place[1]:.1f}) mm is {excess:.1f} mm outside; {margin_mm:g} mm is allowed"
 
 
 def _interlock(id: str, text: str, detail: str) -> dict[str, Any]:

@@ -20,6 +20,7 @@ from drivers.protocols import DeviceError
 from station.devices import Devices
 from station.errors import Busy, InputRefused, KeyReused, NotFound
 from station.events import Listener, Listeners, LiveEvent
+from station.limits import StepFailed
 from station.machine import Machine
 from station.records import (
     CalibrationRequest,
@@ -35,7 +36,7 @@ from station.run import Run
 from station.settings import Settings
 from station.store import Store
 from station.store_rows import compact
-from station.walking import Cancelled, StepFailed, Walker
+from station.walking import Cancelled, Walker
 
 __all__ = ["Busy", "InputRefused", "KeyReused", "LiveEvent", "NotFound", "Orchestrator", "Submitted"]
 
@@ -135,11 +136,14 @@ class Orchestrator:
         else:
             self._store.calibration(calibration_id)
 
-    def stop(self, who: str) -> None:
-        """Quick stop of both axes, now, whatever else happens; a run that is under way is aborted."""
-        self._halt(self._run, who)
+    def stop(self, who: str) -> dict[str, str | None]:
+        """Quick stop of both axes, now, whatever else happens; a run that is under way is aborted.
 
-    def _halt(self, run: Run | None, who: str) -> None:
+        Returns, by axis, None when it confirmed the stop, else what went wrong.
+        """
+        return self._halt(self._run, who)
+
+    def _halt(self, run: Run | None, who: str) -> dict[str, str | None]:
         if run is not None:
             run.stopped_by = run.stopped_by or who
             run.cancel.set()
@@ -150,6 +154,7 @@ class Orchestrator:
             self._store.add_event(run.id if run else None, "stop", {"by": who, **trouble})
         except sqlite3.Error:
             log.exception("The stop could not be recorded")  # it was carried out all the same
+        return outcome
 
     def wait(self, calibration_id: int, timeout_s: float | None = None) -> State:
         """Until the run has ended or the time is over; its state then.  :raises NotFound:"""
@@ -203,11 +208,17 @@ class Orchestrator:
             try:
                 run = self._queue.get(timeout=IDLE_S)
             except Empty:
-                self._machine.watch()
+                self._watch()
                 continue
             if run is None:
                 return
             self._execute(run)
+
+    def _watch(self) -> None:
+        try:
+            self._machine.watch()
+        except Exception:  # the worker must outlive whatever an idle device does
+            log.exception("Looking at the idle machine failed")
 
     def _execute(self, run: Run) -> None:
         ending = self._perform(run)
@@ -258,6 +269,8 @@ class Orchestrator:
             self._machine.make_safe()
         else:
             doubt = self._machine.make_safe()
+        if run.steps == 0:
+            doubt = None  # this run has not asked for motion yet
         if run.cancel.is_set():
             ending = _Ending(State.ABORTED, f"Stopped by {run.stopped_by}.")
         return _Ending(ending.state, " ".join(part for part in (ending.reason, doubt) if part))

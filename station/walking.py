@@ -12,12 +12,11 @@ import numpy as np
 
 from drivers.protocols import ServoAxis
 from station.kinematics import forward, inverse
-from station.machine import Machine, NotReady, outside_text
+from station.limits import Angles, StepFailed, check_way
+from station.machine import Machine, NotReady
 from station.records import Reading, Stop
 from station.robot import Robot
 from station.settings import JointSettings
-
-Angles = tuple[float, float]
 
 _POLL_S = 0.01
 _LOOK_S = 0.25
@@ -26,15 +25,10 @@ _ARRIVAL_MARGIN_S = 3.0
 _SLOWEST_DEG_S = 1.0
 _STILL_DEG = 0.004
 """Two pulses: less is no motion that could have a direction."""
-_WAY_POINTS = 16
 
 
 class Cancelled(Exception):
     """The run was told to end."""
-
-
-class StepFailed(Exception):
-    """A stop could not be measured; one sentence that names it."""
 
 
 @dataclass
@@ -72,7 +66,8 @@ class Walker:
         :raises DeviceError: a device failed.
         :raises StepFailed: a limit forbids the stop, it was not reached, or its reading is in doubt.
         """
-        way = self._check_way(stop)
+        way = self._way(stop)
+        check_way(self.robot, self.joints, self.machine.limits, stop, [self._theta, *way])
         self.machine.compensation_deg = self._compensation(stop)
         for target in way:
             self._go(stop, target)
@@ -86,40 +81,10 @@ class Walker:
 
     # The way --------------------------------------------------------------------------------------
 
-    def _check_way(self, stop: Stop) -> list[Angles]:
-        """The way points to a stop, all limits checked before anything moves."""
-        limits = self.machine.limits
-        if reason := outside_text(self.robot, stop.target_mm, limits.workspace_margin_mm):
-            raise StepFailed(f"Position {stop.position} is refused: {reason}.")
-        way = self._way(stop)
-        for joint, settings in enumerate(self.joints):
-            for target in way:
-                angle = target[joint]
-                if not abs(angle - settings.zero_at_deg) <= settings.reach_deg:
-                    raise StepFailed(
-                        f"Position {stop.position} is refused: joint {joint + 1} would go to {angle:.3f} deg,"
-                        f" {settings.reach_deg:g} deg about {settings.zero_at_deg:g} are allowed."
-                    )
-        start = self._theta
-        for target in way:
-            self._check_swing(stop, start, target)
-            start = target
-        return way
-
     def _compensation(self, stop: Stop) -> Angles:
         """What the procedure has taken off this stop's command."""
         wanted = np.degrees(inverse(self.robot.geometry, np.array([complex(*stop.target_mm)])))[0]
         return float(wanted[0]) - stop.theta_deg[0], float(wanted[1]) - stop.theta_deg[1]
-
-    def _check_swing(self, stop: Stop, start: Angles, target: Angles) -> None:
-        line = np.linspace(start, target, _WAY_POINTS)
-        for theta in line:
-            place = self.machine.place((float(theta[0]), float(theta[1])))
-            reason = (
-                outside_text(self.robot, place, self.machine.limits.swing_mm) if place else "no pose there"
-            )
-            if reason:
-                raise StepFailed(f"The way to position {stop.position} is refused: {reason}.")
 
     def _way(self, stop: Stop) -> list[Angles]:
         """Straight there when the last motion then has the wanted signs, else by a run-up point."""

@@ -54,6 +54,7 @@ def serve_command(
         # uvicorn raises a signal again once it has ended; by then it has been obeyed.
         for ending in (signal.SIGINT, signal.SIGTERM):
             signal.signal(ending, signal.SIG_IGN)
+        signal.signal(signal.SIGHUP, server.handle_exit)
         server.run(sockets=[listener])
 
 

@@ -8,7 +8,7 @@ from threading import Event
 
 import numpy as np
 
-from drivers.protocols import AxisStatus, DeviceError
+from drivers.protocols import AxisStatus, DeviceError, LinkLost
 from station.devices import Devices
 from station.kinematics import forward, inverse
 from station.records import CalibrationResult, PlanName, Procedure, Quantity, Reading, Stop, Walk
@@ -56,16 +56,22 @@ class FakeAxis:
         self.moving = False
         self._script = script
 
+        self._connected = False
+
     def _happens(self, what: str) -> None:
         self._script.happens(f"{self.name} {what}")
+        if not self._connected and what not in ("connect", "make_safe", "close"):
+            raise LinkLost(f"{self.name} is not connected")
 
     def connect(self) -> None:
         self._happens("connect")
+        self._connected = True
 
     def make_safe(self) -> None:
         self._happens("make_safe")
 
     def close(self) -> None:
+        self._connected = False
         self._happens("close")
 
     def enable(self) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sqlite3
 import time
+from collections.abc import Callable
 from dataclasses import replace
 from threading import Event
 from typing import Any
@@ -34,6 +35,15 @@ def run_to_end(orchestrator: Orchestrator, request: CalibrationRequest = REQUEST
 def outcome(store: Store, calibration_id: int) -> tuple[str, str | None, str]:
     calibration = store.calibration(calibration_id)
     return calibration["state"], calibration["verdict"], calibration["reason"] or ""
+
+
+def until(orchestrator: Orchestrator, condition: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
+    """The first snapshot that meets the condition."""
+    deadline = time.monotonic() + LIMIT_S
+    while not condition(snapshot := orchestrator.snapshot()):
+        assert time.monotonic() < deadline, snapshot
+        time.sleep(0.01)
+    return snapshot
 
 
 # The whole way -----------------------------------------------------------------------------------
@@ -358,7 +368,7 @@ def test_an_abort_at_any_step_ends_in_standstill_and_is_stored(
     stopped = len(calls) - 1 - calls[::-1].index("axis 1 quick_stop")
     assert "axis 1 move_to" not in calls[stopped:]
     assert "axis 2 move_to" not in calls[stopped:]
-    assert [(e["kind"], e["data"]) for e in store.events(run)] == [("stop", {"by": "ada"})]
+    assert [(e["kind"], e["data"]["by"]) for e in store.events(run)] == [("stop", "ada")]
     orchestrator.abort(run)
     orchestrator.abort(run)
     assert store.calibration(run)["state"] == "aborted"
@@ -429,22 +439,51 @@ def test_a_standstill_that_is_not_seen_is_said(
 ) -> None:
     monkeypatch.setattr("station.machine.STANDSTILL_LIMIT_S", 0.2)
     orchestrator = start()
+    rig.axes[0].stuck = True
+    rig.script.do("axis 1 quick_stop", lambda: rig.script.do("axis 1 status", coast))
 
     def coast() -> None:
         rig.axes[0].moving = True
 
-    rig.script.do("axis 1 quick_stop", coast)
-    rig.script.do("axis 1 status", coast, at=3)
     run = orchestrator.submit(REQUEST).id
-    time.sleep(0.1)
+    until(orchestrator, lambda snapshot: snapshot["run"]["walk"] is not None)
     orchestrator.abort(run, "ada")
     assert orchestrator.wait(run, LIMIT_S) is State.ABORTED
+    assert store.calibration(run)["reason"] == (
+        "Stopped by ada. Standstill could not be confirmed: axis 1 still moves"
+    )
 
 
-def test_stop_without_a_run_stops_too(start: Start, store: Store, rig: Rig) -> None:
-    start().stop("ada")
+def test_a_success_that_does_not_come_to_rest_is_a_failure(
+    start: Start, store: Store, rig: Rig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("station.machine.STANDSTILL_LIMIT_S", 0.1)
+
+    def creeping(plan: PlanName, robot: Robot) -> Procedure:
+        readings = yield Walk("Measuring", 1, STOPS)
+        rig.axes[1].moving = True
+        return result_of(readings)
+
+    state, verdict, reason = outcome(store, run_to_end(start(creeping)))
+    assert (state, verdict) == ("failed", None)
+    assert "axis 2 still moves" in reason
+    assert "axis 2 quick_stop" in rig.script.calls
+
+
+def test_stop_without_a_run_stops_too(
+    start: Start, store: Store, rig: Rig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("station.orchestrator.IDLE_S", 0.01)
+    orchestrator = start()
+    until(orchestrator, lambda snapshot: snapshot["machine"] is not None)
+    assert orchestrator.stop("ada") == {"axis 1": None, "axis 2": None}
     assert {"axis 1 quick_stop", "axis 2 quick_stop"} <= set(rig.script.calls)
     assert [event["data"] for event in store.events(None)] == [{"by": "ada"}]
+
+
+def test_a_stop_that_no_drive_confirmed_says_so(start: Start, store: Store) -> None:
+    assert start().stop("ada")["axis 2"] == "axis 2 is not connected"
+    assert store.events(None)[0]["data"]["axis 2"] == "axis 2 is not connected"
 
 
 def test_aborting_what_does_not_exist_is_said(start: Start) -> None:
@@ -456,6 +495,7 @@ def test_shutdown_during_a_run_aborts_it_and_closes_the_devices(start: Start, st
     orchestrator = start()
     rig.axes[0].stuck = True
     run = orchestrator.submit(REQUEST).id
+    until(orchestrator, lambda snapshot: snapshot["run"]["walk"] is not None)
     orchestrator.shutdown()
     orchestrator.shutdown()
     assert outcome(store, run) == ("aborted", None, "Stopped by the station's shutdown.")
@@ -540,20 +580,12 @@ def test_an_idle_station_watches_its_machine_and_gets_lost_devices_back(
     orchestrator = start()
     events: list[LiveEvent] = []
     orchestrator.subscribe(events.append)
-
-    def until(condition: Any) -> dict[str, Any]:
-        deadline = time.monotonic() + LIMIT_S
-        while not condition(snapshot := orchestrator.snapshot()):
-            assert time.monotonic() < deadline, snapshot
-            time.sleep(0.01)
-        return snapshot
-
-    lost = until(lambda s: s["devices"][0]["state"] == "lost")
+    lost = until(orchestrator, lambda s: s["devices"][0]["state"] == "lost")
     assert lost["devices"][0]["text"] == "cable?"
     assert lost["machine"] is None
     assert not lost["interlocks"][0]["ok"]
     rig.script.faults.clear()
-    found = until(lambda s: s["machine"] is not None)
+    found = until(orchestrator, lambda s: s["machine"] is not None)
     assert found["machine"]["theta2_deg"] == 180.0
     assert all(lock["ok"] for lock in found["interlocks"])
     assert {"device", "interlock", "machine"} <= {event.type for event in events}
