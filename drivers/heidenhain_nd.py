@@ -37,6 +37,7 @@ _INDICATORS = (
 )
 _READ_ATTEMPTS = 3
 _LONGEST_REPLY_BYTES = 64
+_PAUSE_S = 0.05  # between the lines of one reply it is far shorter
 _AGREEMENT_MM = 0.01
 
 _T = TypeVar("_T")
@@ -60,12 +61,17 @@ class HeidenhainND:
         self._timeout_s = timeout_s
         self._lock = RLock()
         self._may_have_stale_bytes = False
-        self.identity: tuple[str, ...] = ()
-        """Model and software lines the display answered at `connect`."""
+        self._identity_reply = b""
 
     @property
     def name(self) -> str:
         return self._name
+
+    @property
+    def identity(self) -> tuple[str, ...]:
+        """Model and software lines the display answered at `connect`."""
+        lines = self._identity_reply[1:].decode("ascii").split("\r\n")
+        return tuple(line.strip() for line in lines if line.strip())
 
     @property
     def notice(self) -> str | None:
@@ -89,9 +95,9 @@ class HeidenhainND:
         with self._lock:
             self._line.open()
             self._may_have_stale_bytes = False
-            self.identity = ()
+            self._identity_reply = b""
             try:
-                self.identity = self._retried(self._ask_identity)
+                self._identity_reply = self._retried(self._ask_identity)
                 if self.indicators().get("inch") is Indicator.LIT:
                     raise DeviceFault(f"The {self._name} counts in inches; set it to mm.")
                 self._retried(self._compare_values)
@@ -159,12 +165,21 @@ class HeidenhainND:
         """
         if not self._may_have_stale_bytes:
             self._line.drain(0)
-            return
-        self._line.drain(self._timeout_s + self._line.byte_time_s(_LONGEST_REPLY_BYTES))
-        identity = self._ask_identity()
-        if self.identity and identity != self.identity:
-            raise GarbledReply(f"The {self._name} gave another identity than at connect; connect again.")
+        elif self._identity_reply:
+            self._read_up_to_identity()
+        else:
+            self._line.drain(self._timeout_s)
         self._may_have_stale_bytes = False
+
+    def _read_up_to_identity(self) -> None:
+        self._send_screen_command("A0000")
+        deadline_s = time.monotonic() + self._timeout_s
+        received = b""
+        while not received.endswith(self._identity_reply):
+            more = self._line.read_some(deadline_s)
+            if not more:
+                raise self._garbled(received) if received else self._silent()
+            received += more
 
     def _ask_value(self) -> float:
         self._line.write(_ASK_VALUE)
@@ -203,16 +218,15 @@ class HeidenhainND:
             text = None
         return text or "no error text is shown, look at head and cable"
 
-    def _ask_identity(self) -> tuple[str, ...]:
-        """Two or more lines of ten characters; how many depends on the model, so silence ends them."""
+    def _ask_identity(self) -> bytes:
+        """Some lines of ten characters; how many depends on the model, so silence ends them."""
         self._send_screen_command("A0000")
-        reply = self._read_lines(2)
-        while more := self._line.read_some(time.monotonic() + 0.02 + self._line.byte_time_s(2)):
+        reply = self._read_lines(1)
+        while more := self._line.read_some(time.monotonic() + _PAUSE_S):
             reply += more
-        texts = reply[1:].split(b"\r\n")
-        if reply[:1] != _STX or texts.pop() != b"" or not all(_printable(text) for text in texts):
+        if not re.fullmatch(rb"\x02([ -~]{1,13}\r\n)+", reply):
             raise self._garbled(reply)
-        return tuple(text.decode("ascii").strip() for text in texts)
+        return reply
 
     def _ask_indicators(self) -> dict[str, Indicator]:
         self._send_screen_command("A0900")
@@ -274,9 +288,7 @@ class HeidenhainND:
             if not more:
                 if reply:
                     raise self._garbled(reply)
-                raise LinkLost(
-                    f"The {self._name} does not answer on {self._line.address}; check cable and power."
-                )
+                raise self._silent()
             reply += more
         return reply
 
@@ -285,6 +297,9 @@ class HeidenhainND:
         surplus = self._line.read_some(time.monotonic())
         if surplus.strip(b"\r\n"):
             raise self._garbled(surplus)
+
+    def _silent(self) -> LinkLost:
+        return LinkLost(f"The {self._name} does not answer on {self._line.address}; check cable and power.")
 
     def _garbled(self, reply: bytes) -> GarbledReply:
         return GarbledReply(

@@ -158,7 +158,7 @@ class LeadshineEL7:
 
         :raises DeviceError:
         """
-        motion = MotionStatus(self._read(MOTION_STATUS) & 0x77)
+        motion = MotionStatus(self._read(MOTION_STATUS))
         outputs = self._read(OUTPUT_STATUS)
         alarm = None
         if MotionStatus.FAULT in motion or outputs & self._alarm_bit:
@@ -253,7 +253,7 @@ class LeadshineEL7:
         """After a lost reply: whether the drive holds this target and runs towards it or is there."""
         if _signed(self._bus.read(self._unit, PATH_0 + 1, 2)) != target:
             return False
-        running = MotionStatus(self._read(MOTION_STATUS) & 0x77) & MotionStatus.RUNNING
+        running = MotionStatus(self._read(MOTION_STATUS)) & MotionStatus.RUNNING
         return bool(running) or abs(self._feedback_pulses() - target) <= _IN_POSITION_PULSES
 
     def _pulses(self, theta_deg: float) -> int:

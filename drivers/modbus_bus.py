@@ -13,7 +13,6 @@ import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager, suppress
 from threading import Condition
-from typing import TypeVar
 
 from pymodbus import FramerType, ModbusException
 from pymodbus.client import ModbusSerialClient, ModbusTcpClient
@@ -32,8 +31,6 @@ _LONGEST_FRAME_BYTES = 256
 _GAP_BITS = 3.5 * 11
 _LEAST_GAP_S = 0.004  # the slowest of the supported drives asks for 3 ms
 
-_T = TypeVar("_T")
-
 
 class UnansweredWrite(LinkLost):
     """A write went out and no proper reply came: it may have taken or not; read the state back."""
@@ -51,7 +48,7 @@ class ModbusBus:
             url, serial="modbus+rtu", net="modbus+tcp", default_baud=38400, default_format="8N2"
         )
         self.trace: Trace | None = None
-        """A flight recorder's hook, called with ("tx" or "rx", bytes)."""
+        """A flight recorder's hook, called with ("tx" or "rx", bytes) while the line is held."""
         self._client = _client(self.address, timeout_s, self._record)
         self._lane = _Lane()
         self._owners: set[int] = set()
@@ -87,9 +84,13 @@ class ModbusBus:
         """Close the line if nobody else uses it; never raises."""
         with self._lane.hold(urgent=False):
             self._owners.discard(id(owner))
-            if not self._owners:
-                with suppress(OSError):  # the cable may be out
-                    self._client.close()  # type: ignore[no-untyped-call]
+            self._close_if_unused()
+
+    def _close_if_unused(self) -> None:
+        """Also after a stop that was sent although nobody had opened the line."""
+        if not self._owners:
+            with suppress(OSError):  # the cable may be out
+                self._client.close()  # type: ignore[no-untyped-call]
 
     def read(self, unit: int, address: int, count: int) -> list[int]:
         """Holding registers (function 03), asked for again when the reply is lost or malformed.
@@ -220,7 +221,10 @@ class ModbusBus:
             with self._lane.hold(urgent=urgent):
                 if urgent or time.monotonic() >= self._stale_until_s:
                     self._client.discard()
-                    yield
+                    try:
+                        yield
+                    finally:
+                        self._close_if_unused()
                     return
 
     def _record(self, direction: str, data: bytes) -> None:

@@ -11,7 +11,7 @@ from typing import Literal
 
 import serial
 
-from drivers.line_url import LineFormat, NetAddress, SerialAddress, parse_line_url
+from drivers.line_url import LineFormat, SerialAddress, parse_line_url
 from drivers.protocols import DeviceError, LinkLost
 
 if sys.platform == "win32":
@@ -47,16 +47,6 @@ class SerialLine:
     def notice(self) -> str | None:
         """One sentence to log at start when the line format is overridden, else None."""
         return self.address.notice if isinstance(self.address, SerialAddress) else None
-
-    @property
-    def is_open(self) -> bool:
-        return self._port is not None
-
-    def byte_time_s(self, count: int) -> float:
-        """How long `count` bytes take on the wire; 0 on a network."""
-        if isinstance(self.address, NetAddress):
-            return 0.0
-        return count * self.address.format.bits_per_byte / self.address.baud
 
     def open(self) -> None:
         """Open for this process alone.

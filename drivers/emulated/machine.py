@@ -155,7 +155,9 @@ class Machine:
         )
         self._effects = [_fresh(effect) for effect in spec.effects]
         self._joint_effects = sorted(self._effects, key=lambda effect: effect.stage)
-        self._steps = _PATH_STEPS if any(effect.follows_path for effect in self._effects) else 1
+        self._steps = 1 if self._effects else 0
+        if any(effect.follows_path for effect in self._effects):
+            self._steps = _PATH_STEPS
         for number, effect in enumerate(self._effects):
             effect.start(Random(f"{seed} effect {number}"))
         self._on_s = self._looked_s = clock()

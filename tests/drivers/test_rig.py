@@ -98,6 +98,15 @@ def test_quick_stop_halts_a_move() -> None:
             axis.close()
 
 
+def test_a_stop_gets_through_although_nobody_is_connected(rig: EmulatedRig) -> None:
+    bus = ModbusBus(rig.servo_url)
+    sent: list[bytes] = []
+    bus.trace = lambda direction, data: sent.append(data) if direction == "tx" else None
+    axis = LeadshineEL7(bus, 1, JointScaling(10_000, 20, 0.0, 1), name="servo axis 1")
+    axis.make_safe()
+    assert [frame[6:] for frame in sent] == [bytes.fromhex("01 06 6002 0040")]
+
+
 def test_preset_moves_the_zero(rig: EmulatedRig, axes: Axes) -> None:
     """Joint 1 is 2 deg beside its drive: moved to -2 deg it stands at 0, and that is then declared."""
     go(axes, -2.0, 181.0)
