@@ -21,6 +21,11 @@ class StepFailed(Exception):
     """A stop could not be measured; one sentence that names it."""
 
 
+def sentence(text: str) -> str:
+    """With a capital letter, the rest as it is."""
+    return text[:1].upper() + text[1:]
+
+
 def excess_mm(robot: Robot, places: Complex) -> Real:
     """(K,) how far places (K,) lie outside the workspace; negative inside."""
     (left, right), (low, high) = robot.workspace_x, robot.workspace_y

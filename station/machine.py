@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, Literal
 
 import numpy as np
@@ -23,6 +24,7 @@ from station.settings import LimitSettings
 STOP_LIMIT_S = 1.5
 STANDSTILL_LIMIT_S = 3.0
 CLOSE_LIMIT_S = 2.0
+_REST_POLL_S = 0.02
 
 DeviceState = Literal["ok", "lost", "fault", "unknown"]
 
@@ -152,35 +154,33 @@ class Machine:
         """Stop both axes now, from any thread; by axis None or what went wrong."""
         return each_within(STOP_LIMIT_S, {axis.name: axis.quick_stop for axis in self.devices.axes})
 
-    def standstill(self) -> str | None:
-        """Wait until both axes say that they stand; None, or a sentence that it is not confirmed."""
-        deadline = time.monotonic() + STANDSTILL_LIMIT_S
-        moving = {axis.name: True for axis in self.devices.axes}
+    def make_safe(self, *, insist: bool = True) -> str | None:
+        """Every device made safe, and both axes stopped until they say that they stand.
 
-        def ask(axis: ServoAxis) -> Callable[[], None]:
-            def look() -> None:
-                moving[axis.name] = axis.status().moving
-
-            return look
-
-        outcome: dict[str, str | None] = {}
-        while time.monotonic() < deadline:
-            outcome = each_within(
-                STOP_LIMIT_S, {axis.name: ask(axis) for axis in self.devices.axes if moving[axis.name]}
-            )
-            if not any(moving.values()):
-                return None
-            if any(outcome.values()):
-                break
-            time.sleep(0.01)
-        causes = "; ".join(text or f"{name} still moves" for name, text in outcome.items() if moving[name])
-        return f"Standstill could not be confirmed: {causes}"
-
-    def make_safe(self) -> str | None:
-        """Quick stop, every device made safe, standstill seen.  None or what could not be confirmed."""
-        self.quick_stop()
+        :param insist: on standstill; without it one try is enough, as before the first motion.
+        :return: None, or a sentence about what could not be confirmed.
+        """
         each_within(STOP_LIMIT_S, {device.name: device.make_safe for device in self._all})
-        return self.standstill()
+        return self._rest(self.devices.axes, STANDSTILL_LIMIT_S if insist else 0.0)
+
+    def standstill(self) -> str | None:
+        """Wait until both axes say that they stand.  None, or a sentence that it is not confirmed."""
+        return self._rest((), STANDSTILL_LIMIT_S)
+
+    def _rest(self, to_stop: tuple[ServoAxis, ...], limit_s: float) -> str | None:
+        deadline = time.monotonic() + limit_s
+        while True:
+            # A line may come back while this waits: a stop that was not confirmed is sent again.
+            trouble = each_within(STOP_LIMIT_S, {axis.name: axis.quick_stop for axis in to_stop})
+            to_stop = tuple(axis for axis in to_stop if trouble[axis.name])
+            looks = {axis.name: partial(_expect_standstill, axis) for axis in self.devices.axes}
+            doubts = {name: text for name, text in each_within(STOP_LIMIT_S, looks).items() if text}
+            if not doubts:
+                return None
+            if time.monotonic() >= deadline:
+                said = "; ".join(f"{name}: {text.rstrip('.')}" for name, text in doubts.items())
+                return f"Standstill could not be confirmed, look at the arm ({said})."
+            time.sleep(_REST_POLL_S)
 
     def close(self) -> None:
         """Release all lines."""
@@ -264,6 +264,11 @@ class Machine:
         known.state, known.text = state, text
         self._listeners.publish("device", self._device_view(device))
         self._listeners.publish("interlock", self.interlocks())
+
+
+def _expect_standstill(axis: ServoAxis) -> None:
+    if axis.status().moving:
+        raise DeviceFault("still moves")
 
 
 def _interlock(id: str, text: str, detail: str) -> dict[str, Any]:

@@ -268,9 +268,10 @@ class Orchestrator:
             ending = _Ending(State.FAILED)
             self._machine.make_safe()
         else:
-            doubt = self._machine.make_safe()
-        if run.steps == 0:
-            doubt = None  # this run has not asked for motion yet
+            has_moved = run.steps > 0
+            doubt = self._machine.make_safe(insist=has_moved)
+            if not has_moved:
+                doubt = None
         if run.cancel.is_set():
             ending = _Ending(State.ABORTED, f"Stopped by {run.stopped_by}.")
         return _Ending(ending.state, " ".join(part for part in (ending.reason, doubt) if part))
@@ -298,7 +299,10 @@ class Orchestrator:
         self._set_state(run, State.RUNNING)
         readings = []
         for index, stop in enumerate(walk.stops):
-            reading = walker.measure(stop, run.step + 1, walk.number)
+            try:
+                reading = walker.measure(stop, run.step + 1, walk.number)
+            except DeviceError as error:
+                raise StepFailed(f"At position {stop.position}: {error}") from error
             self._store.add_reading(run.id, reading)
             readings.append(reading)
             row = run.add_reading(index, reading, self._machine.shown_place(reading.theta_deg))

@@ -12,7 +12,7 @@ import numpy as np
 
 from drivers.protocols import ServoAxis
 from station.kinematics import forward, inverse
-from station.limits import Angles, StepFailed, check_way
+from station.limits import Angles, StepFailed, check_way, sentence
 from station.machine import Machine, NotReady
 from station.records import Reading, Stop
 from station.robot import Robot
@@ -137,7 +137,9 @@ class Walker:
                 return
             if time.monotonic() > deadline:
                 names = " and ".join(axis.name for axis in waiting)
-                raise StepFailed(f"{names} did not reach position {stop.position} within {limit_s:.1f} s.")
+                raise StepFailed(
+                    f"{sentence(names)} did not reach position {stop.position} within {limit_s:.1f} s."
+                )
             if time.monotonic() > next_look:
                 self._check_corridor(stop, start, target)
                 next_look = time.monotonic() + _LOOK_S
@@ -147,11 +149,11 @@ class Walker:
         status = self.machine.status(axis)
         if status.alarm is not None:
             raise StepFailed(
-                f"{axis.name} shows alarm {status.alarm:X}h on the way to position {stop.position};"
+                f"{sentence(axis.name)} shows alarm {status.alarm:X}h on the way to position {stop.position};"
                 " find its cause, the next run resets it."
             )
         if not status.enabled:
-            raise StepFailed(f"{axis.name} lost its power on the way to position {stop.position}.")
+            raise StepFailed(f"{sentence(axis.name)} lost its power on the way to position {stop.position}.")
         return status.in_position and not status.moving
 
     def _check_corridor(self, stop: Stop, start: Angles, target: Angles) -> None:

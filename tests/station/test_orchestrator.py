@@ -137,8 +137,16 @@ FAULTS = [
 @pytest.mark.parametrize(("call", "at", "state"), FAULTS)
 @pytest.mark.parametrize("error", [LinkLost("nothing answers"), DeviceFault("it shows a fault")])
 def test_a_device_fault_at_any_step_stops_both_axes_and_says_why(
-    start: Start, store: Store, rig: Rig, call: str, at: int, state: str, error: Exception
+    start: Start,
+    store: Store,
+    rig: Rig,
+    call: str,
+    at: int,
+    state: str,
+    error: Exception,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    monkeypatch.setattr("station.machine.STANDSTILL_LIMIT_S", 0.1)
     rig.script.fail(call, error, at=at)
     orchestrator = start()
     run = run_to_end(orchestrator)
@@ -150,6 +158,27 @@ def test_a_device_fault_at_any_step_stops_both_axes_and_says_why(
     assert device["state"] in ("lost", "fault", "ok")
     rig.script.faults.clear()
     assert outcome(store, run_to_end(orchestrator))[0] == "succeeded", "the way back"
+
+
+def test_a_stop_is_sent_again_until_it_is_confirmed(start: Start, store: Store, rig: Rig) -> None:
+    lost = LinkLost("nothing answers")
+    refused = iter([lost, lost])
+
+    def lost_in_motion() -> None:
+        rig.axes[0].moving = True
+        raise lost
+
+    rig.script.do("axis 1 feedback", lost_in_motion, at=4)
+
+    def twice() -> None:
+        if error := next(refused, None):
+            raise error
+
+    rig.script.do("axis 1 quick_stop", twice)
+    _, _, reason = outcome(store, run_to_end(start()))
+    assert reason == "At position p1: nothing answers"
+    assert rig.script.calls.count("axis 1 quick_stop") == 3
+    assert rig.script.calls.count("axis 2 quick_stop") == 1
 
 
 def test_all_devices_that_do_not_connect_are_named_at_once(start: Start, store: Store, rig: Rig) -> None:
@@ -212,7 +241,7 @@ def test_an_alarm_on_the_way_is_named_and_reset_by_the_next_run(start: Start, st
     rig.script.do("axis 2 move_to", alarm, at=2)
     state, _, reason = outcome(store, run_to_end(orchestrator))
     assert state == "failed"
-    assert "axis 2 shows alarm 180h" in reason
+    assert "Axis 2 shows alarm 180h" in reason
     lock = next(lock for lock in orchestrator.snapshot()["interlocks"] if lock["id"] == "alarm")
     assert not lock["ok"]
     assert outcome(store, run_to_end(orchestrator))[0] == "succeeded"
@@ -234,7 +263,7 @@ def test_a_drive_that_loses_its_power_on_the_way_fails_the_run(start: Start, sto
     rig.script.do("axis 1 move_to", off, at=3)
     state, _, reason = outcome(store, run_to_end(start()))
     assert state == "failed"
-    assert "axis 1 lost its power" in reason
+    assert "Axis 1 lost its power" in reason
 
 
 def one(stop: Any) -> Any:
@@ -278,7 +307,7 @@ def test_a_joint_that_does_not_arrive_is_named(
     settings = Settings(limits=LimitSettings(speed_deg_s=180, settle_s=0, samples=2))
     state, _, reason = outcome(store, run_to_end(start(settings=settings)))
     assert state == "failed"
-    assert "axis 2 did not reach position p1" in reason
+    assert "Axis 2 did not reach position p1" in reason
 
 
 def test_a_joint_that_leaves_its_way_is_stopped(
@@ -450,7 +479,7 @@ def test_a_standstill_that_is_not_seen_is_said(
     orchestrator.abort(run, "ada")
     assert orchestrator.wait(run, LIMIT_S) is State.ABORTED
     assert store.calibration(run)["reason"] == (
-        "Stopped by ada. Standstill could not be confirmed: axis 1 still moves"
+        "Stopped by ada. Standstill could not be confirmed, look at the arm (axis 1: still moves)."
     )
 
 
@@ -466,7 +495,7 @@ def test_a_success_that_does_not_come_to_rest_is_a_failure(
 
     state, verdict, reason = outcome(store, run_to_end(start(creeping)))
     assert (state, verdict) == ("failed", None)
-    assert "axis 2 still moves" in reason
+    assert "axis 2: still moves" in reason
     assert "axis 2 quick_stop" in rig.script.calls
 
 

@@ -9,6 +9,7 @@ import pytest
 from station.emulation import EmulatedRig
 from station.errors import InputRefused
 from station.records import CalibrationRequest, State
+from station.robot import Robot
 from station.runtime import Runtime
 from station.settings import EmulatedSettings, Settings, load_settings
 from station.store import Store
@@ -38,9 +39,36 @@ def test_a_paused_rig_is_stopped_over_its_real_wires(tmp_path: Path) -> None:
         assert runtime.store.calibration(run)["reason"] == "Stopped by ada."
 
 
-def test_what_a_crash_left_behind_is_interrupted_at_the_next_start(tmp_path: Path) -> None:
-    from station.robot import Robot
+FAULTS = [
+    ("scale_silent", 60, 1, ""),
+    ("scale_garbled", 60, 1, ""),
+    ("servo_link_dropped", 60, 1, ""),
+    ("scale_fault_mark", 60, 1, "The linear scale marks its value as faulty"),
+    ("drive_exception", 60, 1, " refuses the value"),
+    ("drive_alarm", 3, 1, "shows alarm 180h on the way to"),
+    ("drive_silent", 60, 60, " does not answer the gateway"),
+]
 
+
+@pytest.mark.parametrize(("kind", "after", "times", "reason"), FAULTS)
+def test_a_fault_on_the_wire_is_survived_or_named(
+    tmp_path: Path, kind: str, after: int, times: int, reason: str
+) -> None:
+    rig = tmp_path / "rig.toml"
+    rig.write_text(f'[[fault]]\nkind = "{kind}"\nafter = {after}\ntimes = {times}\n')
+    with Runtime.open(FAST, tmp_path, rig) as runtime:
+        run = runtime.orchestrator.submit(CalibrationRequest("R1", "paper", "ada")).id
+        state = runtime.orchestrator.wait(run, 30)
+        calibration = runtime.store.calibration(run)
+        if reason:
+            assert (state, calibration["verdict"]) == (State.FAILED, None)
+            assert reason in calibration["reason"]
+            assert " position P" in calibration["reason"]
+        else:
+            assert state is State.SUCCEEDED
+
+
+def test_what_a_crash_left_behind_is_interrupted_at_the_next_start(tmp_path: Path) -> None:
     store = Store(tmp_path / "station.db")
     run = store.create(CalibrationRequest("R1", "paper", "ada"), Robot.default("R1"))
     store.close()
