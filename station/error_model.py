@@ -7,11 +7,11 @@ w_i . dr = w_i . dB_i + dl_i, where dB_i is how the elbow moves.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
-from station.kinematics import Complex, Geometry, Real, close_linkage, elbows
+from station.kinematics import Complex, Geometry, Real, close_linkage
 
 NAMES = (
     "dtheta1", "dtheta2", "e1x", "e1y", "e2x", "e2y", "L1", "L2", "l1", "l2", "rMx", "rMy",
@@ -29,8 +29,7 @@ def perturbed(nominal: Geometry, p: Real) -> Geometry:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class Pose:
+class Pose(NamedTuple):
     """One evaluation of the linkage at K poses, with everything derivatives are made of."""
 
     r: Complex
@@ -47,44 +46,42 @@ class Pose:
 
 def pose(geometry: Geometry, theta: Real) -> Pose:
     """Solve the linkage at actual joint angles theta (K, 2); NaN where it does not close."""
-    B = elbows(geometry, theta)
+    arm = geometry.L * np.exp(1j * theta)
+    B = geometry.e + arm
     r = close_linkage(B, geometry.l)
     lam = r - geometry.cd
     rho = np.abs(lam)
-    return Pose(r, rho, B - geometry.e, (r[:, None] - B) / geometry.l, lam / rho)
-
-
-def _cross(a: Complex, b: Complex) -> Real:
-    return np.asarray(a.real * b.imag - a.imag * b.real)
+    return Pose(r, rho, arm, (r[:, None] - B) / geometry.l, lam / rho)
 
 
 def link_shares(at: Pose) -> Real:
     """(K, 2) alpha with direction = alpha_1 w_1 + alpha_2 w_2: what each limb's dB_i + dl_i does to rho."""
     w1, w2 = at.w[:, 0], at.w[:, 1]
+    conjugate = at.direction.conj()
+    # the imaginary part of conj(a) b is the cross product a x b
     alpha = np.empty(at.w.shape)
-    alpha[:, 0] = _cross(at.direction, w2)
-    alpha[:, 1] = _cross(w1, at.direction)
-    alpha /= _cross(w1, w2)[:, None]
+    alpha[:, 0] = (conjugate * w2).imag
+    alpha[:, 1] = -(conjugate * w1).imag
+    alpha /= (w1.conj() * w2).imag[:, None]
     return alpha
 
 
 def distance_by_joint(at: Pose) -> Real:
     """(K, 2) d rho / d theta_i in mm/rad: lambda-hat . J of eq. 19 with eq. 13."""
     # w . (Q L u) with Q a quarter turn: Re(conj(w) i L u) = -Im(conj(w) L u)
-    turned = at.w.imag * at.elbow_arm.real - at.w.real * at.elbow_arm.imag
-    return np.asarray(link_shares(at) * turned)
+    return np.asarray(link_shares(at) * (at.w * at.elbow_arm.conj()).imag)
 
 
 def distance_jacobian(geometry: Geometry, at: Pose) -> Real:
     """(K, 12) d rho / d p: the rows g'_k of eq. 21, zero offsets per rad."""
-    w, arm = at.w, at.elbow_arm
     alpha = link_shares(at)
-    wx, wy = alpha * w.real, alpha * w.imag
+    along_arm = at.w * at.elbow_arm.conj()
+    pulled = alpha * at.w
     jacobian = np.empty((len(at.r), SIZE))
-    jacobian[:, 0:2] = wy * arm.real - wx * arm.imag
-    jacobian[:, 2:6:2] = wx
-    jacobian[:, 3:6:2] = wy
-    jacobian[:, 6:8] = (wx * arm.real + wy * arm.imag) / geometry.L
+    jacobian[:, 0:2] = alpha * along_arm.imag
+    jacobian[:, 2:6:2] = pulled.real
+    jacobian[:, 3:6:2] = pulled.imag
+    jacobian[:, 6:8] = alpha * along_arm.real / geometry.L
     jacobian[:, 8:10] = alpha
     jacobian[:, 10] = -at.direction.real
     jacobian[:, 11] = -at.direction.imag

@@ -92,8 +92,10 @@ class FiveBar:
         jacobian = distance_jacobian(geometry, at)
         rho0 = p[SIZE + 2 * self._extra :]
         if not self._extra:
-            offset = np.full((len(at.rho), 1), -1.0)
-            return Observation(at.rho - rho0, np.hstack([jacobian, offset]), jacobian[:, :2])
+            full = np.empty((len(at.rho), SIZE + 1))
+            full[:, :SIZE] = jacobian
+            full[:, SIZE] = -1.0
+            return Observation(at.rho - rho0, full, jacobian[:, :2])
         drm, offset = self._by_mount(jacobian[:, 10:12])
         full = np.hstack([jacobian[:, :10], drm, offset])
         return Observation(at.rho - rho0[self._mount], full, jacobian[:, :2])

@@ -71,14 +71,15 @@ def elbows(geometry: Geometry, theta: Real) -> Complex:
 def close_linkage(B: Complex, l: Real) -> Complex:  # noqa: E741
     """Eq. 5 to 8: P (K,) where circles of radius l_i about the elbows B (K, 2) meet, lower branch.
 
-    NaN where they do not meet.
+    NaN where they do not meet; callers silence or refuse that.
     """
-    span = B[:, 0] - B[:, 1]
-    square = span.real**2 + span.imag**2
-    along = 0.5 + (l[1] ** 2 - l[0] ** 2) / (2.0 * square)
-    with np.errstate(invalid="ignore"):
-        across = np.sqrt(l[1] ** 2 / square - along**2)
-    return np.asarray(B[:, 1] + span * (along - 1j * across))
+    foot = B[:, 1]
+    span = B[:, 0] - foot
+    square = (span * span.conj()).real
+    first, second = float(l[0]) ** 2, float(l[1]) ** 2
+    along = 0.5 + (0.5 * (second - first)) / square
+    across = np.sqrt(second / square - along * along)
+    return np.asarray(foot + span * (along - 1j * across))
 
 
 def forward(geometry: Geometry, theta: Real) -> Complex:
@@ -86,7 +87,8 @@ def forward(geometry: Geometry, theta: Real) -> Complex:
 
     :raises Unreachable: naming the first pose at which the linkage does not close.
     """
-    r = close_linkage(elbows(geometry, theta), geometry.l)
+    with np.errstate(invalid="ignore"):
+        r = close_linkage(elbows(geometry, theta), geometry.l)
     bad = np.flatnonzero(np.isnan(r))
     if bad.size:
         angles = np.degrees(theta[bad[0]])

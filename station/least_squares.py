@@ -1,23 +1,24 @@
 """Whitened Gauss-Newton with Levenberg-Marquardt step control, SVD inside.
 
 The problem is to minimise |r(x)|^2 + |W (x - m)|^2, where r is already divided by its standard
-deviation and (m, W) is the prior.  Each step solves the linearised problem through the QR
-factors of the scaled, stacked Jacobian and the SVD of R, so singular values and blind directions
-come with the answer.  Converged means: the next full step is below `TOLERANCE` standard deviations.
+deviation and (m, W) is the prior.  Converged means: the last step was shorter than `TOLERANCE`
+standard deviations (each is at most a few hundredths of the one before).  Singular values and blind directions come with the answer.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg.lapack import dposv
 
 from station.kinematics import Real
 
-TOLERANCE = 1e-7
+TOLERANCE = 3e-8
 MAX_STEPS = 60
-BLIND = 1e-11
+BLIND = 1e-10
 """Singular values below this share of the largest carry no information in double precision."""
 
 Residuals = Callable[[Real], tuple[Real, Real]]
@@ -81,25 +82,34 @@ class Solution:
 def solve(residuals: Residuals, start: Real, prior: Prior) -> Solution:
     """Minimise from `start` (P,).
 
+    Steps come from the normal equations with unit columns: their rounding only slows a step, the
+    residual and its gradient decide where the iteration ends.  The answer's shape comes from the
+    SVD of the stacked Jacobian itself.
+
     :raises NotConvergedError: no convergence in `MAX_STEPS`, or not a number at the start.
     """
+    with np.errstate(invalid="ignore"):
+        return _solve(residuals, start, prior)
+
+
+def _solve(residuals: Residuals, start: Real, prior: Prior) -> Solution:
     x = start.astype(float)
     stacked, target, r, J = _stack(residuals, x, prior)
     cost = float(target @ target)
-    if not np.isfinite(cost):
+    if not math.isfinite(cost):
         raise NotConvergedError("the model cannot be evaluated at the starting values")
     damping = 0.0
     for step in range(1, MAX_STEPS + 1):
-        scale = np.sqrt(np.einsum("ij,ij->j", stacked, stacked))
+        normal = stacked.T @ stacked
+        gradient = stacked.T @ target
+        scale = np.sqrt(normal.diagonal())
         scale[scale == 0.0] = 1.0
-        R: Real = np.asarray(np.linalg.qr(np.column_stack([stacked / scale, target]), mode="r"))
-        U, sigma, Vt = np.linalg.svd(R[:-1, :-1] if R.shape[0] > len(x) else R[:, :-1])
-        projected = U.T @ R[: len(sigma), -1]
-        sigma_safe = np.where(sigma > BLIND * sigma[0], sigma, np.inf)
+        normal /= scale
+        normal /= scale[:, None]
+        gradient /= scale
         while True:
-            along = projected * sigma_safe / (sigma_safe**2 + damping) if damping else projected / sigma_safe
-            delta = -(Vt.T @ along) / scale
-            trial = x + delta
+            along = _descend(normal, gradient, damping)
+            trial = x - along / scale
             new_stacked, new_target, new_r, new_J = _stack(residuals, trial, prior)
             new_cost = float(new_target @ new_target)
             # rounding of the cost itself must not be mistaken for an uphill step
@@ -107,20 +117,39 @@ def solve(residuals: Residuals, start: Real, prior: Prior) -> Solution:
                 break
             if damping > 1e12:
                 raise NotConvergedError(f"no downhill step was found after {step} steps")
-            damping = max(10.0 * damping, 1e-4 * sigma[0] ** 2)
-        length = float(np.linalg.norm(projected[np.isfinite(sigma_safe)]))
+            damping = max(10.0 * damping, 1e-4)
+        length = math.sqrt(max(float(along @ gradient), 0.0))
         x, stacked, target, r, J, cost = trial, new_stacked, new_target, new_r, new_J, new_cost
         if damping == 0.0 and length < TOLERANCE:
-            half = Vt.T / sigma_safe
-            covariance = (half @ half.T) / np.outer(scale, scale)
-            lost = Vt[np.isinf(sigma_safe)]
-            if lost.size:
-                covariance[np.ix_(touched := np.abs(lost).max(0) > 1e-6, touched)] = np.inf
-            return Solution(x, covariance, sigma, Vt, scale, cost, r, J, step)
-        damping = damping / 10.0 if damping > 1e-8 * sigma[0] ** 2 else 0.0
+            return _shape(x, stacked, r, J, cost, step)
+        damping = damping / 10.0 if damping > 1e-8 else 0.0
     raise NotConvergedError(
         f"no convergence in {MAX_STEPS} steps; the last was {length:.2g} standard deviations"
     )
+
+
+def _descend(normal: Real, gradient: Real, damping: float) -> Real:
+    """Solve (normal + damping) step = gradient; blind directions are left alone."""
+    damped = normal + damping * np.eye(len(normal)) if damping else normal
+    _, step, info = dposv(damped, gradient)
+    if info == 0:
+        return np.asarray(step)
+    values, vectors = np.linalg.eigh(damped)
+    values = np.where(values > BLIND * values[-1], values, np.inf)
+    return np.asarray(vectors @ ((vectors.T @ gradient) / values))
+
+
+def _shape(x: Real, stacked: Real, r: Real, J: Real, cost: float, steps: int) -> Solution:
+    scale = np.sqrt(np.einsum("ij,ij->j", stacked, stacked))
+    scale[scale == 0.0] = 1.0
+    _, sigma, Vt = np.linalg.svd(stacked / scale, full_matrices=False)
+    held = sigma > BLIND * sigma[0]
+    half = Vt[held].T / sigma[held]
+    covariance = (half @ half.T) / np.outer(scale, scale)
+    if not held.all():
+        lost = np.abs(Vt[~held]).max(axis=0) > 1e-6
+        covariance[np.ix_(lost, lost)] = np.inf
+    return Solution(x, covariance, sigma, Vt, scale, cost, r, J, steps)
 
 
 def _stack(residuals: Residuals, x: Real, prior: Prior) -> tuple[Real, Real, Real, Real]:

@@ -7,7 +7,7 @@ single numbers: a distance is one row a reading, a tracker position two or three
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,8 +27,7 @@ class Parameter:
     shown: float = 1.0
 
 
-@dataclass(frozen=True, slots=True)
-class Observation:
+class Observation(NamedTuple):
     """What the machine would show: R rows for P parameters and n joints."""
 
     value: Real

@@ -85,13 +85,20 @@ def test_agrees_with_a_general_solver(unknowns: str, number: int) -> None:
     def stacked_jacobian(x: Real) -> Real:
         return np.concatenate([residuals(x)[1], prior.root])
 
-    # the general solver stops where its cost no longer changes in double precision; restarted, it goes on
-    x = start[free]
-    for _ in range(2):
-        x = least_squares(
-            stacked, x, stacked_jacobian, method="dogbox", x_scale="jac", xtol=1e-15, ftol=1e-15, gtol=1e-15
-        ).x
-        x = least_squares(stacked, x, stacked_jacobian, method="lm", xtol=1e-15, ftol=1e-15, gtol=1e-15).x
+    # the general solver stops where its cost no longer changes in double precision, a little short
+    # along the weak direction; of its ways there the one with the least gradient left is compared
+    def left(x: Real) -> float:
+        gradient = stacked_jacobian(x).T @ stacked(x)
+        return float(gradient @ ours.covariance @ gradient)
+
+    tight = {"xtol": 1e-15, "ftol": 1e-15, "gtol": 1e-15}
+    answers = []
+    for _ in range(12):
+        x = start[free] + rng.normal(0.0, 1e-3, len(free))
+        for way in ({"method": "dogbox", "x_scale": "jac"}, {"method": "lm"}):
+            x = least_squares(stacked, x, stacked_jacobian, **way, **tight).x  # type: ignore[arg-type]
+            answers.append(x)
+    x = min(answers, key=left)
     sd = np.sqrt(np.diag(ours.covariance))
     assert np.linalg.norm(ours.x - x) <= 1e-9 * np.linalg.norm(x)
     assert (np.abs(ours.x - x) <= 1e-9 * np.abs(x) + 1e-6 * sd).all()

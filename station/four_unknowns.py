@@ -1,0 +1,33 @@
+"""The paper's four unknowns on raw readings: zero offsets, MAEMM and one reading offset.
+
+The geometry is taken as exact (eq. 13, 28); raw readings with one unknown offset carry what adjacent
+differences carry, without their correlated noise and whatever the order.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from station.error_model import distance_by_joint, pose
+from station.kinematics import Geometry, Real
+from station.mechanism import Observation, Parameter
+
+PARAMETERS = (
+    Parameter("dtheta1", "deg", 0.0, np.inf, 180.0 / np.pi),
+    Parameter("dtheta2", "deg", 0.0, np.inf, 180.0 / np.pi),
+    Parameter("rMx", "mm", 0.0, np.inf),
+    Parameter("rMy", "mm", 0.0, np.inf),
+    Parameter("rho0", "mm", 0.0, np.inf),
+)
+
+
+def observe(geometry: Geometry, p: Real, theta: Real) -> Observation:
+    """(K,) head readings at p (5,) and feedback angles theta (K, 2), with derivatives."""
+    at = pose(Geometry(geometry.e, geometry.L, geometry.l, geometry.cd + complex(p[2], p[3])), theta + p[:2])
+    by_joint = distance_by_joint(at)
+    jacobian = np.empty((len(at.rho), 5))
+    jacobian[:, :2] = by_joint
+    jacobian[:, 2] = -at.direction.real
+    jacobian[:, 3] = -at.direction.imag
+    jacobian[:, 4] = -1.0
+    return Observation(at.rho - p[4], jacobian, by_joint)
