@@ -312,8 +312,13 @@ class _SerialClient(ModbusSerialClient):
 
     def discard(self) -> None:
         """Throw away what has come in, so that it is not taken for a reply."""
-        if self.socket is not None and self.socket.in_waiting:
-            self._record("rx", self.socket.read(self.socket.in_waiting))
+        if self.socket is None:
+            return
+        try:
+            if waiting := self.socket.in_waiting:
+                self._record("rx", self.socket.read(waiting))
+        except OSError:  # the line broke; the request that follows opens it again or says so
+            self.close()  # type: ignore[no-untyped-call]
 
 
 def _client(

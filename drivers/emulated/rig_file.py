@@ -28,6 +28,8 @@ def load_rig(path: Path) -> RigSpec:
         text = path.read_text(encoding="utf-8")
     except OSError as error:
         raise RigFileError(f"The rig file {path} cannot be read: {error.strerror}.") from error
+    except UnicodeDecodeError as error:
+        raise RigFileError(f"The rig file {path} is not text in UTF-8.") from error
     return parse_rig(text, str(path))
 
 
@@ -42,13 +44,15 @@ def parse_rig(text: str, name: str = "rig file") -> RigSpec:
         raise RigFileError(
             f"{name} has the unknown table [{unknown[0]}]; machine, emulated, effect and fault exist."
         )
-    machine = dict(tables.get("machine", {}))
+    machine, emulated = tables.get("machine", {}), tables.get("emulated", {})
+    if not (isinstance(machine, dict) and isinstance(emulated, dict)):
+        raise RigFileError(f"{name}: machine and emulated are tables, [machine] and [emulated].")
     if "effects" in machine:
         raise RigFileError(f"{name}: effects are written as [[effect]] tables of their own.")
-    machine["effects"] = tables.get("effect", [])
+    machine = machine | {"effects": tables.get("effect", [])}
     try:
         return RigSpec.model_validate(
-            {"machine": machine, "emulated": tables.get("emulated", {}), "faults": tables.get("fault", [])}
+            {"machine": machine, "emulated": emulated, "faults": tables.get("fault", [])}
         )
     except ValidationError as error:
         raise RigFileError(_sentence(name, error)) from error
@@ -84,6 +88,8 @@ def _sentence(name: str, error: ValidationError) -> str:
         table, rest = "[[fault]]", place[1:]
     else:
         table, rest = f"[{place[0]}]", place[1:]
-    number = f" {int(rest.pop(0)) + 1}" if table.startswith("[[") and rest else ""
-    entry = ".".join(str(part) for part in rest)
-    return f"{name}: {table}{number} {entry}: {first['msg'].lower()}."
+    if table.startswith("[[") and rest:
+        table += f" {int(rest.pop(0)) + 1}"
+    if rest:
+        table += " " + ".".join(str(part) for part in rest)
+    return f"{name}: {table}: {first['msg'].lower()}."

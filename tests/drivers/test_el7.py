@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 
 from drivers.emulated.el7 import EL7Drive
 from drivers.emulated.faults import Faults
@@ -122,3 +124,12 @@ def test_scripted_exception_and_a_move_without_end() -> None:
     assert bench.ask(STATUS) == "03020002"
     bench.ask(MOVE)
     assert bench.ask(STATUS) == "03020032"
+
+
+@given(st.binary(min_size=1, max_size=30))
+@example(bytes.fromhex("10 6200 0008 10"))
+@example(bytes.fromhex("06 60"))
+def test_any_request_gets_a_reply(request_pdu: bytes) -> None:
+    """Whatever a master sends: an echo of its function or an exception, never a crash."""
+    reply = EL7Drive(Machine(MachineSpec(), VirtualClock()), 1, Faults()).answer(request_pdu)
+    assert reply[0] & 0x7F == request_pdu[0] & 0x7F

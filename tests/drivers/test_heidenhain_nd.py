@@ -72,6 +72,11 @@ def test_value_over_the_network() -> None:
         scale.close()
 
 
+def test_flow_control_is_no_part_of_the_line() -> None:
+    with connected((b"\x02", b"+  121\x13\x11.9750    \r\n")) as scale:
+        assert scale.read_mm() == 121.975
+
+
 def test_indicators_have_names() -> None:
     with connected((b"\x1bA0900\r", b"\x022010000000\r\n")) as scale:
         shown = scale.indicators()

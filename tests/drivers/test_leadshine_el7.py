@@ -175,6 +175,11 @@ def test_quick_stop_is_repeated_when_unconfirmed() -> None:
         drive.quick_stop()
 
 
+def test_quick_stop_is_repeated_when_a_late_reply_came_in_its_place() -> None:
+    with axis((STOP[0], FEEDBACK_AT_200_DEG[1]), STOP) as drive:
+        drive.quick_stop()
+
+
 def test_quick_stop_that_is_never_confirmed() -> None:
     lost = unanswered(STOP)
     with axis(lost, lost, lost) as drive, pytest.raises(LinkLost, match="use the emergency stop"):

@@ -222,6 +222,16 @@ def test_the_line_stays_open_for_its_last_owner() -> None:
         bus.release(second)
 
 
+def test_pulling_the_cable_is_a_lost_link() -> None:
+    with PtyEnd([(READ_1000, rtu("01 03 02 1111"))]) as end:
+        bus = ModbusBus(f"modbus+rtu://{end.port}", timeout_s=0.1)
+        bus.open("test")
+        bus.read(1, 0x1000, 1)
+    with pytest.raises(LinkLost):
+        bus.read(1, 0x1000, 1)
+    bus.release("test")
+
+
 def test_the_flight_recorder_sees_both_directions() -> None:
     seen: list[tuple[Literal["tx", "rx"], bytes]] = []
     reply = rtu("01 03 02 1111")

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from drivers.emulated.faults import Faults
 from drivers.emulated.machine import Unreachable
@@ -97,3 +99,11 @@ def test_a_head_off_its_scale_is_a_fault() -> None:
     device = ND280(off_scale, Faults())
     assert say(device, STX) == [b"+    0.0000 ?  \r\n"]
     assert say(device, b"\x1bA0200\r") == [NAK]
+
+
+@given(st.lists(st.binary(max_size=12), max_size=6))
+def test_any_bytes_are_survived(pieces: list[bytes]) -> None:
+    """Noise is skipped or refused; after enough carriage returns the display listens again."""
+    device = display()
+    say(device, *pieces, b"\r" * 8)
+    assert say(device, b"\x1bA0200\r", STX)[-1].endswith(b"  \r\n")

@@ -50,12 +50,15 @@ def test_written_rig_reads_back() -> None:
     [
         ("[machine", "rig file is not TOML"),
         ("[robot]", r"unknown table \[robot\]"),
+        ("machine = 3", "machine and emulated are tables"),
+        ("[[effect]]\nwidth_deg = 1", r"\[\[effect\]\] 1: unable to extract tag"),
+        ('effect = "backlash"', r"\[\[effect\]\]: input should be a valid tuple"),
         ("[machine]\neffects = []", r"written as \[\[effect\]\] tables"),
         ("[machine]\nzero_offset_deg = [1, 2]", r"\[machine\] zero_offset_deg: extra inputs"),
         ("[machine]\nl_mm = [825, -1]", r"\[machine\] l_mm\.1: input should be greater than 0"),
         ("[machine]\nscale_noise_mm = nan", r"\[machine\] scale_noise_mm: input should be a finite number"),
         ("[emulated]\nspeed = 0", r"\[emulated\] speed: input should be greater than 0"),
-        ('[[effect]]\nkind = "gremlins"', r"\[\[effect\]\] 1 .*gremlins"),
+        ('[[effect]]\nkind = "gremlins"', r"\[\[effect\]\] 1: .*gremlins"),
         ('[[effect]]\nkind = "backlash"\njoint = 3\nwidth_deg = 1', r"\[\[effect\]\] 1 backlash\.joint"),
         ('[[fault]]\nkind = "scale_late"\n[[fault]]\nkind = "fire"', r"\[\[fault\]\] 2 kind"),
     ],
@@ -64,6 +67,13 @@ def test_refused_in_one_sentence(text: str, complaint: str) -> None:
     with pytest.raises(RigFileError, match=complaint) as caught:
         parse_rig(text)
     assert "\n" not in str(caught.value) and str(caught.value).endswith(".")
+
+
+def test_file_that_is_no_text(tmp_path: Path) -> None:
+    path = tmp_path / "rig.toml"
+    path.write_bytes(b"\xff\xfe")
+    with pytest.raises(RigFileError, match="is not text in UTF-8"):
+        load_rig(path)
 
 
 def test_missing_file(tmp_path: Path) -> None:
