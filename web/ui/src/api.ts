@@ -16,6 +16,8 @@ export type Reading = Schemas["ReadingAnswer"];
 export type CalibrationBody = Schemas["CalibrationBody"];
 
 const TIMEOUT_MS = 8000;
+/** Longer than the service itself waits for the drives. */
+const STOP_TIMEOUT_MS = 4000;
 
 /** What went wrong, in words for the operator. */
 export class Refused extends Error {
@@ -50,7 +52,11 @@ export const start = (body: CalibrationBody, key: string) =>
 
 export const abort = (id: number) => call<Summary>("POST", `/calibrations/${id}/abort`);
 
-export const stop = () => call<Schemas["StopSent"]>("POST", "/stop", { headers: { "X-Operator": "page" } });
+export const stop = () =>
+  call<Schemas["StopSent"]>("POST", "/stop", {
+    headers: { "X-Operator": "page" },
+    signal: AbortSignal.timeout(STOP_TIMEOUT_MS),
+  });
 
 export const calibration = (id: number) => call<Calibration>("GET", `/calibrations/${id}`);
 

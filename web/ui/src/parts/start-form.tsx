@@ -34,6 +34,13 @@ export function StartForm() {
     if (!idle) armed.value = null;
   }, [idle]);
 
+  useEffect(() => {
+    // what had the focus may have been disabled by the run's start or end: the next scan must not get lost
+    if (document.activeElement === document.body || document.activeElement?.matches(":disabled")) {
+      serialField.current?.focus();
+    }
+  }, [run?.id]);
+
   const calibrate = () => {
     trouble.value = missing();
     if (trouble.value?.field === "robot_serial") serialField.current?.focus();

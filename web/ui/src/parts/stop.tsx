@@ -2,13 +2,15 @@
 import { signal } from "@preact/signals";
 import { Refused, stop } from "../api";
 import { timeOfDay } from "../format";
-import { clock } from "../live";
+import { clock, offline } from "../live";
 
 const report = signal<{ text: string; failed: boolean } | null>(null);
 
 async function press(): Promise<void> {
   const at = timeOfDay(clock.value);
-  report.value = { text: `Stop sent at ${at} …`, failed: false };
+  report.value = offline.value
+    ? { text: `Offline: the stop of ${at} may not arrive. Press the emergency stop.`, failed: true }
+    : { text: `Stop sent at ${at} …`, failed: false };
   try {
     await stop();
     report.value = { text: `Stop sent at ${at}; the drives were told to stand.`, failed: false };

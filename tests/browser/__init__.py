@@ -1,0 +1,1 @@
+"""The page in a browser, against the real service on the emulated rig."""

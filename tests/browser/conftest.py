@@ -1,0 +1,160 @@
+"""A headless Chromium that may only ask this computer, and stations to show it."""
+
+from __future__ import annotations
+
+import os
+import re
+import shutil
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack
+from pathlib import Path
+from typing import Any
+from urllib.parse import urlsplit
+
+import httpx2 as httpx
+import pytest
+from playwright.sync_api import Browser, BrowserContext, Page, Route, sync_playwright
+
+from web import pages
+
+ROOT = Path(__file__).parents[2]
+FLAGS = [
+    "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run",
+    "--disable-background-networking", "--disable-component-update", "--disable-sync",
+]  # fmt: skip
+SMALL, LARGE = {"width": 1024, "height": 768}, {"width": 1280, "height": 800}
+START_LIMIT_S = 30.0
+END_LIMIT_S = 15.0
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    for item in items:
+        if Path(__file__).parent in item.path.parents:
+            item.add_marker(pytest.mark.browser)
+
+
+def needed(found: object, what: str) -> None:
+    """Without it the tests are skipped; where nothing may be skipped, they fail."""
+    if not found and os.environ.get("CI") == "true":
+        pytest.fail(f"{what} is needed for the browser tests")
+    if not found:
+        pytest.skip(f"{what} is not there")
+
+
+class Station:
+    """A `station serve` process on the emulated rig of its home folder."""
+
+    def __init__(self, home: Path, speed: float) -> None:
+        command = [sys.executable, "-m", "station", "--home", str(home), "serve"]
+        self.process = subprocess.Popen(
+            [*command, "--port", str(self._port(home)), "--speed", str(speed)],
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            text=True,
+            cwd=ROOT,
+            start_new_session=True,
+        )
+        assert self.process.stdout
+        said = self.process.stdout.readline()
+        found = re.search(r"http://\S+", said)
+        assert found, f"the station did not start: {said}"
+        self.url = found[0]
+        (home / "port").write_text(str(urlsplit(self.url).port))
+        self.api = httpx.Client(base_url=f"{self.url}/api/v1", timeout=10)
+
+    @staticmethod
+    def _port(home: Path) -> int:
+        """A station that comes back is found at its old address."""
+        kept = home / "port"
+        return int(kept.read_text()) if kept.is_file() else 0
+
+    def get(self, path: str) -> Any:
+        return self.api.get(path).json()
+
+    def freeze(self) -> None:
+        self.process.send_signal(signal.SIGSTOP)
+
+    def thaw(self) -> None:
+        self.process.send_signal(signal.SIGCONT)
+
+    def kill(self) -> None:
+        self.process.kill()
+        self.close()
+
+    def close(self) -> None:
+        if self.process.poll() is None:
+            self.thaw()
+            self.process.terminate()
+        self.process.wait(END_LIMIT_S)
+        assert self.process.stdout
+        self.process.stdout.close()
+        self.api.close()
+
+
+Serve = Callable[..., Station]
+
+
+@pytest.fixture
+def serve(tmp_path: Path) -> Iterator[Serve]:
+    """Starts stations; with the same home a station comes back with its history and address."""
+    needed((pages.STATIC / "index.html").is_file(), "the built page (npm run build in web/ui)")
+    with ExitStack() as opened:
+
+        def serve(home: Path | None = None, speed: float = 200.0) -> Station:
+            station = Station(home or tmp_path, speed)
+            opened.callback(station.close)
+            return station
+
+        yield serve
+
+
+@pytest.fixture(scope="session")
+def station(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Station]:
+    """One for the tests that leave nothing under way."""
+    needed((pages.STATIC / "index.html").is_file(), "the built page (npm run build in web/ui)")
+    station = Station(tmp_path_factory.mktemp("station"), speed=200.0)
+    yield station
+    station.close()
+
+
+@pytest.fixture(scope="session")
+def chromium() -> Iterator[Browser]:
+    path = shutil.which("chromium")
+    needed(path, "chromium")
+    with sync_playwright() as playwright:
+        browser = playwright.chromium.launch(executable_path=path, args=FLAGS)
+        yield browser
+        browser.close()
+
+
+@pytest.fixture
+def context(chromium: Browser) -> Iterator[BrowserContext]:
+    """Any request that is not for this computer is refused, and fails the test; so does any page error."""
+    context = chromium.new_context(viewport=SMALL)  # type: ignore[arg-type]
+    foreign: list[str] = []
+    errors: list[str] = []
+
+    def judge(route: Route) -> None:
+        if urlsplit(route.request.url).hostname == "127.0.0.1":
+            route.continue_()
+        else:
+            foreign.append(route.request.url)
+            route.abort()
+
+    context.route("**/*", judge)
+    context.on("weberror", lambda error: errors.append(str(error.error)))
+    context.on("console", lambda said: errors.append(said.text) if "Security Policy" in said.text else None)
+    yield context
+    context.close()
+    assert foreign == []
+    assert errors == []
+
+
+@pytest.fixture
+def page(context: BrowserContext) -> Page:
+    page = context.new_page()
+    page.set_default_timeout(15_000)
+    return page

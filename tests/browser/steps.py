@@ -1,0 +1,60 @@
+"""What an operator does at the page, in words."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from playwright.sync_api import Page, expect
+
+from tests.browser.conftest import ROOT, Station, needed
+
+
+def open_station(page: Page, station: Station) -> None:
+    page.goto(station.url)
+    expect(page.locator("header")).to_contain_text("connected")
+
+
+def scan(page: Page, code: str) -> None:
+    """As a barcode scanner does: characters, then Enter, into whatever has the focus."""
+    page.keyboard.type(code)
+    page.keyboard.press("Enter")
+
+
+def arm(page: Page, serial: str = "FB-7") -> None:
+    """Everything up to the confirmation."""
+    page.get_by_label("Robot serial").fill(serial)
+    page.get_by_label("Operator").fill("ada")
+    page.get_by_role("button", name="Calibrate").click()
+
+
+def start(page: Page, serial: str = "FB-7") -> None:
+    arm(page, serial)
+    page.get_by_role("button", name="Confirm").click()
+    expect(page.get_by_role("button", name="Abort run")).to_be_enabled()
+
+
+def run_to_end(page: Page, serial: str = "FB-7") -> None:
+    start(page, serial)
+    expect(page.locator(".outcome")).to_contain_text(serial)
+
+
+def add_run(station: Station, serial: str = "FB-7") -> dict[str, Any]:
+    """A complete run, started as the MES does."""
+    body = {"robot_serial": serial, "plan": "paper", "operator": "mes"}
+    run = station.api.post("/calibrations", json=body).raise_for_status().json()
+    while station.get(f"/calibrations/{run['id']}")["state"] in ("queued", "running"):
+        pass
+    found: dict[str, Any] = station.get(f"/calibrations/{run['id']}")
+    return found
+
+
+AXE = ROOT / "web/ui/node_modules/axe-core/axe.min.js"
+AXE_RUN = """() => axe.run(document, {runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa']})
+  .then(found => found.violations.map(v => `${v.id}: ${v.nodes.map(n => n.html).join(' | ')}`))"""
+
+
+def violations(page: Page) -> Any:
+    """Findings of axe against WCAG 2.2 AA, each with the elements."""
+    needed(AXE.is_file(), "axe-core (npm ci in web/ui)")
+    page.evaluate(AXE.read_text())
+    return page.evaluate(AXE_RUN)

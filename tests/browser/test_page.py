@@ -1,0 +1,89 @@
+"""The page itself: accessible in every state, renewed when the server is."""
+
+from __future__ import annotations
+
+import json
+from playwright.sync_api import Page, WebSocketRoute, expect
+
+from tests.browser.conftest import Serve, Station
+from tests.browser.steps import add_run, arm, open_station, start, violations
+
+
+def test_no_view_breaks_wcag_2_2_aa(page: Page, station: Station) -> None:
+    run = add_run(station, "FB-800")
+    open_station(page, station)
+    assert violations(page) == []
+    arm(page)
+    assert violations(page) == []
+    page.goto(f"{station.url}/result/{run['id']}")
+    expect(page.locator(".chart svg")).to_be_visible()
+    assert violations(page) == []
+    page.goto(f"{station.url}/history")
+    expect(page.locator("tbody tr").first).to_be_visible()
+    assert violations(page) == []
+
+
+def test_no_state_breaks_wcag_2_2_aa(page: Page, serve: Serve) -> None:
+    station = serve(speed=5)
+    open_station(page, station)
+    start(page)
+    expect(page.locator(".readings tbody tr").first).to_be_visible()
+    assert violations(page) == []
+    page.get_by_role("button", name="Abort run").click()
+    expect(page.locator(".outcome")).to_contain_text("ABORTED")
+    assert violations(page) == []
+
+
+def test_a_run_that_does_not_exist_says_so(page: Page, station: Station) -> None:
+    page.goto(f"{station.url}/result/99999")
+    expect(page.locator("main")).to_contain_text("no calibration 99999")
+
+
+def test_the_page_reloads_itself_between_runs_when_the_server_has_another_build(
+    page: Page, station: Station
+) -> None:
+    renewed = False
+
+    def live(socket: WebSocketRoute) -> None:
+        def forward(text: str | bytes) -> None:
+            message = json.loads(text)
+            if renewed:
+                message["build"] = "another"
+            socket.send(json.dumps(message))
+
+        socket.connect_to_server().on_message(forward)
+
+    page.route_web_socket("**/api/v1/live", live)
+    open_station(page, station)
+    with page.expect_event("load"):
+        renewed = True
+    expect(page.locator("header")).to_contain_text("connected")
+
+
+def test_a_gap_in_the_numbers_leads_to_a_new_snapshot(page: Page, station: Station) -> None:
+    sockets = 0
+    skip = False
+
+    def live(socket: WebSocketRoute) -> None:
+        nonlocal sockets
+        sockets += 1
+
+        def forward(text: str | bytes) -> None:
+            message = json.loads(text)
+            if skip and sockets == 1 and message["type"] != "snapshot":
+                message["number"] += 1
+            socket.send(json.dumps(message))
+
+        socket.connect_to_server().on_message(forward)
+
+    page.route_web_socket("**/api/v1/live", live)
+    open_station(page, station)
+    skip = True
+    page.wait_for_timeout(1500)
+    assert sockets == 2
+    expect(page.locator("header")).to_contain_text("connected")
+
+
+def test_the_api_documentation_draws_itself_offline(page: Page, station: Station) -> None:
+    page.goto(f"{station.url}/docs")
+    expect(page.locator(".opblock").first).to_be_visible()
