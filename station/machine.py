@@ -64,6 +64,7 @@ class Machine:
         self._all: tuple[Device, ...] = (devices.scale, *devices.axes)
         self._known = {device.name: _Known() for device in self._all}
         self._pose: Pose | None = None
+        self._told: list[dict[str, Any]] = []
 
     # Working with the devices --------------------------------------------------------------------
 
@@ -119,12 +120,11 @@ class Machine:
             scale_mm = self.devices.scale.read_mm()
         return self.moved((angles[0], angles[1]), scale_mm)
 
-    def moved(self, theta_deg: tuple[float, float], scale_mm: float | None = None) -> Pose:
+    def moved(self, theta_deg: tuple[float, float], scale_mm: float) -> Pose:
         """Keep and publish where the arm stands now."""
-        if scale_mm is None:
-            scale_mm = self._pose.scale_mm if self._pose else math.nan
         pose = self._pose = Pose(theta_deg, scale_mm, time.monotonic())
         self._listeners.publish("machine", self.view())
+        self._tell_interlocks()
         return pose
 
     def watch(self) -> None:
@@ -136,6 +136,7 @@ class Machine:
             self.look()
         except DeviceError:
             self._pose = None  # a place that is not known is not shown
+            self._tell_interlocks()
 
     def ready_axes(self) -> None:
         """Reset what alarm can be reset and power both axes.  :raises DeviceError:"""
@@ -263,7 +264,13 @@ class Machine:
             return
         known.state, known.text = state, text
         self._listeners.publish("device", self._device_view(device))
-        self._listeners.publish("interlock", self.interlocks())
+        self._tell_interlocks()
+
+    def _tell_interlocks(self) -> None:
+        interlocks = self.interlocks()
+        if interlocks != self._told:
+            self._told = interlocks
+            self._listeners.publish("interlock", interlocks)
 
 
 def _expect_standstill(axis: ServoAxis) -> None:

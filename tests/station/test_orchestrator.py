@@ -6,6 +6,7 @@ import sqlite3
 import time
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import pairwise
 from threading import Event
 from typing import Any
 
@@ -618,6 +619,12 @@ def test_an_idle_station_watches_its_machine_and_gets_lost_devices_back(
     assert found["machine"]["theta2_deg"] == 180.0
     assert all(lock["ok"] for lock in found["interlocks"])
     assert {"device", "interlock", "machine"} <= {event.type for event in events}
+
+    def told() -> list[Any]:
+        return [event.data for event in events if event.type == "interlock"]
+
+    until(orchestrator, lambda s: told()[-1] == s["interlocks"])
+    assert all(before != after for before, after in pairwise(told()))
 
 
 def test_settings_used_here_are_the_stations(start: Start) -> None:
