@@ -162,7 +162,7 @@ class LeadshineEL7:
         outputs = self._read(OUTPUT_STATUS)
         alarm = None
         if MotionStatus.FAULT in motion or outputs & self._alarm_bit:
-            alarm = self._read(ALARM)
+            alarm = self._read(ALARM) or None  # it may have been reset between two reads
         moving = MotionStatus.RUNNING in motion
         return AxisStatus(
             enabled=bool(outputs & self._servo_on_bit),
@@ -245,9 +245,8 @@ class LeadshineEL7:
 
     def _is_at_target(self) -> bool:
         """The complete bit alone may still be that of the previous move."""
-        if self._target_pulses is None:
-            return False
-        return abs(self._feedback_pulses() - self._target_pulses) <= _IN_POSITION_PULSES
+        target = self._target_pulses  # a stop may take it away meanwhile
+        return target is not None and abs(self._feedback_pulses() - target) <= _IN_POSITION_PULSES
 
     def _shows_move_to(self, target: int) -> bool:
         """After a lost reply: whether the drive holds this target and runs towards it or is there."""
