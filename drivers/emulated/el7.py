@@ -111,7 +111,7 @@ class EL7Drive:
         elif value == _DECLARE_ZERO:
             if self._axis.moving:
                 return ILLEGAL_VALUE
-            self._axis.declare_zero()
+            self._machine.declare_zero(self._joint)
         elif value:
             return ILLEGAL_VALUE
         return 0

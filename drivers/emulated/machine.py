@@ -181,6 +181,10 @@ class Machine:
             self._look()
             self.axes[joint - 1].quick_stop()
 
+    def declare_zero(self, joint: JointNumber) -> None:
+        with self._lock:
+            self.axes[joint - 1].declare_zero()
+
     # -- what can be seen --------------------------------------------------------------------
 
     def head_mm(self) -> float:

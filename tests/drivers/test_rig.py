@@ -7,9 +7,11 @@ import os
 import signal
 import subprocess
 import sys
+import threading
 import time
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from random import Random
 
 import pytest
 import serial
@@ -284,6 +286,47 @@ def test_a_move_whose_reply_is_lost_runs_once(rig: EmulatedRig) -> None:
     wait_for(lambda: axis.status().in_position)
     assert [frame[7] for frame in sent].count(0x10) == 1
     axis.close()
+
+
+def test_stops_faults_and_readers_at_once(rig: EmulatedRig, axes: Axes, scale: HeidenhainND) -> None:
+    """Whatever happens on the wires, callers on several threads get values or a `DeviceError`."""
+    script = (
+        lambda: axes[0].move_to(10.0, 20.0),
+        lambda: axes[0].move_to(-10.0, 20.0),
+        lambda: axes[0].status(),
+        lambda: axes[1].status(),
+        lambda: scale.read_mm(),
+        lambda: axes[0].quick_stop(),
+        lambda: axes[0].reset_alarm(),
+        lambda: rig.inject(Fault(kind="servo_link_dropped", after=3)),
+        lambda: rig.inject(Fault(kind="drive_exception", after=5)),
+        lambda: rig.inject(Fault(kind="drive_alarm", code=0x150)),
+        lambda: rig.inject(Fault(kind="scale_garbled")),
+    )
+    surprises: list[Exception] = []
+
+    def caller(seed: int) -> None:
+        choice = Random(seed)
+        for _ in range(60):
+            try:
+                choice.choice(script)()
+            except DeviceError:
+                continue
+            except Exception as error:  # noqa: BLE001  the test is about these
+                surprises.append(error)
+
+    threads = [threading.Thread(target=caller, args=(seed,)) for seed in range(6)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    assert not surprises
+    rig.clear_faults()
+    axes[0].reset_alarm()
+    axes[0].enable()
+    go(axes, 12.0, 168.0)
+    x, y = rig.machine.point_mm()
+    assert scale.read_mm() == pytest.approx(((x - 1) ** 2 + (y + 129.5) ** 2) ** 0.5 - 437.25, abs=0.01)
 
 
 # -- as a program of its own -----------------------------------------------------------------------
