@@ -15,15 +15,10 @@ from station.emulation import EmulatedRig
 from station.errors import InputRefused
 from station.orchestrator import Orchestrator
 from station.procedures import start_procedure
-from station.settings import Settings
+from station.settings import Settings, database_path
 from station.store import Store
 
 log = logging.getLogger(__name__)
-
-
-def database_path(settings: Settings, home: Path) -> Path:
-    """Where the store is: the station file's `[service] database`, else in the home folder."""
-    return settings.service.database or home / "station.db"
 
 
 @dataclass

@@ -169,3 +169,8 @@ def station_home(option: Path | None) -> Path:
     if named := os.environ.get("STATION_HOME"):
         return Path(named)
     return platformdirs.user_data_path("fivebar-station")
+
+
+def database_path(settings: Settings, home: Path) -> Path:
+    """Where the store is: the station file's `[service] database`, else in the home folder."""
+    return settings.service.database or home / "station.db"

@@ -2,15 +2,25 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 import click
 
 from station import __version__
-from station.cli import calibrate, history, numerics, serve
 from station.errors import InputRefused, NotFound
 from station.settings import station_home
+
+_MODULES = {
+    "calibrate": "calibrate",
+    "identify": "numerics",
+    "plan": "numerics",
+    "runs": "history",
+    "serve": "serve",
+    "show": "history",
+}
+"""Where each command is; imported when it is asked for, since the numerics take a second to load."""
 
 
 class Refusal(click.ClickException):
@@ -24,6 +34,16 @@ class Refusal(click.ClickException):
 
 class StationGroup(click.Group):
     """Whatever refuses the input, the person at the terminal reads one sentence."""
+
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        return sorted(_MODULES)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        if cmd_name not in _MODULES:
+            return None
+        module = import_module(f"{__name__}.{_MODULES[cmd_name]}")
+        command: click.Command = getattr(module, f"{cmd_name}_command")
+        return command
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
         try:
@@ -55,14 +75,3 @@ def _refusal(error: Exception) -> click.ClickException:
 def main(context: click.Context, home: Path | None) -> None:
     """Calibrate the zero offsets of a five-bar robot."""
     context.obj = station_home(home)
-
-
-for command in (
-    serve.serve_command,
-    calibrate.calibrate_command,
-    numerics.identify_command,
-    numerics.plan_command,
-    history.runs_command,
-    history.show_command,
-):
-    main.add_command(command)

@@ -17,8 +17,7 @@ from rich.console import Console
 from rich.table import Table
 
 from station.records import State
-from station.runtime import database_path
-from station.settings import load_settings
+from station.settings import database_path, load_settings
 from station.store import Store
 
 _COLUMNS = (
