@@ -8,6 +8,10 @@ from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import ROOT, Station, needed
 
+AXE = ROOT / "web/ui/node_modules/axe-core/axe.min.js"
+AXE_RUN = """() => axe.run(document, {runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa']})
+  .then(found => found.violations.map(v => `${v.id}: ${v.nodes.map(n => n.html).join(' | ')}`))"""
+
 
 def open_station(page: Page, station: Station) -> None:
     page.goto(station.url)
@@ -46,11 +50,6 @@ def add_run(station: Station, serial: str = "FB-7") -> dict[str, Any]:
         pass
     found: dict[str, Any] = station.get(f"/calibrations/{run['id']}")
     return found
-
-
-AXE = ROOT / "web/ui/node_modules/axe-core/axe.min.js"
-AXE_RUN = """() => axe.run(document, {runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 'wcag21aa', 'wcag22aa']})
-  .then(found => found.violations.map(v => `${v.id}: ${v.nodes.map(n => n.html).join(' | ')}`))"""
 
 
 def violations(page: Page) -> Any:

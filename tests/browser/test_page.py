@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+
 from playwright.sync_api import Page, WebSocketRoute, expect
 
 from tests.browser.conftest import Serve, Station

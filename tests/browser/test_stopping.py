@@ -107,6 +107,7 @@ def test_a_frozen_server_shows_as_offline_and_stop_says_that_it_failed(page: Pag
     expect(page.locator(".report")).to_contain_text("STOP FAILED")
     expect(page.locator(".report")).to_contain_text("emergency stop")
     assert violations(page) == []
+    check(page)
     station.thaw()
     expect(page.locator("header")).to_contain_text("connected")
     expect(page.get_by_role("button", name="Calibrate")).to_be_enabled()

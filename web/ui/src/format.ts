@@ -4,8 +4,9 @@ export const MISSING = "–";
 
 export function fixed(value: number | null | undefined, digits: number): string {
   if (value == null || !Number.isFinite(value)) return MISSING;
-  // a real minus sign, as wide as the plus
-  return value.toFixed(digits).replace("-", "\u2212");
+  const text = value.toFixed(digits);
+  // a real minus sign, as wide as the plus; none before a zero
+  return Number(text) === 0 ? text.replace("-", "") : text.replace("-", "\u2212");
 }
 
 export function signed(value: number | null | undefined, digits: number): string {

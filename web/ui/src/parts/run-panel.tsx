@@ -35,15 +35,15 @@ function LiveValues() {
   const old = machine != null && machineAgeS.value > STALE_S;
   return (
     <dl class="values">
-      <Value name="θ₁" unit="°" value={machine?.theta1_deg} digits={4} />
-      <Value name="θ₂" unit="°" value={machine?.theta2_deg} digits={4} />
-      <Value name="x" unit="mm" value={machine?.x_mm} digits={3} />
-      <Value name="y" unit="mm" value={machine?.y_mm} digits={3} />
+      <Value name="θ₁" unit="°" value={machine?.theta1_deg} digits={3} />
+      <Value name="θ₂" unit="°" value={machine?.theta2_deg} digits={3} />
+      <Value name="x" unit="mm" value={machine?.x_mm} digits={2} />
+      <Value name="y" unit="mm" value={machine?.y_mm} digits={2} />
       <Value name="Scale" unit="mm" value={machine?.scale_mm} digits={4} />
       <div>
         <dt>Age</dt>
         <dd class={old ? "alarm warn" : ""}>
-          {machine ? `${old ? "◆ old: " : ""}${fixed(machineAgeS.value, 1)} s` : "no values"}
+          {machine ? `${old ? "◆ old " : ""}${fixed(machineAgeS.value, 1)} s` : "no values"}
         </dd>
       </div>
     </dl>

@@ -1,8 +1,9 @@
 /** One step to stop.  Always there, always pressable; it says when the stop did not arrive. */
 import { signal } from "@preact/signals";
+import { useEffect } from "preact/hooks";
 import { Refused, stop } from "../api";
 import { timeOfDay } from "../format";
-import { clock, offline } from "../live";
+import { clock, offline, station } from "../live";
 
 const report = signal<{ text: string; failed: boolean } | null>(null);
 
@@ -32,7 +33,12 @@ export function StopButton() {
   );
 }
 
+/** Stays until the next stop or the next start. */
 export function StopReport() {
+  const run = station.value?.run?.id;
+  useEffect(() => {
+    if (run !== undefined) report.value = null;
+  }, [run]);
   return (
     <p class={`report ${report.value?.failed ? "alarm act" : ""}`} role="alert" hidden={!report.value}>
       {report.value?.failed && "▲ "}

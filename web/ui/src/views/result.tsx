@@ -138,14 +138,16 @@ function Against({ value, limit }: { value: number | null; limit: number | null 
 
 function BeforeAfter({ result: { before, after } }: { result: Calibration }) {
   const rows = [
-    { text: "Readings, rms", before: before?.reading_rms_mm, after: after?.reading_rms_mm },
+    { text: "Readings, rms", digits: 4, before: before?.reading_rms_mm, after: after?.reading_rms_mm },
     {
       text: "Predicted position error, rms",
+      digits: 3,
       before: before?.predicted_position_error_mm?.rms,
       after: after?.predicted_position_error_mm?.rms,
     },
     {
       text: "Predicted position error, largest",
+      digits: 3,
       before: before?.predicted_position_error_mm?.max,
       after: after?.predicted_position_error_mm?.max,
     },
@@ -167,8 +169,8 @@ function BeforeAfter({ result: { before, after } }: { result: Calibration }) {
               <th scope="row" class="text">
                 {row.text}
               </th>
-              <td>{fixed(row.before, 3)}</td>
-              <td class="main">{fixed(row.after, 3)}</td>
+              <td>{fixed(row.before, row.digits)}</td>
+              <td class="main">{fixed(row.after, row.digits)}</td>
             </tr>
           ))}
         </tbody>
