@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sqlite3
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import closing, contextmanager
 from pathlib import Path
 from threading import Lock
 from typing import Any
@@ -82,6 +82,14 @@ class Readers:
         """Every row."""
         with self._borrowed() as connection:
             return connection.execute(sql, values).fetchall()
+
+    def copy(self, target: Path) -> None:
+        """A consistent copy in one file.  :raises InputRefused: it cannot be written."""
+        try:
+            with closing(sqlite3.connect(target)) as copy, self._borrowed() as connection:
+                connection.backup(copy)
+        except sqlite3.Error as error:
+            raise InputRefused(f"The backup {target} cannot be written: {error}.") from error
 
     def close(self) -> None:
         """Close what is idle; what is in use closes when it is given back."""

@@ -18,7 +18,7 @@ from typing import Any
 from sqlite_utils import Database
 
 from station.database import Readers, open_writer
-from station.errors import KeyReused, NotFound
+from station.errors import InputRefused, KeyReused, NotFound
 from station.records import CalibrationRequest, CalibrationResult, Reading, State
 from station.robot import Robot
 from station.store_rows import (
@@ -57,6 +57,15 @@ class Store:
         with self._lock:
             self._readers.close()
             self._writer.close()
+
+    def backup(self, target: Path) -> None:
+        """A copy of everything stored so far in one new file, made while the station works.
+
+        :raises InputRefused: the file exists or cannot be written.
+        """
+        if target.exists():
+            raise InputRefused(f"{target} exists already; a backup never overwrites.")
+        self._readers.copy(target)
 
     @contextmanager
     def _writing(self) -> Iterator[Database]:

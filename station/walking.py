@@ -23,6 +23,7 @@ _LOOK_S = 0.25
 """How often a long motion is watched with feedback and scale."""
 _ARRIVAL_MARGIN_S = 3.0
 _SLOWEST_DEG_S = 1.0
+_DIGITS = 9
 _STILL_DEG = 0.004
 """Two pulses: less is no motion that could have a direction."""
 
@@ -73,9 +74,9 @@ class Walker:
             self._go(stop, target)
         self._pause(self.machine.limits.settle_s)
         samples, theta = self._samples(stop, number)
-        scale_mm = statistics.fmean(samples)
+        scale_mm = round(statistics.fmean(samples), _DIGITS)
         self._check_travel(stop, number, scale_mm, theta)
-        t_s = (time.monotonic() - self.started) * self.machine.devices.speed
+        t_s = round((time.monotonic() - self.started) * self.machine.devices.speed, 3)
         self.machine.moved(theta, scale_mm)
         return Reading(number, t_s, theta, self._direction, scale_mm, stop.position, walk, tuple(samples))
 
@@ -186,8 +187,8 @@ class Walker:
             spread = max(scale) - min(scale)
             if spread <= self.machine.limits.scale_spread_mm:
                 return scale, (
-                    statistics.fmean(pair[0] for pair in angles),
-                    statistics.fmean(pair[1] for pair in angles),
+                    round(statistics.fmean(pair[0] for pair in angles), _DIGITS),
+                    round(statistics.fmean(pair[1] for pair in angles), _DIGITS),
                 )
             self._pause(self.machine.limits.settle_s)
         raise StepFailed(

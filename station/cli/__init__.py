@@ -13,7 +13,9 @@ from station.errors import InputRefused, NotFound
 from station.settings import station_home
 
 _MODULES = {
+    "backup": "archive",
     "calibrate": "calibrate",
+    "export": "archive",
     "identify": "numerics",
     "plan": "numerics",
     "runs": "history",

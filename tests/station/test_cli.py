@@ -69,6 +69,24 @@ def test_show_tells_one_run(home: Path) -> None:
     assert content["readings"][0]["samples_mm"] == [12.3456]
 
 
+def test_export_writes_the_measurement_file(home: Path) -> None:
+    row = next(csv.DictReader(io.StringIO(station(home, "export", "1").output)))
+    assert (row["reading"], float(row["scale_mm"]), row["approach2"]) == ("1", 12.3456, "-1")
+
+
+def test_a_backup_is_a_station_database_and_never_overwrites(home: Path, tmp_path: Path) -> None:
+    target = tmp_path / "elsewhere" / "station.db"
+    target.parent.mkdir()
+    assert station(home, "backup", str(target)).exit_code == 0
+    assert station(target.parent, "runs").output == station(home, "runs").output
+    again = station(home, "backup", str(target))
+    assert again.exit_code == 2
+    assert "exists already" in again.stderr
+    nowhere = station(home, "backup", str(tmp_path / "no" / "folder.db"))
+    assert nowhere.exit_code == 2
+    assert "cannot be written" in nowhere.stderr
+
+
 @pytest.mark.parametrize(
     "arguments",
     [
