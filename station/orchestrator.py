@@ -118,10 +118,14 @@ class Orchestrator:
         except NotFound:
             robot = Robot.default(serial)
         for joint, settings in enumerate(self._settings.joints, start=1):
-            if robot.scaling(joint) != settings.scaling:
+            wanted, has = asdict(robot.scaling(joint)), asdict(settings.scaling)
+            differing = [
+                f"{key} {wanted[key]} instead of {has[key]}" for key in has if wanted[key] != has[key]
+            ]
+            if differing:
                 raise InputRefused(
-                    f"Robot {serial} has {robot.scaling(joint)} at joint {joint}, this station's drive is"
-                    f" set for {settings.scaling}; correct the robot's [joints] or [[servo.joint]]."
+                    f"Robot {serial} does not fit this station's drives: joint {joint} has"
+                    f" {', '.join(differing)}; correct its [joints] or the station's [[servo.joint]]."
                 )
         return robot
 

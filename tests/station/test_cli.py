@@ -153,7 +153,7 @@ def test_calibrate_runs_on_the_emulated_rig_and_tells_the_result(tmp_path: Path)
 
 @pytest.mark.parametrize("sig", [signal.SIGINT, signal.SIGTERM])
 def test_ctrl_c_stops_the_machine_and_stores_the_abort(tmp_path: Path, sig: signal.Signals) -> None:
-    with process(tmp_path, "calibrate", "--operator", "ada", "--speed", "3") as child:
+    with process(tmp_path, "calibrate", "--operator", "ada", "--speed", "8") as child:
         while "P1" not in readline(child):
             assert child.poll() is None
         child.send_signal(sig)
@@ -167,7 +167,7 @@ def test_ctrl_c_stops_the_machine_and_stores_the_abort(tmp_path: Path, sig: sign
 
 
 def test_kill_in_the_middle_of_a_real_run_keeps_its_readings(tmp_path: Path) -> None:
-    with process(tmp_path, "calibrate", "--operator", "ada", "--speed", "3") as child:
+    with process(tmp_path, "calibrate", "--operator", "ada", "--speed", "8") as child:
         while "P2" not in readline(child):
             assert child.poll() is None
         child.kill()

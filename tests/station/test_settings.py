@@ -51,6 +51,15 @@ def test_a_station_file_becomes_settings_and_drivers(tmp_path: Path) -> None:
     assert not devices.emulated
 
 
+def test_the_example_states_the_defaults() -> None:
+    example = load_settings(Path(__file__).parents[2] / "docs" / "examples" / "station.toml")
+    assert example.limits == Settings().limits
+    assert example.service == Settings().service
+    assert example.emulated == Settings().emulated
+    assert example.joints == Settings().joints
+    assert build_devices(example).addresses[0].startswith("serial:///dev/ttyUSB0")
+
+
 def test_without_a_file_the_defaults_name_no_devices() -> None:
     assert load_settings(None) == Settings()
     with pytest.raises(InputRefused, match="names no devices"):
