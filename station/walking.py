@@ -121,19 +121,19 @@ class Walker:
                     f"At position {stop.position} joint {joint + 1} stands at {theta[joint]:.4f} deg"
                     f" instead of {target[joint]:.4f}."
                 )
-        self._direction = tuple(  # type: ignore[assignment]
-            self._direction[joint] if abs(delta) <= _STILL_DEG else int(math.copysign(1, delta))
-            for joint, delta in enumerate((theta[0] - start[0], theta[1] - start[1]))
+        self._direction = (
+            _direction(theta[0] - start[0], self._direction[0]),
+            _direction(theta[1] - start[1], self._direction[1]),
         )
         self._theta = theta
 
     def _wait_in_position(self, stop: Stop, start: Angles, target: Angles, limit_s: float) -> None:
         deadline = time.monotonic() + limit_s
         next_look = time.monotonic() + _LOOK_S
-        waiting = list(self.machine.devices.axes)
-        while waiting:
+        while True:
             self._check_cancel()
-            waiting = [axis for axis in waiting if not self._arrived(stop, axis)]
+            # Both, each time: one that has arrived may still raise an alarm while the other moves.
+            waiting = [axis for axis in self.machine.devices.axes if not self._arrived(stop, axis)]
             if not waiting:
                 return
             if time.monotonic() > deadline:
@@ -227,3 +227,10 @@ class Walker:
     def _check_cancel(self) -> None:
         if self.cancel.is_set():
             raise Cancelled
+
+
+def _direction(travel_deg: float, before: int) -> int:
+    """Sign of a motion; one too small to have a direction leaves the one before."""
+    if abs(travel_deg) <= _STILL_DEG:
+        return before
+    return 1 if travel_deg > 0 else -1

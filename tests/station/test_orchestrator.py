@@ -20,8 +20,8 @@ from station.records import CalibrationRequest, PlanName, Procedure, State, Walk
 from station.robot import Robot
 from station.settings import LimitSettings, Settings
 from station.store import Store
-from tests.station.conftest import SETTINGS, Start
-from tests.station.fakes import STOPS, Rig, result_of, stop_at, two_walks
+from tests.station.conftest import Start
+from tests.station.fakes import STOPS, Rig, result_of, stop_at
 
 REQUEST = CalibrationRequest("R1", "paper", "ada")
 LIMIT_S = 10.0
@@ -247,6 +247,19 @@ def test_an_alarm_on_the_way_is_named_and_reset_by_the_next_run(start: Start, st
     assert not lock["ok"]
     assert outcome(store, run_to_end(orchestrator))[0] == "succeeded"
     assert "axis 2 reset_alarm" in rig.script.calls
+
+
+def test_an_axis_that_has_arrived_is_watched_until_the_other_has_too(
+    start: Start, store: Store, rig: Rig
+) -> None:
+    def alarm() -> None:
+        rig.axes[0].alarm = 0x150
+
+    rig.axes[1].stuck = True
+    rig.script.do("axis 2 status", alarm, at=4)
+    state, _, reason = outcome(store, run_to_end(start()))
+    assert state == "failed"
+    assert "Axis 1 shows alarm 150h" in reason
 
 
 def test_an_alarm_that_stays_is_a_failure_without_motion(start: Start, store: Store, rig: Rig) -> None:
@@ -625,8 +638,3 @@ def test_an_idle_station_watches_its_machine_and_gets_lost_devices_back(
 
     until(orchestrator, lambda s: told()[-1] == s["interlocks"])
     assert all(before != after for before, after in pairwise(told()))
-
-
-def test_settings_used_here_are_the_stations(start: Start) -> None:
-    assert start().snapshot()["station"]["limits"]["samples"] == SETTINGS.limits.samples
-    assert two_walks("paper", Robot.default()) is not None
