@@ -26,7 +26,7 @@ FLAGS = [
     "--disable-background-networking", "--disable-component-update", "--disable-sync",
 ]  # fmt: skip
 SMALL, LARGE = {"width": 1024, "height": 768}, {"width": 1280, "height": 800}
-START_LIMIT_S = 30.0
+BUILT_PAGE = (pages.STATIC / "index.html").is_file(), "the built page (npm run build in web/ui)"
 END_LIMIT_S = 15.0
 
 
@@ -100,7 +100,7 @@ Serve = Callable[..., Station]
 @pytest.fixture
 def serve(tmp_path: Path) -> Iterator[Serve]:
     """Starts stations; with the same home a station comes back with its history and address."""
-    needed((pages.STATIC / "index.html").is_file(), "the built page (npm run build in web/ui)")
+    needed(*BUILT_PAGE)
     with ExitStack() as opened:
 
         def serve(home: Path | None = None, speed: float = 200.0) -> Station:
@@ -111,17 +111,27 @@ def serve(tmp_path: Path) -> Iterator[Serve]:
         yield serve
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
 def station(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Station]:
     """One for the tests that leave nothing under way."""
-    needed((pages.STATIC / "index.html").is_file(), "the built page (npm run build in web/ui)")
+    needed(*BUILT_PAGE)
     station = Station(tmp_path_factory.mktemp("station"), speed=200.0)
     yield station
     station.close()
 
 
-@pytest.fixture(scope="session")
+@pytest.fixture(scope="package")
+def slow_station(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Station]:
+    """The same, with a machine slow enough to be stopped in the middle of a run."""
+    needed(*BUILT_PAGE)
+    station = Station(tmp_path_factory.mktemp("slow-station"), speed=5.0)
+    yield station
+    station.close()
+
+
+@pytest.fixture(scope="package")
 def chromium() -> Iterator[Browser]:
+    # closed with this package: its event loop would stand in the way of other tests' own
     path = shutil.which("chromium")
     needed(path, "chromium")
     with sync_playwright() as playwright:

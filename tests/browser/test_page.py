@@ -6,7 +6,7 @@ import json
 
 from playwright.sync_api import Page, WebSocketRoute, expect
 
-from tests.browser.conftest import Serve, Station
+from tests.browser.conftest import Station
 from tests.browser.steps import add_run, arm, open_station, start, violations
 
 
@@ -24,9 +24,8 @@ def test_no_view_breaks_wcag_2_2_aa(page: Page, station: Station) -> None:
     assert violations(page) == []
 
 
-def test_no_state_breaks_wcag_2_2_aa(page: Page, serve: Serve) -> None:
-    station = serve(speed=5)
-    open_station(page, station)
+def test_no_state_breaks_wcag_2_2_aa(page: Page, slow_station: Station) -> None:
+    open_station(page, slow_station)
     start(page)
     expect(page.locator(".readings tbody tr").first).to_be_visible()
     assert violations(page) == []

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from playwright.sync_api import BrowserContext, Page, ViewportSize, expect
 
-from tests.browser.conftest import LARGE, SMALL, Serve, Station
+from tests.browser.conftest import LARGE, SMALL, Station
 from tests.browser.steps import add_run, arm, open_station, start, violations
 
 ON_TOP = """button => {
@@ -60,20 +60,18 @@ def test_nothing_is_cut_off_and_stop_is_always_at_hand(
     check(page)
 
 
-def test_stop_ends_a_run_from_any_view(page: Page, serve: Serve) -> None:
-    station = serve(speed=5)
-    open_station(page, station)
+def test_stop_ends_a_run_from_any_view(page: Page, slow_station: Station) -> None:
+    open_station(page, slow_station)
     start(page)
     page.get_by_role("link", name="History", exact=True).click()
     page.get_by_role("button", name="STOP").click()
     expect(page.locator("tbody tr").first).to_contain_text("ABORTED")
 
 
-def test_abort_is_sent_with_six_pages_open(context: BrowserContext, serve: Serve) -> None:
-    station = serve(speed=5)
+def test_abort_is_sent_with_six_pages_open(context: BrowserContext, slow_station: Station) -> None:
     pages = [context.new_page() for _ in range(6)]
     for page in pages:
-        open_station(page, station)
+        open_station(page, slow_station)
     start(pages[0])
     expect(pages[5].get_by_role("button", name="Abort run")).to_be_enabled()
     pages[5].get_by_role("button", name="Abort run").click()
@@ -81,9 +79,8 @@ def test_abort_is_sent_with_six_pages_open(context: BrowserContext, serve: Serve
         expect(page.locator(".outcome")).to_contain_text("ABORTED")
 
 
-def test_a_press_of_half_a_second_counts_while_values_change(page: Page, serve: Serve) -> None:
-    station = serve(speed=20)
-    open_station(page, station)
+def test_a_press_of_half_a_second_counts_while_values_change(page: Page, slow_station: Station) -> None:
+    open_station(page, slow_station)
     buttons = "window.kept = [...document.querySelectorAll('button')]"
     page.evaluate(buttons)
     start(page)
@@ -93,8 +90,7 @@ def test_a_press_of_half_a_second_counts_while_values_change(page: Page, serve: 
     assert page.evaluate("document.activeElement !== document.body")
 
 
-def test_a_frozen_server_shows_as_offline_and_stop_says_that_it_failed(page: Page, serve: Serve) -> None:
-    station = serve()
+def test_a_frozen_server_shows_as_offline_and_stop_says_that_it_failed(page: Page, station: Station) -> None:
     open_station(page, station)
     arm(page)
     station.freeze()
