@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from datetime import datetime, timedelta
 from pathlib import Path
@@ -17,6 +17,7 @@ from station.store import Store
 
 REQUEST = CalibrationRequest("R1", "paper", "ada", "WO-7", {"shift": "late"})
 READING = Reading(1, 1.25, (0.5018, 179.9982), (1, -1), 12.34567, "p1", 1, (12.3456, 12.3457))
+SAMPLES = (109.9894, 109.9890, 109.9870, 109.9880, 109.9890)
 RESULT = CalibrationResult(
     "pass",
     "",
@@ -229,3 +230,54 @@ def test_opening_twice_migrates_once(tmp_path: Path) -> None:
         run = start(store)
         store.close()
     assert run == 2
+
+
+def test_a_run_of_six_readings_takes_less_than_1500_bytes(store: Store) -> None:
+    def size() -> int:
+        store._writer.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+        return store.path.stat().st_size
+
+    runs, empty = 100, size()
+    for n in range(runs):
+        run = start(store, key=f"3f2a7c9e-{n:08d}", body_hash=bytes(16))
+        readings = [
+            replace(READING, reading=k, position=f"P{k}", scale_mm=109.98848 + n, samples_mm=SAMPLES)
+            for k in range(1, 7)
+        ]
+        store.add_readings(run, readings)
+        rows = tuple(
+            {"reading": k, "position": f"P{k}", "residual_mm": 0.00032361 * k + n, "limit_mm": 0.0058 + n}
+            for k in range(1, 7)
+        )
+        store.finish(run, State.SUCCEEDED, replace(RESULT, residuals=rows))
+    assert (size() - empty) / runs < 1500
+
+
+@pytest.mark.parametrize(
+    "query",
+    [
+        {},
+        {"cursor": 10},
+        {"robot_serial": "R1"},
+        {"state": "failed"},
+        {"verdict": "pass"},
+        {"robot_serial": "R1", "state": "failed", "verdict": "fail"},
+        {"since": datetime(2026, 1, 1), "until": datetime(2026, 2, 1)},
+    ],
+)
+def test_a_page_is_found_by_index_and_never_sorted(
+    store: Store, query: dict[str, object], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ask = store._readers.all
+    steps: list[str] = []
+
+    def explain(sql: str, values: Sequence[object]) -> list[object]:
+        steps.extend(row["detail"] for row in ask(f"EXPLAIN QUERY PLAN {sql}", values))
+        return []
+
+    monkeypatch.setattr(store._readers, "all", explain)
+    store.calibrations(**query)  # type: ignore[arg-type]
+    plan = " ".join(steps)
+    assert "TEMP B-TREE" not in plan
+    if query:
+        assert "SEARCH calibrations" in plan
