@@ -6,18 +6,22 @@ workspace of J_r' J_r, so it is the mean square position error that the calibrat
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from numpy.typing import NDArray
 
 from station.kinematics import Complex, Real
 
 MAX_ROUNDS = 20
+STARTS = 12
+"""Random starts beside the greedy one: the exchange ends in local optima."""
 
 
 def choose(
     rows: Real, places: Complex, information: Real, weight: Real, count: int, apart_mm: float
 ) -> list[int]:
-    """Indices of `count` candidates that serve the position error best.
+    """Indices of `count` candidates that serve the position error best, of several starts.
 
     rows (N, P) whitened Jacobian of each candidate reading, places (N,) where it is, information
     (P, P) what is known beforehand (non-singular), weight (P, P) M; places are kept `apart_mm` from
@@ -25,43 +29,61 @@ def choose(
 
     :raises ValueError: fewer candidates that far apart than asked for.
     """
-    chosen: list[int] = []
-    allowed = _Allowed(places, apart_mm)
-    covariance = np.linalg.inv(information)
-    for _ in range(count):
-        best = _best(rows, covariance, weight, allowed.mask(chosen))
-        chosen.append(best)
-        covariance = _add(covariance, rows[best])
-    for _ in range(MAX_ROUNDS):
-        before = list(chosen)
-        for slot in range(count):
-            others = chosen[:slot] + chosen[slot + 1 :]
-            reduced = np.linalg.inv(information + rows[others].T @ rows[others])
-            chosen[slot] = _best(rows, reduced, weight, allowed.mask(others))
-        if chosen == before:
-            break
-    return chosen
+    problem = _Problem(rows, information, weight, np.abs(places[:, None] - places[None, :]) < apart_mm)
+    rng = np.random.default_rng(0)
+    starts = [problem.greedy(count)] + [problem.scattered(count, rng) for _ in range(STARTS)]
+    complete = [problem.exchange(start) for start in starts if len(start) == count]
+    if not complete:
+        raise ValueError(f"{count} places {apart_mm} mm apart were not found")
+    return min(complete, key=problem.criterion)
 
 
-class _Allowed:
-    """Which candidates stay far enough from those chosen."""
+@dataclass(frozen=True)
+class _Problem:
+    rows: Real
+    information: Real
+    weight: Real
+    near: NDArray[np.bool_]
+    """(N, N) pairs too close to be chosen together."""
 
-    def __init__(self, places: Complex, apart_mm: float) -> None:
-        self._near = np.abs(places[:, None] - places[None, :]) < apart_mm
+    def criterion(self, chosen: list[int]) -> float:
+        return float(np.trace(self._covariance(chosen) @ self.weight))
 
-    def mask(self, chosen: list[int]) -> NDArray[np.bool_]:
-        return np.asarray(~self._near[chosen].any(axis=0))
+    # a start that leaves itself no room ends short and is passed over
 
+    def greedy(self, count: int) -> list[int]:
+        chosen: list[int] = []
+        while len(chosen) < count and self._allowed(chosen).any():
+            chosen.append(self._best(chosen))
+        return chosen
 
-def _best(rows: Real, covariance: Real, weight: Real, allowed: NDArray[np.bool_]) -> int:
-    """The candidate whose reading lowers trace(C M) most (rank-one update)."""
-    if not allowed.any():
-        raise ValueError("not that many places are that far apart")
-    spread = rows @ covariance
-    gain = np.einsum("ni,ij,nj->n", spread, weight, spread) / (1.0 + np.einsum("ni,ni->n", spread, rows))
-    return int(np.argmax(np.where(allowed, gain, -np.inf)))
+    def scattered(self, count: int, rng: np.random.Generator) -> list[int]:
+        chosen: list[int] = []
+        while len(chosen) < count and self._allowed(chosen).any():
+            chosen.append(int(rng.choice(np.flatnonzero(self._allowed(chosen)))))
+        return chosen
 
+    def exchange(self, start: list[int]) -> list[int]:
+        """Replace one place after the other by the best for its slot until none changes."""
+        chosen = list(start)
+        for _ in range(MAX_ROUNDS):
+            before = list(chosen)
+            for slot in range(len(chosen)):
+                chosen[slot] = self._best(chosen[:slot] + chosen[slot + 1 :])
+            if chosen == before:
+                break
+        return chosen
 
-def _add(covariance: Real, row: Real) -> Real:
-    spread = covariance @ row
-    return np.asarray(covariance - np.outer(spread, spread) / (1.0 + row @ spread))
+    def _covariance(self, chosen: list[int]) -> Real:
+        return np.asarray(np.linalg.inv(self.information + self.rows[chosen].T @ self.rows[chosen]))
+
+    def _best(self, chosen: list[int]) -> int:
+        """The further candidate whose reading lowers trace(C M) most (rank-one update)."""
+        covariance = self._covariance(chosen)
+        spread = self.rows @ covariance
+        gain = np.einsum("ni,ni->n", spread @ self.weight, spread)
+        gain /= 1.0 + np.einsum("ni,ni->n", spread, self.rows)
+        return int(np.argmax(np.where(self._allowed(chosen), gain, -np.inf)))
+
+    def _allowed(self, chosen: list[int]) -> NDArray[np.bool_]:
+        return np.asarray(~self.near[chosen].any(axis=0))

@@ -6,7 +6,7 @@ earlier runs know (`memory`).  Out: parameters with uncertainty, residuals, nois
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -17,6 +17,7 @@ from station.five_bar import FiveBar
 from station.kinematics import Real, Unreachable, forward
 from station.least_squares import NotConvergedError, Prior, Solution, solve
 from station.measurements import Measurements
+from station.memory import GATE_P, Memory, contradiction_p
 from station.records import Quantity
 from station.robot import Robot
 
@@ -25,6 +26,22 @@ OUTSIDE_MM = 80.0
 LACK_OF_FIT_P = 1e-3
 IMPOSSIBLE_SDS = 20.0
 """A parameter this many tolerances from nominal is a wrong file or a missing effect, not a calibration."""
+
+
+@dataclass(frozen=True, slots=True)
+class MemoryUse:
+    """Whether what earlier calibrations know took part, and how well the readings agree with it."""
+
+    used: bool
+    p_value: float
+
+    def as_json(self) -> dict[str, Any]:
+        text = (
+            "geometry and mechanism as earlier calibrations found them"
+            if self.used
+            else "dropped: the readings contradict it; was the mechanism mounted anew?"
+        )
+        return {"used": self.used, "p_value": self.p_value, "text": text}
 
 
 @dataclass(frozen=True)
@@ -40,6 +57,8 @@ class Identification:
     """What the posterior covariance was inflated by because the model does not fit (1 when it does)."""
     lack_of_fit_p: float
     outliers: tuple[outliers.Outlier, ...]
+    memory: MemoryUse | None
+    """None when there was none."""
 
     @property
     def p(self) -> Real:
@@ -120,6 +139,7 @@ class Identification:
             "before": {"predicted_position_error_mm": self.position_error(False)},
             "after": {"predicted_position_error_mm": self.position_error(True)},
             "outliers": [o.as_json() for o in self.outliers],
+            "memory": self.memory.as_json() if self.memory else None,
             "convergence": {"steps": self.solution.steps},
         }
 
@@ -138,8 +158,11 @@ def position_error_summary(mean: Real, jacobian: Real, covariance: Real) -> dict
     return {"rms": float(np.sqrt(square.mean())), "max": float(np.sqrt(square.max()))}
 
 
-def identify(robot: Robot, measurements: Measurements) -> Identification:
+def identify(robot: Robot, measurements: Measurements, memory: Memory | None = None) -> Identification:
     """Fit the measurement model to readings, outlying ones found, named and left out.
+
+    `memory`, already aged, is what earlier calibrations of this robot and mechanism know; readings that
+    contradict it drop it.
 
     :raises InputRefused: poses that cannot be, too few places, too many outliers, no convergence,
         or an impossible result, with the reading or parameter at fault.
@@ -148,13 +171,30 @@ def identify(robot: Robot, measurements: Measurements) -> Identification:
     check_places(measurements)
     kept, left_out = _without_outliers(robot, measurements)
     mechanism = FiveBar(robot, kept)
-    prior, row_sd = tolerance_prior(mechanism), mechanism.row_sd
+    prior = tolerance_prior(mechanism)
+    fit = _fit(mechanism, kept, prior, left_out)
+    if memory is not None:
+        remembered = memory.prior(mechanism.parameters)
+        with_memory = _fit(mechanism, kept, remembered, left_out)
+        p_value = contradiction_p(with_memory.solution, remembered, mechanism.parameters)
+        if p_value < GATE_P:
+            fit = replace(fit, memory=MemoryUse(False, p_value))
+        else:
+            fit = replace(with_memory, memory=MemoryUse(True, p_value))
+    _check_possible(fit)
+    return fit
+
+
+def _fit(
+    mechanism: FiveBar, kept: Measurements, prior: Prior, left_out: tuple[outliers.Outlier, ...]
+) -> Identification:
+    row_sd = mechanism.row_sd
     solution = _solve(mechanism, prior, row_sd)
     estimate = noise.estimate(kept, solution.residual, row_sd)
     if estimate.source == "repeats":
         solution = _solve(mechanism, prior, estimate.row_sd)
     p_value, ratio = noise.lack_of_fit(solution, estimate, prior.free, kept)
-    fit = Identification(
+    return Identification(
         mechanism=mechanism,
         measurements=kept,
         solution=solution,
@@ -162,9 +202,8 @@ def identify(robot: Robot, measurements: Measurements) -> Identification:
         sd_factor=ratio if p_value < LACK_OF_FIT_P else 1.0,
         lack_of_fit_p=p_value,
         outliers=left_out,
+        memory=None,
     )
-    _check_possible(fit)
-    return fit
 
 
 def _without_outliers(

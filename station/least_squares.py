@@ -2,7 +2,8 @@
 
 The problem is to minimise |r(x)|^2 + |W (x - m)|^2, where r is already divided by its standard
 deviation and (m, W) is the prior.  Converged means: the last step was shorter than `TOLERANCE`
-standard deviations (each is at most a few hundredths of the one before).  Singular values and blind directions come with the answer.
+standard deviations (each is at most a few hundredths of the one before).  Singular values and
+blind directions come with the answer.
 """
 
 from __future__ import annotations
@@ -18,6 +19,8 @@ from station.kinematics import Real
 
 TOLERANCE = 3e-8
 MAX_STEPS = 60
+ROUNDING = 1e-7
+"""Share of the cost that double precision may get wrong: distances are known to 1e-13 mm of 600."""
 BLIND = 1e-10
 """Singular values below this share of the largest carry no information in double precision."""
 
@@ -113,7 +116,7 @@ def _solve(residuals: Residuals, start: Real, prior: Prior) -> Solution:
             new_stacked, new_target, new_r, new_J = _stack(residuals, trial, prior)
             new_cost = float(new_target @ new_target)
             # rounding of the cost itself must not be mistaken for an uphill step
-            if new_cost <= cost * (1.0 + 1e-10) + 1e-12:
+            if new_cost <= cost + ROUNDING * (1.0 + cost):
                 break
             if damping > 1e12:
                 raise NotConvergedError(f"no downhill step was found after {step} steps")

@@ -1,8 +1,11 @@
-"""The plans: `paper` (Fig. 7), `rapid` (six places chosen) and `full` (the diagnostic walk).
+"""The plans: `paper` and `rapid` (the places of Fig. 7) and `full` (places chosen by exchange).
 
-`full` visits forty places, chosen for the position error and kept apart so that they also cover the
-workspace; each is approached from both sides, half of them are read three times, and the order keeps
-time apart from place so that a drift cannot pass for geometry.
+`rapid` lives from the memory of a full run.  Places crowded into the corners would serve it no better
+and could not contradict a wrong memory (docs/decisions/0004-rapid-places.md).
+
+`full` visits 24 places, chosen for the position error; each is read three times from one side and
+twice from the other, and the order keeps time apart from place so that a drift cannot pass for
+geometry.
 """
 
 from __future__ import annotations
@@ -26,11 +29,10 @@ from station.robot import Robot
 CANDIDATES = (41, 17)
 INSET_MM = 4.0
 """Kept free of the workspace's edge for the overshoot of an approach."""
-RAPID_PLACES = 6
-FULL_PLACES = 40
-APART_MM = 15.0
-REPEATED = 20
-TIMES = 3
+FULL_PLACES = 24
+APART_MM = 10.0
+TIMES = (3, 2)
+"""How often each place is read, from one side and from the other."""
 SCALE_TRAVEL_MM = 350.0
 ORDERS_TRIED = 200
 FLAT_PRIOR_SD_MM = 1e4
@@ -82,20 +84,13 @@ def make_plan(name: PlanName, robot: Robot, dtheta: Real | None = None) -> Plan:
     :raises InputRefused: the scale's travel does not cover the workspace.
     """
     dtheta = np.zeros(2) if dtheta is None else dtheta
-    if name == "paper":
+    if name == "full":
+        places = _choose(robot, _candidates(robot), FULL_PLACES)
+        order, approach = _both_sides(places)
+    else:
         n = positions_per_edge(robot)
         places = boundary_positions(robot.workspace_x, robot.workspace_y, n)
-        approach = np.zeros((len(places), 2), dtype=int)
-        order = np.arange(len(places))
-    else:
-        candidates = _candidates(robot)
-        count = RAPID_PLACES if name == "rapid" else FULL_PLACES
-        chosen = candidates[_choose(robot, candidates, count)]
-        if name == "rapid":
-            order, approach = np.arange(count), np.zeros((count, 2), dtype=int)
-        else:
-            order, approach = _both_sides(chosen)
-        places = chosen
+        order, approach = np.arange(len(places)), np.zeros((len(places), 2), dtype=int)
     theta = np.degrees(inverse(robot.geometry, places) - dtheta)
     stops = tuple(
         Stop(
@@ -169,26 +164,25 @@ def _known(mechanism: FiveBar) -> Real:
     return np.asarray(information)
 
 
-def _choose(robot: Robot, candidates: Complex, count: int) -> list[int]:
+def _choose(robot: Robot, candidates: Complex, count: int) -> Complex:
     mechanism = _at(robot, candidates)
     mean = np.array([p.prior_mean for p in mechanism.parameters])
     jacobian = mechanism.position_errors(mean)[1]
     weight = np.einsum("gdi,gdj->ij", jacobian, jacobian) / (GRID[0] * GRID[1])
-    return choose(_rows(mechanism), candidates, _known(mechanism), weight, count, APART_MM)
+    chosen = choose(_rows(mechanism), candidates, _known(mechanism), weight, count, APART_MM)
+    return np.asarray(candidates[chosen])
 
 
 def _both_sides(places: Complex) -> tuple[np.ndarray, np.ndarray]:
-    """Order of visits (R,) and approach signs (R, 2): from both sides, half of the places three times.
+    """Order of visits (R,) and approach signs (R, 2): every place from both sides, several times.
 
     Half the places are approached with both joints in the same sense, half in opposite senses, so
     that what one joint's direction does is not mixed up with the other's.
     """
     visits: list[tuple[int, int, int]] = []
-    repeated = set(np.linspace(0, len(places) - 1, REPEATED).round().astype(int).tolist())
     for k in range(len(places)):
         second = 1 if k % 2 == 0 else -1
-        visits += [(k, 1, second)] * (TIMES if k in repeated else 1)
-        visits.append((k, -1, -second))
+        visits += [(k, 1, second)] * TIMES[0] + [(k, -1, -second)] * TIMES[1]
     table = np.array(visits)
     return _keep_time_apart(places, table)
 

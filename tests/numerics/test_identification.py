@@ -168,6 +168,7 @@ def test_full_plan_reads_every_place_from_both_sides_and_keeps_time_apart() -> N
     sides: dict[str, set[tuple[int, int]]] = {}
     for stop in plan.stops:
         sides.setdefault(stop.position, set()).add(stop.approach)
+    assert len(sides) == 24
     assert all(len(s) == 2 for s in sides.values())
     place = np.array([complex(*s.target_mm) for s in plan.stops])
     time = np.arange(len(place))
