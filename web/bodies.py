@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, JsonValue, StringConstraints
 
@@ -13,10 +13,6 @@ Serial = Annotated[
     str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64, pattern=r"^[\w.\-/]+$")
 ]
 Name = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64)]
-
-
-PLANS: tuple[PlanName, ...] = ("paper",)
-"""The plans that the station can run so far."""
 
 
 class Answer(BaseModel):
@@ -169,7 +165,7 @@ class StationInfo(Answer):
     name: str
     emulated: bool
     limits: dict[str, Any] = Field(default_factory=dict)
-    plans: list[PlanName] = Field(default=list(PLANS), description="plans this station can run")
+    plans: list[PlanName] = Field(default=list(get_args(PlanName)), description="plans this station can run")
 
 
 class Device(Answer):
@@ -262,10 +258,10 @@ class Station(Answer):
     last: CalibrationSummary | None
 
 
-class StopSent(Answer):
-    """The quick stop went out to both axes, and a run under way is being aborted."""
+class Stopped(Answer):
+    """Both axes confirmed the quick stop; a run under way is being aborted."""
 
-    sent: Literal[True] = True
+    stopped: Literal[True] = True
     by: str
 
 

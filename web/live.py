@@ -17,6 +17,7 @@ from pydantic_core import to_json
 
 from station.orchestrator import LiveEvent, Orchestrator
 from web.aside import aside
+from web.bodies import Station
 
 BEAT_S = 1.0
 QUEUE_LENGTH = 256
@@ -84,7 +85,8 @@ class LiveFeed:
 
     async def _snapshot(self, number: int) -> str:
         # aside: a worker that hangs while it holds the orchestrator must not stop the beats
-        return self._message("snapshot", number, await aside(self._orchestrator.snapshot))
+        station = Station.model_validate(await aside(self._orchestrator.snapshot))
+        return self._message("snapshot", number, station)
 
     def _message(self, kind: str, number: int, data: Any = None) -> str:
         message = {"type": kind, "number": number, "at": datetime.now(UTC), "build": self.build, "data": data}

@@ -56,7 +56,7 @@ def test_nothing_is_cut_off_and_stop_is_always_at_hand(
     expect(page.locator(".empty")).to_have_text("No run matches.")
     check(page)
     page.get_by_role("button", name="STOP").click()
-    expect(page.locator(".report")).to_contain_text("Stop sent")
+    expect(page.locator(".report")).to_contain_text("both drives confirmed")
     check(page)
 
 

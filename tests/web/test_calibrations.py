@@ -86,10 +86,12 @@ def test_a_wrong_body_names_the_field(service: Service, changes: dict[str, Any],
     assert (answer.status_code, answer.json()["field"]) == (422, field)
 
 
-def test_a_plan_that_cannot_be_run_yet_is_refused(service: Service) -> None:
-    assert service.client.get("/api/v1/station").json()["station"]["plans"] == ["paper"]
-    answer = service.start(plan="full")
-    assert (answer.status_code, answer.json()["type"]) == (422, "urn:station:problem:refused")
+def test_every_plan_that_is_offered_is_accepted(service: Service) -> None:
+    plans = service.client.get("/api/v1/station").json()["station"]["plans"]
+    assert plans == ["paper", "rapid", "full"]
+    for plan in plans:
+        run = service.complete(plan=plan)
+        assert service.client.get(f"{LIST}/{run}").json()["plan"] == plan
 
 
 def test_a_scanned_serial_loses_its_blanks(service: Service) -> None:

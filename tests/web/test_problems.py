@@ -54,6 +54,7 @@ def test_a_failure_inside_shows_no_traceback(service: Service, monkeypatch: pyte
 
 @pytest.mark.parametrize("path", [RUNS, "/api/v1/stop"])
 def test_another_sites_page_may_not_command(service: Service, path: str) -> None:
+    service.wait_for("scale read")
     answer = service.client.post(path, json=BODY, headers={"Origin": "http://elsewhere"})
     problem_of(answer, 403)
     assert service.client.get(RUNS).json()["items"] == []

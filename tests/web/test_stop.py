@@ -6,6 +6,7 @@ import time
 
 import pytest
 
+from drivers.protocols import LinkLost
 from tests.web.conftest import LIMIT_S, Service
 from web.routes import stop as stop_route
 
@@ -13,14 +14,20 @@ from web.routes import stop as stop_route
 def test_stop_reaches_both_axes_and_ends_the_run(service: Service) -> None:
     run = service.hold()
     answer = service.client.post("/api/v1/stop", headers={"X-Operator": "ada"})
-    assert (answer.status_code, answer.json()) == (200, {"sent": True, "by": "ada"})
+    assert (answer.status_code, answer.json()) == (200, {"stopped": True, "by": "ada"})
     assert {"axis 1 quick_stop", "axis 2 quick_stop"} <= set(service.rig.script.calls)
     assert service.runtime.orchestrator.wait(run, LIMIT_S) == "aborted"
 
 
 def test_stop_without_a_run_still_stops(service: Service) -> None:
+    service.wait_for("scale read")
     assert service.client.post("/api/v1/stop").status_code == 200
     assert {"axis 1 quick_stop", "axis 2 quick_stop"} <= set(service.rig.script.calls)
+
+
+def test_a_drive_that_is_not_connected_has_not_confirmed(service: Service) -> None:
+    service.rig.script.fail("axis 1 connect", LinkLost("axis 1: nothing answers"))
+    assert service.client.post("/api/v1/stop").status_code == 502
 
 
 def test_stop_passes_a_worker_that_hangs_in_a_device(service: Service) -> None:
@@ -36,6 +43,15 @@ def test_stop_passes_a_worker_that_hangs_in_a_device(service: Service) -> None:
     service.rig.released.set()
 
 
+def test_an_axis_that_did_not_confirm_is_named(service: Service) -> None:
+    service.wait_for("scale read")
+    service.rig.script.fail("axis 2 quick_stop", LinkLost("axis 2: nothing answers"))
+    answer = service.client.post("/api/v1/stop")
+    assert (answer.status_code, answer.json()["type"]) == (502, "urn:station:problem:stop-not-confirmed")
+    assert [error["field"] for error in answer.json()["errors"]] == ["axis 2"]
+    assert "emergency stop" in answer.json()["detail"]
+
+
 def test_a_stop_that_does_not_come_back_says_so(service: Service, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(stop_route, "STOP_TIMEOUT_S", 0.1)
     monkeypatch.setattr(service.runtime.orchestrator, "stop", lambda who: service.rig.released.wait())
@@ -45,7 +61,7 @@ def test_a_stop_that_does_not_come_back_says_so(service: Service, monkeypatch: p
     service.rig.released.set()
 
 
-def test_a_refused_stop_is_not_called_sent(service: Service, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_stop_that_fails_is_not_called_done(service: Service, monkeypatch: pytest.MonkeyPatch) -> None:
     def fails(who: str) -> None:
         raise OSError("no bus")
 

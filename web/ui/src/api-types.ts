@@ -583,22 +583,24 @@ export interface components {
              * Plans
              * @description plans this station can run
              * @default [
-             *       "paper"
+             *       "paper",
+             *       "rapid",
+             *       "full"
              *     ]
              */
             plans: ("paper" | "rapid" | "full")[];
         };
         /**
-         * StopSent
-         * @description The quick stop went out to both axes, and a run under way is being aborted.
+         * Stopped
+         * @description Both axes confirmed the quick stop; a run under way is being aborted.
          */
-        StopSent: {
+        Stopped: {
             /**
-             * Sent
+             * Stopped
              * @default true
              * @constant
              */
-            sent: true;
+            stopped: true;
             /** By */
             by: string;
         };
@@ -1069,7 +1071,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["StopSent"];
+                    "application/json": components["schemas"]["Stopped"];
                 };
             };
             /** @description Unprocessable Entity */
@@ -1083,6 +1085,15 @@ export interface operations {
             };
             /** @description Internal Server Error */
             500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Bad Gateway */
+            502: {
                 headers: {
                     [name: string]: unknown;
                 };

@@ -53,7 +53,7 @@ export const start = (body: CalibrationBody, key: string) =>
 export const abort = (id: number) => call<Summary>("POST", `/calibrations/${id}/abort`);
 
 export const stop = () =>
-  call<Schemas["StopSent"]>("POST", "/stop", {
+  call<Schemas["Stopped"]>("POST", "/stop", {
     headers: { "X-Operator": "page" },
     signal: AbortSignal.timeout(STOP_TIMEOUT_MS),
   });

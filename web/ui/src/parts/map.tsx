@@ -1,5 +1,5 @@
 /** The workspace from above the table: positions to come, done and next, and where the robot stands. */
-import type { Run } from "../api";
+import type { Run, RunStop } from "../api";
 import { fixed } from "../format";
 import { station } from "../live";
 
@@ -12,15 +12,15 @@ export function WorkspaceMap({ run }: { run: Run | null }) {
   const [bottom, top] = workspace.y;
   const width = right - left;
   const height = top - bottom;
-  const stops = run?.stops ?? [];
-  const next = stops.findIndex((stop) => !stop.done);
-  const done = stops.filter((stop) => stop.done).length;
+  const places = placesOf(run?.stops ?? []);
+  const next = run?.stops.find((stop) => !stop.done)?.position;
+  const done = places.filter((place) => place.class === "done").length;
   const machine = station.value?.machine;
   return (
     <svg
       class="map"
       role="img"
-      aria-label={`Workspace: ${done} of ${stops.length} positions of this pass done`}
+      aria-label={`Workspace: ${done} of ${places.length} positions of this pass done`}
       // y grows upwards in the robot's frame and downwards on the screen
       viewBox={`${left - MARGIN_MM.left} ${-top - MARGIN_MM.top} ${width + MARGIN_MM.left + MARGIN_MM.right} ${height + MARGIN_MM.top + MARGIN_MM.bottom}`}
     >
@@ -42,10 +42,10 @@ export function WorkspaceMap({ run }: { run: Run | null }) {
       <text x={left - 16} y={-(top + bottom) / 2 + 4} text-anchor="end">
         y, mm
       </text>
-      {stops.map((stop, i) => (
-        <g class={stop.done ? "done" : i === next ? "next" : "to-come"}>
-          {i === next && <circle class="ring" cx={stop.x_mm} cy={-stop.y_mm} r={13} />}
-          <circle cx={stop.x_mm} cy={-stop.y_mm} r={7} />
+      {places.map((place) => (
+        <g key={place.position} class={place.class}>
+          {place.position === next && <circle class="ring" cx={place.x_mm} cy={-place.y_mm} r={13} />}
+          <circle cx={place.x_mm} cy={-place.y_mm} r={7} />
         </g>
       ))}
       {machine?.x_mm != null && machine.y_mm != null && (
@@ -65,4 +65,13 @@ export function WorkspaceMap({ run }: { run: Run | null }) {
       </g>
     </svg>
   );
+}
+
+/** One mark for each place: stops that share a position are repeats of it. */
+function placesOf(stops: RunStop[]) {
+  const repeats = Map.groupBy(stops, (stop) => stop.position);
+  return [...repeats.values()].map((visits) => {
+    const done = visits.filter((visit) => visit.done).length;
+    return { ...visits[0]!, class: done === visits.length ? "done" : done > 0 ? "partly" : "to-come" };
+  });
 }

@@ -11,10 +11,10 @@ async function press(): Promise<void> {
   const at = timeOfDay(clock.value);
   report.value = offline.value
     ? { text: `Offline: the stop of ${at} may not arrive. Press the emergency stop.`, failed: true }
-    : { text: `Stop sent at ${at} …`, failed: false };
+    : { text: `Stopping, pressed at ${at} …`, failed: false };
   try {
     await stop();
-    report.value = { text: `Stop sent at ${at}; the drives were told to stand.`, failed: false };
+    report.value = { text: `Stopped at ${at}: both drives confirmed.`, failed: false };
   } catch (error) {
     const cause = error instanceof Refused ? error.message : String(error);
     report.value = { text: `STOP FAILED at ${at}: ${cause} Press the emergency stop.`, failed: true };
