@@ -41,6 +41,7 @@ class Axis:
     ) -> None:
         self._counts_per_rev = spec.counts_per_rev
         self._scatter_pulses = spec.servo_error_pulses / 3 if spec.scatter else 0.0
+        self._whole_pulses = spec.whole_pulses
         self._zero_at_deg = spec.zero_at_deg[index]
         self._deg_per_pulse = spec.sign[index] / spec.pulses_per_deg
         self._offset_deg = spec.zero_offsets_deg[index]
@@ -63,6 +64,8 @@ class Axis:
         per_rpm = self._counts_per_rev / 60
         start, _ = self._at(self._clock())
         end = pulses + self.zero_pulses + self._rng.gauss(0.0, self._scatter_pulses)
+        if self._whole_pulses:
+            end = round(end)
         self._begin(trapezoid(start, end, rpm * per_rpm, rpm_per_s * per_rpm))
         self._commanded = pulses
 

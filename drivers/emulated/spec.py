@@ -47,6 +47,8 @@ class MachineSpec(_Table):
     """Whether the servos come to rest beside their command, eq. 35 of the paper."""
     servo_error_pulses: float = Field(default=4.0, ge=0)
     """Largest error of a stop (three standard deviations), pulses."""
+    whole_pulses: bool = True
+    """Whether a servo comes to rest on a pulse of its encoder (eq. 35 speaks of pulse errors) or between two."""
     effects: tuple[AnyEffect, ...] = ()
 
     @property

@@ -148,6 +148,13 @@ def test_servo_scatter_has_the_papers_size_and_feedback_sees_it() -> None:
     assert all(abs(value - round(value)) < 1e-6 for value in pulses)
 
 
+@pytest.mark.parametrize("whole", [True, False])
+def test_servos_rest_on_a_pulse_or_between_two(whole: bool) -> None:
+    rig = VirtualRig(MachineSpec(whole_pulses=whole))
+    rig.walk([(10.0, 175.0), (0.0, 180.0)])
+    assert all((axis.shaft_pulses == round(axis.shaft_pulses)) is whole for axis in rig.machine.axes)
+
+
 def test_same_seed_same_walk() -> None:
     stops = [(5.0, 175.0), (0.0, 180.0)]
     first, again = VirtualRig(MachineSpec()).walk(stops), VirtualRig(MachineSpec()).walk(stops)
