@@ -11,7 +11,7 @@ export function fixed(value: number | null | undefined, digits: number): string 
 
 export function signed(value: number | null | undefined, digits: number): string {
   const text = fixed(value, digits);
-  return value != null && value > 0 ? `+${text}` : text;
+  return value != null && value > 0 && Number(text) !== 0 ? `+${text}` : text;
 }
 
 const pad = (part: number) => String(part).padStart(2, "0");

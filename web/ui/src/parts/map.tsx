@@ -4,6 +4,8 @@ import { fixed } from "../format";
 import { station } from "../live";
 
 const MARGIN_MM = { left: 66, right: 30, top: 24, bottom: 30 };
+/** More places than this are drawn smaller. */
+const CROWDED = 12;
 
 export function WorkspaceMap({ run }: { run: Run | null }) {
   const workspace = station.value?.workspace;
@@ -14,6 +16,7 @@ export function WorkspaceMap({ run }: { run: Run | null }) {
   const height = top - bottom;
   const places = placesOf(run?.stops ?? []);
   const next = run?.stops.find((stop) => !stop.done)?.position;
+  const radius = places.length > CROWDED ? 5 : 7;
   const done = places.filter((place) => place.class === "done").length;
   const machine = station.value?.machine;
   return (
@@ -44,24 +47,28 @@ export function WorkspaceMap({ run }: { run: Run | null }) {
       </text>
       {places.map((place) => (
         <g key={place.position} class={place.class}>
-          {place.position === next && <circle class="ring" cx={place.x_mm} cy={-place.y_mm} r={13} />}
-          <circle cx={place.x_mm} cy={-place.y_mm} r={7} />
+          {place.position === next && <circle class="ring" cx={place.x_mm} cy={-place.y_mm} r={radius + 6} />}
+          <circle cx={place.x_mm} cy={-place.y_mm} r={radius} />
         </g>
       ))}
       {machine?.x_mm != null && machine.y_mm != null && (
         <path class="machine" d={`M${machine.x_mm - 11},${-machine.y_mm}h22M${machine.x_mm},${-machine.y_mm - 11}v22`} />
       )}
-      <g class="key" transform={`translate(${right - 190} ${-top - 12})`}>
+      <g class="key" transform={`translate(${right - 236} ${-top - 12})`}>
         <g class="done">
           <circle cx={0} cy={-4} r={4} />
         </g>
         <text x={8}>done</text>
-        <g class="to-come">
-          <circle cx={48} cy={-4} r={4} />
+        <g class="partly">
+          <circle cx={50} cy={-4} r={4} />
         </g>
-        <text x={56}>to come</text>
-        <path class="machine" d="M108,-4h10M113,-9v10" />
-        <text x={123}>robot now</text>
+        <text x={58}>partly</text>
+        <g class="to-come">
+          <circle cx={104} cy={-4} r={4} />
+        </g>
+        <text x={112}>to come</text>
+        <path class="machine" d="M168,-4h10M173,-9v10" />
+        <text x={182}>robot now</text>
       </g>
     </svg>
   );
