@@ -1,0 +1,1 @@
+"""Self-contained report pages: sections of text, tables and charts, no foreign host."""

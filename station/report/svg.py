@@ -1,0 +1,158 @@
+"""Small charts as inline SVG: lines, points, bars, with axes, units and a legend.
+
+Colours are Okabe and Ito's, which the colour-blind tell apart; lines differ in dash as well.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from markupsafe import Markup
+
+from station.report.templates import environment
+
+COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
+DASHES = ("none", "6 3", "2 3", "8 3 2 3", "none", "6 3", "2 3")
+WIDTH, HEIGHT = 560, 320
+LEFT, RIGHT, TOP, BOTTOM = 64, 12, 12, 46
+TICKS = 6
+
+
+@dataclass(frozen=True)
+class Series:
+    """One line, set of points or set of bars; `low` and `high` draw a band or whiskers."""
+
+    label: str
+    x: Sequence[float]
+    y: Sequence[float]
+    low: Sequence[float] | None = None
+    high: Sequence[float] | None = None
+
+
+@dataclass(frozen=True)
+class _Axis:
+    """From values to pixels."""
+
+    first: float
+    last: float
+    start: float
+    end: float
+    log: bool = False
+
+    def at(self, value: float) -> float:
+        a, b, v = (math.log10(x) for x in (self.first, self.last, value)) if self.log else (
+            self.first, self.last, value
+        )  # fmt: skip
+        return round(self.start + (v - a) / (b - a) * (self.end - self.start), 2)
+
+    @property
+    def ticks(self) -> list[tuple[float, str]]:
+        if self.log:
+            decades = range(math.ceil(math.log10(self.first)), math.floor(math.log10(self.last)) + 1)
+            return [(self.at(10.0**d), f"{10.0**d:g}") for d in decades]
+        step = _round_step((self.last - self.first) / TICKS)
+        values = np.arange(math.ceil(self.first / step - 1e-9), math.floor(self.last / step + 1e-9) + 1)
+        return [(self.at(v * step), f"{v * step:.10g}") for v in values.tolist()]
+
+
+def line(series: Sequence[Series], x_label: str, y_label: str, *, log_y: bool = False) -> Markup:
+    """Points joined in their order, with a band where `low` and `high` are given."""
+    return _chart("line", series, x_label, y_label, log_y)
+
+
+def scatter(series: Sequence[Series], x_label: str, y_label: str, *, log_y: bool = False) -> Markup:
+    """Points, with whiskers where `low` and `high` are given."""
+    return _chart("scatter", series, x_label, y_label, log_y)
+
+
+def bar(categories: Sequence[str], series: Sequence[Series], y_label: str) -> Markup:
+    """One group of bars a category; the x of the series is ignored."""
+    highest = max(max(s.high or s.y) for s in series)
+    across = _Axis(0.0, len(categories), LEFT, WIDTH - RIGHT)
+    up = _Axis(0.0, highest * 1.08 or 1.0, HEIGHT - BOTTOM, TOP)
+    wide = 0.8 / len(series)
+    bars = [
+        {
+            "x": across.at(k + 0.1 + i * wide),
+            "width": round(across.at(wide) - across.at(0.0) - 1.0, 2),
+            "y": up.at(s.y[k]),
+            "low": up.at(s.low[k]) if s.low else None,
+            "high": up.at(s.high[k]) if s.high else None,
+            "colour": COLOURS[i % len(COLOURS)],
+            "title": f"{s.label}, {name}: {s.y[k]:.4g}",
+        }
+        for i, s in enumerate(series)
+        for k, name in enumerate(categories)
+    ]
+    names = [(across.at(k + 0.5), name) for k, name in enumerate(categories)]
+    return _render(
+        kind="bar", bars=bars, x_ticks=names, y_ticks=up.ticks, x_label="", y_label=y_label, labels=series
+    )
+
+
+def _chart(
+    kind: Literal["line", "scatter"], series: Sequence[Series], x_label: str, y_label: str, log_y: bool
+) -> Markup:
+    xs = [v for s in series for v in s.x]
+    ys = [v for s in series for part in (s.y, s.low or (), s.high or ()) for v in part]
+    x_axis = _Axis(*_range(xs, 0.0), LEFT + 6, WIDTH - RIGHT - 6)
+    y_axis = _Axis(*(_decades(ys) if log_y else _range(ys, 0.06)), HEIGHT - BOTTOM, TOP, log_y)
+    drawn = []
+    for i, s in enumerate(series):
+        points = [(x_axis.at(x), y_axis.at(y)) for x, y in zip(s.x, s.y, strict=True)]
+        band = None
+        if s.low and s.high:
+            band = [
+                (x_axis.at(x), y_axis.at(low), y_axis.at(high))
+                for x, low, high in zip(s.x, s.low, s.high, strict=True)
+            ]
+        drawn.append(
+            {
+                "points": points,
+                "band": band,
+                "colour": COLOURS[i % len(COLOURS)],
+                "dash": DASHES[i % len(DASHES)],
+                "titles": [f"{s.label}: {x:.5g}, {y:.5g}" for x, y in zip(s.x, s.y, strict=True)],
+            }
+        )
+    return _render(
+        kind=kind, drawn=drawn, x_ticks=x_axis.ticks, y_ticks=y_axis.ticks, x_label=x_label, y_label=y_label,
+        labels=series,
+    )  # fmt: skip
+
+
+def _render(labels: Sequence[Series], **parts: object) -> Markup:
+    legend = [
+        (s.label, COLOURS[i % len(COLOURS)], DASHES[i % len(DASHES)]) for i, s in enumerate(labels) if s.label
+    ]
+    frame = {
+        "width": WIDTH,
+        "height": HEIGHT + 20 * math.ceil(len(legend) / 2),
+        "left": LEFT,
+        "right": WIDTH - RIGHT,
+        "top": TOP,
+        "bottom": HEIGHT - BOTTOM,
+    }
+    return Markup(environment().get_template("chart.svg.j2").render(legend=legend, **frame, **parts))
+
+
+def _range(values: Sequence[float], margin: float) -> tuple[float, float]:
+    low, high = min(values), max(values)
+    if low == high:
+        return low - 0.5, high + 0.5
+    return low - margin * (high - low), high + margin * (high - low)
+
+
+def _decades(values: Sequence[float]) -> tuple[float, float]:
+    low, high = math.floor(math.log10(min(values))), math.ceil(math.log10(max(values)))
+    return 10.0**low, 10.0 ** max(high, low + 1)
+
+
+def _round_step(rough: float) -> float:
+    """The 1, 2 or 5 times a power of ten nearest above."""
+    power = 10.0 ** math.floor(math.log10(rough))
+    return next(m * power for m in (1.0, 2.0, 5.0, 10.0) if m * power >= rough * (1 - 1e-9))

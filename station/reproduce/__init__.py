@@ -1,0 +1,1 @@
+"""`station reproduce`: the paper's tables and figures computed here, the published method beside ours."""
