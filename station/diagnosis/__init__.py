@@ -1,0 +1,1 @@
+"""Closing the loop: residual, cause, model, before and after (method.md section 3)."""

@@ -1,0 +1,90 @@
+"""Whether a fit is good enough to stop: lack of fit, order in time, and repeats worse than specified.
+
+Null hypothesis of each test: the residual is noise.  The repeats' own scatter is the yardstick for
+the rest; where something changes with time it scatters too much itself, which is why the other two
+tests stand beside it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import chdtrc, fdtrc, ndtr
+
+from station.diagnosis.model import Fit
+from station.kinematics import Real
+
+ALPHA = 0.003
+"""Of each of the three tests: a clean machine is looked at twice in less than one of a hundred runs."""
+FEWEST_REPEATS = 6
+
+
+@dataclass(frozen=True)
+class Adequacy:
+    """p-values of the three tests and the pure error they used."""
+
+    lack_of_fit_p: float
+    order_in_time_p: float
+    repeats_p: float
+    """Of the repeats against the specification."""
+    pure_factor: float
+    """Pure error over the row_sd of the fit; NaN without enough repeats."""
+    pure_dof: int
+
+    @property
+    def passed(self) -> bool:
+        """By the two tests that a noisier head alone does not fail."""
+        return min(self.lack_of_fit_p, self.order_in_time_p) >= ALPHA
+
+    @property
+    def quiet(self) -> bool:
+        """Repeats scatter no more than specified."""
+        return self.repeats_p >= ALPHA
+
+
+def judge(fit: Fit, specified_sd: Real) -> Adequacy:
+    """Test a fit's residual; specified_sd (K,) mm is what the devices promise at worst."""
+    r = fit.residual_mm
+    group = _repeat_groups(fit)
+    counts = np.bincount(group)
+    mean = np.bincount(group, r / fit.row_sd) / counts
+    pure = float(np.sum((r / fit.row_sd - mean[group]) ** 2))
+    dof = int(np.sum(counts - 1))
+    known = dof >= FEWEST_REPEATS and pure > 0.0
+    lack_p = _lack_of_fit_p(fit, pure, dof) if known else float(chdtrc(fit.dof, fit.cost))
+    against_spec = pure * float(np.mean((fit.row_sd / specified_sd) ** 2))
+    return Adequacy(
+        lack_of_fit_p=lack_p,
+        order_in_time_p=_order_p(r / fit.row_sd, fit.model.mechanism.measurements.t_s),
+        repeats_p=float(chdtrc(dof, against_spec)) if known else 1.0,
+        pure_factor=float(np.sqrt(pure / dof)) if known else float("nan"),
+        pure_dof=dof,
+    )
+
+
+def _repeat_groups(fit: Fit) -> np.ndarray:
+    """Readings alike in place, approach, mount and the slider's sense."""
+    m = fit.model.mechanism.measurements
+    keys = np.column_stack([m.position, m.approach, m.mount, fit.conditions.slider_net])
+    return np.unique(keys, axis=0, return_inverse=True)[1].reshape(-1)
+
+
+def _lack_of_fit_p(fit: Fit, pure: float, pure_dof: int) -> float:
+    lack_dof = fit.dof - pure_dof
+    if lack_dof <= 0:
+        return 1.0
+    lack = max(fit.cost - pure, 0.0)
+    return float(fdtrc(lack_dof, pure_dof, (lack / lack_dof) / (pure / pure_dof)))
+
+
+def _order_p(whitened: Real, t_s: Real) -> float:
+    """von Neumann's ratio of successive differences in time order, one-sided (neighbours too alike)."""
+    r = whitened[np.argsort(t_s, kind="stable")]
+    n = len(r)
+    square = float(r @ r)
+    if n < 12 or square == 0.0:
+        return 1.0
+    ratio = float(np.sum(np.diff(r) ** 2)) / square
+    z = (ratio - 2.0) / np.sqrt(4.0 * (n - 2) / (n**2 - 1))
+    return float(ndtr(z))

@@ -1,0 +1,150 @@
+"""The measurement model with effects added, and its fit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from station.diagnosis.conditions import Reference, conditions
+from station.effects import Conditions, Effect, signature
+from station.effects.base import Acts
+from station.five_bar import FiveBar
+from station.kinematics import Real
+from station.least_squares import Prior, Solution, solve
+from station.mechanism import Observation
+
+CONDITION_ROUNDS = 2
+"""The basis depends a little on the zero offsets: fitted, evaluated anew, fitted again."""
+
+
+@dataclass(frozen=True)
+class Term:
+    """An effect with its hidden parameters settled."""
+
+    effect: Effect
+    hidden: Mapping[str, float]
+    acts: Acts
+    size: int
+    """Number of amplitudes."""
+
+    @property
+    def key(self) -> tuple[str, int | None]:
+        return self.effect.id, self.effect.joint
+
+
+@dataclass(frozen=True)
+class Model:
+    """A mechanism with terms; unknowns are its parameters, then the terms' amplitudes."""
+
+    mechanism: FiveBar
+    reference: Reference
+    terms: tuple[Term, ...] = ()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(p.name for p in self.mechanism.parameters)
+
+    @property
+    def base_size(self) -> int:
+        return len(self.mechanism.parameters)
+
+    @property
+    def unknowns(self) -> int:
+        return self.base_size + sum(term.size for term in self.terms)
+
+    def conditions(self, p: Real, *, first: bool = True) -> Conditions:
+        return conditions(self.mechanism, p, self.reference, first=first)
+
+    def bases(self, c: Conditions) -> list[Real]:
+        """(K, q) of each term under conditions."""
+        return [term.effect.at(term.hidden, c) for term in self.terms]
+
+    def observe(self, x: Real, bases: list[Real]) -> Observation:
+        """Prediction with all derivatives; by_parameter has the terms' columns appended."""
+        theta = self.mechanism.theta
+        amplitudes = self._split(x)
+        if any(term.acts.joint is not None for term in self.terms):
+            theta = theta.copy()
+            for term, basis, a in zip(self.terms, bases, amplitudes, strict=True):
+                if term.acts.joint is not None:
+                    theta[:, term.acts.joint] += basis @ a
+        at = self.mechanism.observe(x[: self.base_size], theta)
+        rows = self.mechanism.reading_of_row
+        value, columns = at.value, [at.by_parameter]
+        for term, basis, a in zip(self.terms, bases, amplitudes, strict=True):
+            column = signature(term.acts, basis, at, self.names, rows)
+            if term.acts.joint is None:
+                value = value + column @ a
+            columns.append(column)
+        return Observation(value, np.hstack(columns), at.by_joint)
+
+    def _split(self, x: Real) -> list[Real]:
+        out, at = [], self.base_size
+        for term in self.terms:
+            out.append(x[at : at + term.size])
+            at += term.size
+        return out
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A model fitted to its mechanism's readings."""
+
+    model: Model
+    solution: Solution
+    prior: Prior
+    row_sd: Real
+    at: Observation
+    conditions: Conditions
+
+    @property
+    def x(self) -> Real:
+        return self.solution.x
+
+    @property
+    def residual_mm(self) -> Real:
+        """(R,) measured less predicted."""
+        return -self.solution.residual * self.row_sd
+
+    @property
+    def cost(self) -> float:
+        return self.solution.cost
+
+    @property
+    def dof(self) -> int:
+        """Of the cost: rows less the unknowns that nothing but the rows holds."""
+        return len(self.row_sd) - self.prior.free
+
+    def amplitudes(self, index: int) -> tuple[Real, Real]:
+        """(q,) and covariance (q, q) of term `index`, in whitened units of row_sd."""
+        start = self.model.base_size + sum(t.size for t in self.model.terms[:index])
+        part = slice(start, start + self.model.terms[index].size)
+        return self.x[part], self.solution.covariance[part, part]
+
+
+def fit(model: Model, base_prior: Prior, row_sd: Real, start: Real | None = None) -> Fit:
+    """Fit all unknowns of a model; `start` (base_size,) is where the base parameters begin.
+
+    :raises NotConvergedError: no convergence.
+    """
+    extra = model.unknowns - model.base_size
+    prior = Prior(
+        np.concatenate([base_prior.mean, np.zeros(extra)]),
+        np.hstack([base_prior.root, np.zeros((len(base_prior.root), extra))]),
+    )
+    x = np.concatenate([base_prior.mean if start is None else start, np.zeros(extra)])
+    measured = model.mechanism.measured
+    for _ in range(CONDITION_ROUNDS if model.terms else 1):
+        c = model.conditions(x[: model.base_size])
+        bases = model.bases(c)
+
+        def residuals(q: Real, bases: list[Real] = bases) -> tuple[Real, Real]:
+            at = model.observe(q, bases)
+            return (at.value - measured) / row_sd, at.by_parameter / row_sd[:, None]
+
+        solution = solve(residuals, x, prior)
+        x = solution.x
+    c = model.conditions(x[: model.base_size])
+    return Fit(model, solution, prior, row_sd, model.observe(x, bases), c)

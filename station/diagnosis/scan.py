@@ -1,0 +1,152 @@
+"""The catalogue against one residual: every effect projected, tested, priced.
+
+Whatever the base parameters could have taken up is projected out of each signature first
+(Frisch-Waugh-Lovell); tolerance priors take part in that as readings of their own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import minimize_scalar
+from scipy.special import fdtrc
+
+from station.diagnosis.model import Fit, Term
+from station.effects import Conditions, Effect, Variants, signature
+from station.kinematics import Real
+
+INVISIBLE_SHARE = 0.01
+"""A signature of which less than this is left (RMS) cannot be seen in these readings."""
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """The best variant of one effect against one residual."""
+
+    effect: Effect
+    hidden: Mapping[str, float]
+    variants: Variants
+    reduction: float
+    """Of the cost."""
+    size: int
+    p_value: float
+    """F test, the price of the search included."""
+    visible_share: float
+    weakest: float
+    """Largest information in one amplitude: its sd alone would be 1 / sqrt of this, whitened."""
+
+    @property
+    def visible(self) -> bool:
+        return self.visible_share >= INVISIBLE_SHARE
+
+    def term(self) -> Term:
+        return Term(self.effect, self.hidden, self.variants.acts, self.size)
+
+
+class Scan:
+    """One fit's residual, ready to be compared with signatures."""
+
+    def __init__(self, fit: Fit) -> None:
+        self.fit = fit
+        stacked = np.concatenate([fit.solution.jacobian, fit.prior.root])
+        norms = np.linalg.norm(stacked, axis=0)
+        self._q = np.linalg.qr(stacked / np.where(norms > 0, norms, 1.0))[0][: len(fit.row_sd)]
+        self._residual = -fit.solution.residual
+
+    def candidates(self, effects: Sequence[Effect]) -> list[Candidate]:
+        """The best variant of every effect that these readings can show, most significant first."""
+        found = []
+        for effect in effects:
+            variants = effect.variants(self.fit.conditions)
+            if variants is not None:
+                found.append(self._best(effect, variants))
+        return sorted(found, key=lambda c: (c.p_value, -c.reduction))
+
+    def reductions(self, variants: Variants, basis: Real) -> tuple[Real, Real, Real]:
+        """For basis (V, K, q): cost reduction (V,), visible share (V,), information (V,)."""
+        fit = self.fit
+        S = signature(variants.acts, basis, fit.at, fit.model.names, fit.model.mechanism.reading_of_row)
+        S = S / fit.row_sd[:, None]
+        flat = S.transpose(1, 0, 2).reshape(len(fit.row_sd), -1)
+        inside = (self._q.T @ flat).reshape(-1, *S.shape[::2])
+        whole = np.einsum("vkq,vkp->vqp", S, S, optimize=True)
+        left = whole - np.einsum("jvq,jvp->vqp", inside, inside, optimize=True)
+        along = (self._residual @ flat).reshape(S.shape[::2])
+        reduction, smallest = _explained(left, along)
+        total = np.trace(whole, axis1=1, axis2=2)
+        share = np.sqrt(np.maximum(np.trace(left, axis1=1, axis2=2), 0.0) / np.where(total > 0, total, 1.0))
+        return reduction, share, smallest
+
+    def _best(self, effect: Effect, variants: Variants) -> Candidate:
+        reduction, share, information = self.reductions(variants, variants.basis)
+        reduction = np.where(share >= INVISIBLE_SHARE, reduction, 0.0)
+        best = int(np.argmax(reduction))
+        size = variants.basis.shape[2]
+        return Candidate(
+            effect=effect,
+            hidden=variants.hidden[best],
+            variants=variants,
+            reduction=float(reduction[best]),
+            size=size,
+            p_value=self._p_value(float(reduction[best]), size, variants.trials),
+            visible_share=float(share[best]),
+            weakest=float(information[best]),
+        )
+
+    def _p_value(self, reduction: float, size: int, trials: float) -> float:
+        dof = self.fit.dof - size
+        rest = max(self.fit.cost - reduction, 1e-12)
+        if dof <= 0:
+            return 1.0
+        return float(min(1.0, trials * fdtrc(size, dof, (reduction / size) / (rest / dof))))
+
+    def refine(self, candidate: Candidate) -> Candidate:
+        """Settle searched hidden parameters between the grid's points, with their sd."""
+        c: Conditions = self.fit.conditions
+        ranges = candidate.effect.refined(candidate.hidden, c)
+        hidden = dict(candidate.hidden)
+        reduction = candidate.reduction
+        for name, (low, high) in ranges.items():
+
+            def lost(value: float, name: str = name) -> float:
+                basis = candidate.effect.at({**hidden, name: value}, c)
+                return -float(self.reductions(candidate.variants, basis[None])[0][0])
+
+            found = minimize_scalar(
+                lost, bounds=(low, high), method="bounded", options={"xatol": 1e-6 * high}
+            )
+            if -found.fun < reduction:
+                continue
+            hidden[name], reduction = float(found.x), -float(found.fun)
+            step = 0.02 * (high - low)
+            curvature = (lost(found.x + step) - 2.0 * found.fun + lost(found.x - step)) / step**2
+            noise = max(self.fit.cost - reduction, 1e-12) / self.fit.dof
+            hidden[f"{name}_sd"] = (
+                float(np.sqrt(2.0 * noise / curvature)) if curvature > 0 else float(high - low)
+            )
+        return Candidate(
+            candidate.effect,
+            hidden,
+            candidate.variants,
+            reduction,
+            candidate.size,
+            self._p_value(reduction, candidate.size, candidate.variants.trials),
+            candidate.visible_share,
+            candidate.weakest,
+        )
+
+
+def _explained(left: Real, along: Real) -> tuple[Real, Real]:
+    """along' left^-1 along for stacks of q x q matrices, q 1 or 2, and the largest diagonal of left."""
+    largest = np.maximum(np.diagonal(left, axis1=1, axis2=2).max(axis=1), 0.0)
+    if left.shape[1] == 1:
+        g = left[:, 0, 0]
+        return np.where(g > 1e-12, along[:, 0] ** 2 / np.where(g > 1e-12, g, 1.0), 0.0), largest
+    a, b, d = left[:, 0, 0], left[:, 0, 1], left[:, 1, 1]
+    determinant = a * d - b * b
+    sound = determinant > 1e-9 * a * d
+    u, v = along[:, 0], along[:, 1]
+    both = (d * u * u - 2.0 * b * u * v + a * v * v) / np.where(sound, determinant, 1.0)
+    return np.where(sound, both, 0.0), largest

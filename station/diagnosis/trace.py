@@ -1,0 +1,157 @@
+"""From residual to cause: add the effect that explains most, fit everything again, until it fits.
+
+Winner and look-alikes are told apart by refitting the full nonlinear model with each of them: an
+alias is whatever explains the readings as well, no more and no less (docs/decisions/0005).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from station.diagnosis.adequacy import ALPHA, Adequacy, judge
+from station.diagnosis.model import Fit, Model, Term, fit
+from station.diagnosis.scan import Candidate, Scan
+from station.effects import Effect
+from station.kinematics import Real
+from station.least_squares import NotConvergedError, Prior
+
+MOST_EFFECTS = 3
+SIGNIFICANT = 0.01
+"""Family-wise over the catalogue (Holm: the smallest p is held against the whole count)."""
+RIVALS = 40.0
+"""A candidate this much worse (chi-square) in the linear scan is not worth a nonlinear fit."""
+MOST_RIVALS = 6
+ALIAS = 11.0
+"""Chi-square by which a look-alike may be worse and still be the cause (true cause kept in 99.9 %)."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One effect added, and what could not be told apart from it."""
+
+    term: Term
+    p_value: float
+    aliases: tuple[Term, ...]
+    """Without the winner, best first."""
+
+
+@dataclass(frozen=True)
+class Stage:
+    """One model on the way, with its fit and judgement."""
+
+    fit: Fit
+    adequacy: Adequacy
+
+
+@dataclass(frozen=True)
+class Trace:
+    """The way from the base model to the last one."""
+
+    stages: tuple[Stage, ...]
+    """Base first, then one per effect added."""
+    findings: tuple[Finding, ...]
+    last_scan: tuple[Candidate, ...]
+    """What the catalogue says of the last residual (for what could not have been seen)."""
+
+    @property
+    def adequate(self) -> bool:
+        return self.stages[-1].adequacy.passed
+
+
+def trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[Effect]) -> Trace:
+    """Fit, judge, scan, add, again.
+
+    :raises NotConvergedError: the base model does not converge.
+    """
+    stage = _settled(base, prior, specified_sd, None)
+    stages = [stage]
+    findings: list[Finding] = []
+    candidates = Scan(stage.fit).candidates(effects)
+    while not _done(stage, candidates, len(effects)) and len(findings) < MOST_EFFECTS:
+        if not _significant(candidates, len(effects)):
+            break
+        chosen = _add(stage.fit, prior, candidates)
+        if chosen is None:
+            break
+        finding, better = chosen
+        findings.append(finding)
+        stage = _settled(better.model, prior, specified_sd, better)
+        stages.append(stage)
+        candidates = Scan(stage.fit).candidates(_others(effects, stage.fit.model.terms))
+    return Trace(tuple(stages), tuple(findings), tuple(candidates))
+
+
+def _done(stage: Stage, candidates: list[Candidate], tests: int) -> bool:
+    """It fits; and where only the repeats are worse than specified, nothing in the catalogue says why."""
+    if not stage.adequacy.passed:
+        return False
+    return stage.adequacy.quiet or not _significant(candidates, tests, ALPHA)
+
+
+def _significant(candidates: list[Candidate], tests: int, level: float = SIGNIFICANT) -> bool:
+    return bool(candidates) and candidates[0].p_value * tests < level
+
+
+def _settled(model: Model, prior: Prior, specified_sd: Real, better: Fit | None) -> Stage:
+    """Fit with the noise that the repeats of this very model show, if they are better than specified."""
+    start = None if better is None else better.x[: model.base_size]
+    row_sd = specified_sd if better is None else better.row_sd
+    found = fit(model, prior, row_sd, start)
+    for _ in range(2):
+        adequacy = judge(found, specified_sd)
+        sd = found.row_sd * adequacy.pure_factor
+        if np.isnan(adequacy.pure_factor) or (sd > specified_sd).any():
+            sd = specified_sd
+        if np.allclose(sd, found.row_sd, rtol=0.02):
+            break
+        found = fit(model, prior, sd, found.x[: model.base_size])
+    return Stage(found, judge(found, specified_sd))
+
+
+def _add(current: Fit, prior: Prior, candidates: list[Candidate]) -> tuple[Finding, Fit] | None:
+    """Refit with the best candidates, keep the best, name those that do as well."""
+    scan = Scan(current)
+    refined = [scan.refine(c) for c in candidates[: 2 * MOST_RIVALS] if c.visible]
+    if not refined:
+        return None
+    best = max(refined, key=lambda c: c.reduction)
+    unit = _noise_square(current.cost - best.reduction, current.dof - best.size)
+    rivals = [c for c in refined if (best.reduction - c.reduction) / unit < RIVALS][: 2 * MOST_RIVALS]
+    fits: list[tuple[float, Candidate, Fit]] = []
+    for c in sorted(rivals, key=lambda c: -c.reduction)[:MOST_RIVALS]:
+        model = replace(current.model, terms=(*current.model.terms, c.term()))
+        try:
+            refit = fit(model, prior, current.row_sd, current.x[: model.base_size])
+        except NotConvergedError:
+            continue
+        fits.append((_score(refit, c), c, refit))
+    if not fits:
+        return None
+    fits.sort(key=lambda item: item[0])
+    _, winner, better = fits[0]
+    unit = _noise_square(better.cost, better.dof - winner.size)
+    aliases = [
+        c.term()
+        for score, c, refit in fits[1:]
+        if (refit.cost - better.cost) / unit < ALIAS + 2.0 * (winner.size - c.size)
+    ]
+    return Finding(winner.term(), winner.p_value, tuple(aliases)), better
+
+
+def _noise_square(cost: float, dof: int) -> float:
+    return max(cost, 1e-12) / max(dof, 1)
+
+
+def _score(refit: Fit, c: Candidate) -> float:
+    """Minus twice the log likelihood with unknown noise, plus the price of freedom and of the search."""
+    n = len(refit.row_sd)
+    return n * float(np.log(max(refit.cost, 1e-12))) + 2.0 * c.size + 2.0 * float(np.log(c.variants.trials))
+
+
+def _others(effects: Sequence[Effect], terms: tuple[Term, ...]) -> list[Effect]:
+    """Effects not in the model yet."""
+    present = {term.effect for term in terms}
+    return [e for e in effects if e not in present]

@@ -1,0 +1,32 @@
+"""Play between a gear's output and its arm."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from station.effects.base import Acts, Conditions, Effect, Variants, one, scaled
+from station.kinematics import Real
+from station.records import Quantity
+
+
+class Backlash(Effect):
+    id = "backlash"
+    physics = "The arm lags by half the play in the sense of the joint's last motion."
+    remedy = "Adjust or replace the reducer, or approach every position from the same side."
+    experiment = "Read the same places from the other side."
+
+    def variants(self, c: Conditions) -> Variants | None:
+        i = (self.joint or 1) - 1
+        if len(np.unique(c.approach[:, i][c.approach[:, i] != 0])) < 2:
+            return None
+        return one(Acts(joint=i), c.approach[:, i])
+
+    def quantities(
+        self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
+    ) -> tuple[Quantity, ...]:
+        return (scaled("width_deg", amplitudes[0], covariance[0, 0], -2.0 * 180.0 / np.pi, "deg"),)
+
+    def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
+        return c.approach[:, [(self.joint or 1) - 1]]

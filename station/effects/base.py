@@ -1,0 +1,151 @@
+"""What an effect is: where it acts, on what it depends, how it is written on a report.
+
+An effect adds `basis @ amplitudes` to one thing: a joint angle (rad), the reading (mm), or lengths
+(relative).  The basis depends on the conditions of each reading and on hidden parameters (a period,
+a moment) that are searched; amplitudes are fitted.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from station.kinematics import Real
+from station.measurements import Index
+from station.mechanism import Observation
+from station.records import Quantity
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """Under what K readings were taken, n joints."""
+
+    t_s: Real
+    """(K,)"""
+    theta: Real
+    """(K, n) joint angles, rad, zero offsets included."""
+    drive_angle: Real
+    """(K, n) joint angles counted from each drive's zero, rad."""
+    approach: Real
+    """(K, n) sign of each joint's last motion, 0 unknown."""
+    travel: Real
+    """(K,) head reading, mm."""
+    slider_direction: Real
+    """(K,) sign of the slider's last motion, 0 unknown."""
+    slider_net: Real
+    """(K,) sign of the change of reading since the reading before, 0 unknown: what counts where the slider
+    follows late or the way between is not known."""
+    temperature_rise: Real | None
+    """(K,) since the first reading, K; None where nothing was recorded or nothing changed."""
+    payload_kg: Real | None
+    lengths: Mapping[str, float]
+    """Nominal lengths by parameter name, mm."""
+    pull: Real
+    """(K, n) sign of the load along each distal link: +1 pulled."""
+
+    def __len__(self) -> int:
+        return len(self.t_s)
+
+
+@dataclass(frozen=True)
+class Acts:
+    """Where an effect acts: on joint (index), else on lengths (parameter name: mm), else on the reading."""
+
+    joint: int | None = None
+    lengths: Mapping[str, float] | None = None
+
+
+ON_READING = Acts()
+
+
+@dataclass(frozen=True)
+class Variants:
+    """V ways in which an effect may show, differing in hidden parameters only."""
+
+    acts: Acts
+    basis: Real
+    """(V, K, q)"""
+    hidden: tuple[Mapping[str, float], ...]
+    """(V) hidden parameters of each."""
+    trials: float
+    """Number of independent ways among them: the price of looking elsewhere."""
+
+
+def one(acts: Acts, basis: Real) -> Variants:
+    """An effect without hidden parameters; basis (K, q) or (K,)."""
+    columns = basis[:, None] if basis.ndim == 1 else basis
+    return Variants(acts, columns[None], ({},), 1.0)
+
+
+class Effect(ABC):
+    """One entry of the catalogue, at one place of the machine."""
+
+    id: ClassVar[str]
+    physics: ClassVar[str]
+    """One sentence."""
+    remedy: ClassVar[str]
+    experiment: ClassVar[str]
+    """What separates it from its look-alikes."""
+
+    def __init__(self, joint: int | None = None) -> None:
+        self.joint = joint
+        """1, 2, ... or None where the effect belongs to no joint."""
+
+    @property
+    def label(self) -> str:
+        return f"{self.id} of joint {self.joint}" if self.joint else self.id
+
+    @abstractmethod
+    def variants(self, c: Conditions) -> Variants | None:
+        """How it would show under these conditions; None when they cannot show it."""
+
+    @abstractmethod
+    def quantities(
+        self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
+    ) -> tuple[Quantity, ...]:
+        """Fitted amplitudes (q,) in the units of the catalogue, with sd."""
+
+    def refined(self, hidden: Mapping[str, float], c: Conditions) -> Mapping[str, tuple[float, float]]:
+        """Hidden parameters that may be refined beyond the search grid: name -> (low, high)."""
+        return {}
+
+    def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
+        """(K, q) basis at given hidden parameters under (other) conditions."""
+        found = self.variants(c)
+        if found is None:
+            raise ValueError(f"{self.label} cannot be evaluated under these conditions")
+        return np.asarray(found.basis[found.hidden.index(dict(hidden))])
+
+
+def signature(acts: Acts, basis: Real, at: Observation, names: tuple[str, ...], rows: Index) -> Real:
+    """(..., R, q) what a basis (..., K, q) does to the rows of a prediction; `rows` (R,) reading of row."""
+    spread = basis[..., rows, :]
+    if acts.joint is not None:
+        return np.asarray(at.by_joint[:, acts.joint, None] * spread)
+    if acts.lengths is not None:
+        strain = sum(at.by_parameter[:, names.index(n)] * mm for n, mm in acts.lengths.items())
+        return np.asarray(np.asarray(strain)[:, None] * spread)
+    return spread
+
+
+def scaled(name: str, value: float, variance: float, factor: float, unit: str) -> Quantity:
+    """A fitted amplitude as a quantity."""
+    return Quantity(name, float(value * factor), float(np.sqrt(variance) * abs(factor)), unit)
+
+
+def amplitude_and_phase(
+    name: str, unit: str, factor: float, amplitudes: Real, covariance: Real
+) -> tuple[Quantity, Quantity]:
+    """Of a sin (first) and b cos (second): amplitude sin(x + phase)."""
+    a, b = float(amplitudes[0]), float(amplitudes[1])
+    size = float(np.hypot(a, b)) or 1e-300
+    along = np.array([a, b]) / size
+    across = np.array([-b, a]) / size**2
+    return (
+        scaled(name, size, float(along @ covariance @ along), factor, unit),
+        scaled("phase_deg", np.arctan2(b, a), float(across @ covariance @ across), 180.0 / np.pi, "deg"),
+    )

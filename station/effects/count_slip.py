@@ -1,0 +1,45 @@
+"""A step of the joint that its feedback does not see."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from station.effects.base import Acts, Conditions, Effect, Variants, scaled
+from station.kinematics import Real
+from station.records import Quantity
+
+EDGE = 3
+"""A step with fewer readings on one side is a matter for the outliers."""
+
+
+class CountSlip(Effect):
+    id = "count_slip"
+    physics = "A belt jumped, a coupling slipped or counts were lost: a step from one moment on."
+    remedy = "Tighten coupling or belt, check the encoder cable, then calibrate again."
+    experiment = "Read the first places again: the step stays."
+
+    def variants(self, c: Conditions) -> Variants | None:
+        if len(c) < 4 * EDGE:
+            return None
+        order = np.argsort(c.t_s, kind="stable")
+        moments = c.t_s[order[EDGE:-EDGE]]
+        basis = (c.t_s[None, :] >= moments[:, None]).astype(float)[:, :, None]
+        return Variants(
+            Acts(joint=(self.joint or 1) - 1),
+            basis,
+            tuple({"from_s": float(t)} for t in moments),
+            float(len(moments)) / 2.0,
+        )
+
+    def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
+        return (c.t_s >= hidden["from_s"]).astype(float)[:, None]
+
+    def quantities(
+        self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
+    ) -> tuple[Quantity, ...]:
+        return (
+            scaled("step_deg", amplitudes[0], covariance[0, 0], 180.0 / np.pi, "deg"),
+            Quantity("from_s", hidden["from_s"], 0.0, "s"),
+        )

@@ -1,0 +1,55 @@
+"""Links beyond their tolerance, and play in the passive joints."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from station.effects.base import Acts, Conditions, Effect, Variants, one, scaled
+from station.kinematics import Real
+from station.records import Quantity
+
+
+class LinkLength(Effect):
+    id = "link_length"
+    physics = "A link is longer or shorter than its tolerance allows."
+    remedy = "Measure the link; correct the robot file or replace the link."
+    experiment = "Measure the link, or repeat the walk from a second mount of the mechanism."
+
+    def __init__(self, joint: int, link: str) -> None:
+        super().__init__(joint)
+        self.link = link
+        """Parameter name: L1, l1, ..."""
+
+    @property
+    def label(self) -> str:
+        return f"{self.id} {self.link}"
+
+    def variants(self, c: Conditions) -> Variants | None:
+        if self.link not in c.lengths:
+            return None
+        return one(Acts(lengths={self.link: 1.0}), np.ones(len(c)))
+
+    def quantities(
+        self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
+    ) -> tuple[Quantity, ...]:
+        return (scaled(self.link, amplitudes[0], covariance[0, 0], 1.0, "mm"),)
+
+
+class JointClearance(Effect):
+    id = "joint_clearance"
+    physics = "The pin of a passive joint lies on the side to which the load pulls it."
+    remedy = "Replace the bearing of the passive joint."
+    experiment = "Repeat the walk with the load on the platform reversed."
+
+    def variants(self, c: Conditions) -> Variants | None:
+        link = f"l{self.joint}"
+        if link not in c.lengths:
+            return None
+        return one(Acts(lengths={link: 1.0}), c.pull[:, (self.joint or 1) - 1])
+
+    def quantities(
+        self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
+    ) -> tuple[Quantity, ...]:
+        return (scaled("mm", amplitudes[0], covariance[0, 0], 1.0, "mm"),)

@@ -1,0 +1,118 @@
+"""Errors of the linear scale and its guide."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from station.effects.base import (
+    ON_READING,
+    Conditions,
+    Effect,
+    Variants,
+    amplitude_and_phase,
+    one,
+    scaled,
+)
+from station.effects.cyclic import OVERSAMPLING, wave
+from station.kinematics import Real
+from station.records import Quantity
+
+
+class ScaleGain(Effect):
+    id = "scale_gain"
+    physics = "The scale's graduation is too long or too short."
+    remedy = "Set the readout's linear compensation, or replace the scale."
+    experiment = "Compare the scale with a gauge block or an interferometer."
+
+    def variants(self, c: Conditions) -> Variants | None:
+        return one(ON_READING, c.travel)
+
+    def quantities(
+        self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
+    ) -> tuple[Quantity, ...]:
+        return (scaled("ppm", amplitudes[0], covariance[0, 0], 1e6, "ppm"),)
+
+
+class ScaleBow(Effect):
+    id = "scale_bow"
+    physics = "A bent guide tilts the slider: the error grows with the square of the travel."
+    remedy = "Align the guide rods; check that nothing forces the scale."
+    experiment = "Compare the scale with an interferometer over its travel."
+
+    REACH_MM = 100.0
+    """Travel from the middle at which the size is stated, about the end of what the workspace uses."""
+
+    def variants(self, c: Conditions) -> Variants | None:
+        centres = (0.0, float(c.travel.min() + c.travel.max()) / 2.0)
+        basis = np.stack([self._square(c, centre)[:, None] for centre in centres])
+        return Variants(ON_READING, basis, tuple({"centre_mm": v} for v in centres), 2.0)
+
+    def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
+        return self._square(c, hidden["centre_mm"])[:, None]
+
+    def _square(self, c: Conditions, centre: float) -> Real:
+        return np.asarray(((c.travel - centre) / self.REACH_MM) ** 2)
+
+    def quantities(
+        self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
+    ) -> tuple[Quantity, ...]:
+        return (scaled("mm_at_100_mm", amplitudes[0], covariance[0, 0], 1.0, "mm"),)
+
+
+class ScaleCyclic(Effect):
+    id = "scale_cyclic"
+    physics = "The graduation, its interpolation or a rolling element repeats along the travel."
+    remedy = "Clean and realign the head; check what has this period (graduation, rolling element, screw)."
+    experiment = "Read finely over two or three periods of travel, or start at another place of the scale."
+
+    SHORTEST_MM = 0.4
+
+    def variants(self, c: Conditions) -> Variants | None:
+        span = float(np.ptp(c.travel))
+        if span < 4.0 * self.SHORTEST_MM:
+            return None
+        frequency = np.arange(2.0 / span, 1.0 / self.SHORTEST_MM, 1.0 / span / OVERSAMPLING)
+        return Variants(
+            ON_READING,
+            wave(c.travel, 2.0 * np.pi * frequency),
+            tuple({"period_mm": float(1.0 / f)} for f in frequency),
+            2.0 * span / self.SHORTEST_MM,
+        )
+
+    def refined(self, hidden: Mapping[str, float], c: Conditions) -> Mapping[str, tuple[float, float]]:
+        frequency, step = 1.0 / hidden["period_mm"], 1.0 / float(np.ptp(c.travel)) / OVERSAMPLING
+        return {"period_mm": (1.0 / (frequency + 2 * step), 1.0 / max(frequency - 2 * step, step))}
+
+    def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
+        return np.asarray(wave(c.travel, np.array([2.0 * np.pi / hidden["period_mm"]]))[0])
+
+    def quantities(
+        self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
+    ) -> tuple[Quantity, ...]:
+        return (
+            *amplitude_and_phase("amplitude_mm", "mm", 1.0, amplitudes, covariance),
+            Quantity("period_mm", hidden["period_mm"], hidden.get("period_mm_sd", 0.0), "mm"),
+        )
+
+
+class ScaleHysteresis(Effect):
+    id = "scale_hysteresis"
+    physics = "Head or slider hang back: the reading depends on the sense of the slider's last motion."
+    remedy = "Check the head's coupling and the friction of the slider."
+    experiment = "Reach the same place once with the slider moving up and once moving down."
+
+    def variants(self, c: Conditions) -> Variants | None:
+        if len(np.unique(c.slider_direction[c.slider_direction != 0])) < 2:
+            return None
+        basis = np.stack([c.slider_direction[:, None], c.slider_net[:, None]])
+        return Variants(ON_READING, basis, ({"last_motion": 1.0}, {"net_travel": 1.0}), 1.5)
+
+    def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
+        return (c.slider_direction if "last_motion" in hidden else c.slider_net)[:, None]
+
+    def quantities(
+        self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
+    ) -> tuple[Quantity, ...]:
+        return (scaled("width_mm", amplitudes[0], covariance[0, 0], 2.0, "mm"),)

@@ -1,0 +1,25 @@
+"""A reducer or belt whose ratio is not what the drive counts with."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from station.effects.base import Acts, Conditions, Effect, Variants, one, scaled
+from station.kinematics import Real
+from station.records import Quantity
+
+
+class TransmissionGain(Effect):
+    id = "transmission_gain"
+    physics = "The joint turns a little more or less than counted, in proportion to the angle."
+    remedy = "Correct the drive's ratio or pulses per turn."
+    experiment = "Turn the joint through its whole range against an inclinometer."
+
+    def variants(self, c: Conditions) -> Variants | None:
+        i = (self.joint or 1) - 1
+        return one(Acts(joint=i), c.drive_angle[:, i])
+
+    def quantities(
+        self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
+    ) -> tuple[Quantity, ...]:
+        return (scaled("ppm", amplitudes[0], covariance[0, 0], 1e6, "ppm"),)
