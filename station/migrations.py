@@ -58,3 +58,14 @@ def first_tables(db: Database) -> None:
             calibration_id INTEGER NOT NULL REFERENCES calibrations (id)) WITHOUT ROWID"""
     )
     db.execute(f"PRAGMA application_id = {APPLICATION_ID}")
+
+
+@migrations()
+def memories(db: Database) -> None:
+    """What a passed run leaves to the robot's next one; the newest that was not cleared counts."""
+    db.execute(
+        """CREATE TABLE memories (
+            calibration_id INTEGER PRIMARY KEY REFERENCES calibrations (id), robot_serial TEXT NOT NULL,
+            at_ms INTEGER NOT NULL, memory TEXT NOT NULL, cleared_ms INTEGER, cleared_by TEXT)"""
+    )
+    db.execute("CREATE INDEX memories_robot ON memories (robot_serial, calibration_id)")

@@ -5,21 +5,28 @@ A procedure never touches a device; `station.orchestrator` walks, stores and sen
 
 from __future__ import annotations
 
-from station.identification import identify
+from dataclasses import replace
+
+from station.five_bar import FiveBar
+from station.identification import Identification, identify
 from station.measurements import from_readings
+from station.memory import Memory, memory_of
 from station.plans import make_plan
 from station.published_run import MAX_PASSES, PublishedRun
-from station.records import PlanName, Procedure, Reading, Walk
+from station.records import PlanName, Procedure, Reading, Remembered, Walk
 from station.robot import Robot
 from station.verified_run import fresh_stops, result_of
 
+DAYS_PER_YEAR = 365.25
 
-def start_procedure(plan: PlanName, robot: Robot) -> Procedure:
+
+def start_procedure(plan: PlanName, robot: Robot, memory: Remembered | None = None) -> Procedure:
     """The procedure of a plan, not yet started.
 
+    :param memory: what earlier runs of this robot know; the published method has no use for it.
     :raises InputRefused: the plan cannot be made for this robot.
     """
-    return published(robot) if plan == "paper" else measured_and_verified(plan, robot)
+    return published(robot) if plan == "paper" else measured_and_verified(plan, robot, memory)
 
 
 def published(robot: Robot) -> Procedure:
@@ -34,9 +41,32 @@ def published(robot: Robot) -> Procedure:
     return run.result()
 
 
-def measured_and_verified(plan: PlanName, robot: Robot) -> Procedure:
+def measured_and_verified(plan: PlanName, robot: Robot, memory: Remembered | None = None) -> Procedure:
     """The measurement model on a chosen plan, then fresh places that took no part in the fit."""
     readings: list[Reading] = yield Walk("Measuring", 1, make_plan(plan, robot).stops)
-    fit = identify(robot, from_readings(readings))
+    age_days = memory.age_days if memory else 0.0
+    fit = fit_of(robot, readings, memory, age_days)
     fresh: list[Reading] = yield Walk("Verifying at fresh places", 2, fresh_stops(fit))
-    return result_of(fit, readings, fresh)
+    result = replace(result_of(fit, readings, fresh), lasting=memory_of(fit).as_json())
+    if memory is None or fit.memory is None:
+        return result
+    use = {"from_calibration": memory.calibration_id, "age_days": age_days}
+    return replace(result, memory={**fit.memory.as_json(), **use})
+
+
+def fit_of(
+    robot: Robot, readings: list[Reading], memory: Remembered | None, age_days: float
+) -> Identification:
+    """The measurement model on readings, with what is remembered as it was at that age.
+
+    :raises InputRefused: as `identify`.
+    """
+    measurements = from_readings(readings)
+    if memory is None:
+        return identify(robot, measurements)
+    parameters = FiveBar(robot, measurements).parameters
+    return identify(
+        robot,
+        measurements,
+        Memory.from_json(memory.memory).aged(parameters, age_days / DAYS_PER_YEAR),
+    )

@@ -5,8 +5,10 @@ Records carry ids and units in their names; nothing is matched by order.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Generator
 from dataclasses import asdict, dataclass, field
+from datetime import UTC, datetime
 from enum import StrEnum
 from typing import Any, Literal
 
@@ -119,9 +121,41 @@ class CalibrationResult:
     """Per pass: {pass, dtheta1_deg, dtheta2_deg, total1_deg, total2_deg, mu_deg}."""
     residuals: tuple[dict[str, Any], ...]
     """Per reading of the fit: {reading, position, residual_mm, limit_mm}."""
+    memory: dict[str, Any] | None = None
+    """What earlier runs knew: {used, p_value, text, from_calibration, age_days}; None: nothing was known."""
+    lasting: dict[str, Any] | None = None
+    """`station.memory.Memory` as JSON: what a pass leaves to the robot's next run."""
 
     def to_json(self) -> dict[str, Any]:
         return asdict(self)
+
+
+@dataclass(frozen=True, slots=True)
+class Remembered:
+    """What a passed run left to the robot's next one."""
+
+    calibration_id: int
+    at: datetime
+    memory: dict[str, Any]
+    """`station.memory.Memory` as JSON."""
+
+    @property
+    def age_days(self) -> float:
+        """Never negative, also when the clock was set back."""
+        return max((datetime.now(UTC) - self.at).total_seconds(), 0.0) / 86_400.0
+
+    def to_json(self) -> dict[str, Any]:
+        """For people: where it comes from, its age, what is known."""
+        names, mean, covariance = (self.memory[key] for key in ("names", "mean", "covariance"))
+        return {
+            "from_calibration": self.calibration_id,
+            "at": self.at.isoformat(timespec="milliseconds").replace("+00:00", "Z"),
+            "age_days": round(self.age_days, 3),
+            "parameters": [
+                {"name": name, "value": mean[i], "sd": math.sqrt(covariance[i][i]), "unit": "mm"}
+                for i, name in enumerate(names)
+            ],
+        }
 
 
 Procedure = Generator[Walk, list[Reading], CalibrationResult]

@@ -15,6 +15,8 @@ from station.emulation import EmulatedRig
 from station.errors import InputRefused
 from station.orchestrator import Orchestrator
 from station.procedures import start_procedure
+from station.records import PlanName, Procedure
+from station.robot import Robot
 from station.settings import Settings, database_path
 from station.store import Store
 
@@ -53,7 +55,11 @@ class Runtime:
                 opened.callback(rig.close)
                 settings, speed = rig.settings(settings), rig.speed
             devices = build_devices(settings, emulated=emulated, speed=speed)
-            orchestrator = Orchestrator(devices, store, settings, start_procedure)
+
+            def procedure(plan: PlanName, robot: Robot) -> Procedure:
+                return start_procedure(plan, robot, store.memory(robot.serial))
+
+            orchestrator = Orchestrator(devices, store, settings, procedure)
             opened.callback(orchestrator.shutdown)
             return cls(settings, home, store, orchestrator, opened.pop_all())
 

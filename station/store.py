@@ -7,10 +7,11 @@ wait for it.  Rows become records and dictionaries in `station.store_rows`.
 from __future__ import annotations
 
 import json
+import sqlite3
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from datetime import datetime
+from datetime import UTC, datetime
 from pathlib import Path
 from threading import Lock
 from typing import Any
@@ -19,7 +20,7 @@ from sqlite_utils import Database
 
 from station.database import Readers, open_writer
 from station.errors import InputRefused, KeyReused, NotFound
-from station.records import CalibrationRequest, CalibrationResult, Reading, State
+from station.records import CalibrationRequest, CalibrationResult, Reading, Remembered, State
 from station.robot import Robot
 from station.store_rows import (
     LIST_COLUMNS,
@@ -117,6 +118,43 @@ class Store:
             raise NotFound(f"There is no calibration {calibration_id}.")
         return Robot.from_dict(json.loads(row["file"]), source=f"robot of calibration {calibration_id}")
 
+    # Memories ----------------------------------------------------------------------------------
+
+    def memory(self, serial: str) -> Remembered | None:
+        """What the robot's next run may use: of its newest pass, not cleared, under the same robot file."""
+        row = self._readers.one(
+            "SELECT calibration_id, at_ms, memory, robot_id, cleared_ms FROM memories"
+            " JOIN calibrations ON id = calibration_id WHERE memories.robot_serial = ?"
+            " ORDER BY calibration_id DESC LIMIT 1",
+            [serial],
+        )
+        latest = self._readers.one("SELECT max(id) AS id FROM robots WHERE serial = ?", [serial])
+        if row is None or latest is None or row["cleared_ms"] is not None or row["robot_id"] != latest["id"]:
+            return None
+        return _remembered(row)
+
+    def memory_left_by(self, calibration_id: int) -> Remembered:
+        """What one run left to the next, cleared or not.  :raises NotFound:"""
+        row = self._readers.one(
+            "SELECT calibration_id, at_ms, memory FROM memories WHERE calibration_id = ?", [calibration_id]
+        )
+        if row is None:
+            raise NotFound(f"Run {calibration_id} left no memory.")
+        return _remembered(row)
+
+    def forget(self, serial: str, who: str) -> None:
+        """The robot's next run starts without memory; what was known stays on record.
+
+        Again is harmless.  :raises NotFound: no such robot.
+        """
+        self.robot(serial)
+        with self._writing() as db:
+            db.execute(
+                "UPDATE memories SET cleared_ms = ?, cleared_by = ?"
+                " WHERE robot_serial = ? AND cleared_ms IS NULL",
+                [_now(), who, serial],
+            )
+
     # Calibrations ------------------------------------------------------------------------------
 
     def create(
@@ -187,7 +225,7 @@ class Store:
         """End a calibration, once: the first end stands.  Returns the state that is now stored.
 
         It fails closed: a result with a number that is not finite, or one of a run that did not
-        succeed, is never kept as a pass.
+        succeed, is never kept as a pass.  What a pass leaves to the next run is kept with it.
         """
         verdict: str | None = None
         if result is not None:
@@ -210,6 +248,12 @@ class Store:
                 db.execute(
                     "INSERT INTO results VALUES (?, ?, ?, ?, ?, ?)", [calibration_id, *pack_result(result)]
                 )
+                if verdict == "pass" and result.lasting is not None:
+                    db.execute(
+                        "INSERT INTO memories (calibration_id, robot_serial, at_ms, memory)"
+                        " SELECT id, robot_serial, ended_ms, ? FROM calibrations WHERE id = ?",
+                        [compact(result.lasting), calibration_id],
+                    )
         return state if ended else State(self.calibration(calibration_id)["state"])
 
     def interrupt_unfinished(self) -> list[int]:
@@ -342,6 +386,11 @@ class Store:
             }
             for row in rows
         ]
+
+
+def _remembered(row: sqlite3.Row) -> Remembered:
+    at = datetime.fromtimestamp(row["at_ms"] / 1000, UTC)
+    return Remembered(row["calibration_id"], at, json.loads(row["memory"]))
 
 
 def _now() -> int:

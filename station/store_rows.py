@@ -35,7 +35,17 @@ _WORDS = (
 _SAMPLE_DIGITS = 5
 _SAMPLE_UNIT_MM = 10.0**-_SAMPLE_DIGITS
 """A tenth of the finest step of any supported readout."""
-_REST = ("before", "after", "findings", "method", "parameters", "weak_direction", "iterations", "residuals")
+_REST = (
+    "before",
+    "after",
+    "findings",
+    "method",
+    "parameters",
+    "weak_direction",
+    "iterations",
+    "residuals",
+    "memory",
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -141,7 +151,7 @@ def calibration_dict(row: sqlite3.Row, *, full: bool) -> dict[str, Any]:
     if full:
         item["metadata"] = json.loads(row["metadata"]) if row["metadata"] else {}
         rest = json.loads(_expand(row["rest"])) if row["rest"] else {}
-        empty: dict[str, Any] = {"before": None, "after": None, "method": None, "weak_direction": None}
+        empty = dict.fromkeys(("before", "after", "method", "weak_direction", "memory"))
         item |= {key: rest.get(key, empty.get(key, [])) for key in _REST}
     return item
 

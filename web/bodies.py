@@ -83,6 +83,16 @@ class Iteration(Answer):
     mu_deg: float | None = None
 
 
+class MemoryUse(Answer):
+    """Whether what earlier runs know of geometry and mechanism took part."""
+
+    used: bool
+    p_value: float | None = Field(description="of the readings under the memory")
+    text: str
+    from_calibration: int
+    age_days: float | None
+
+
 class CalibrationSummary(Answer):
     """One line of the history."""
 
@@ -110,11 +120,29 @@ class Calibration(CalibrationSummary):
     zero_offset_tolerance_deg: float | None = None
     parameters: list[Quantity] | None = None
     weak_direction: WeakDirection | None = None
+    memory: MemoryUse | None = Field(default=None, description="null when nothing was known")
     before: Accuracy | None = None
     after: Accuracy | None = None
     iterations: list[Iteration] | None = None
     residuals: list[Residual] | None = None
     findings: list[dict[str, JsonValue]] = Field(default_factory=list)
+
+
+class MemorySummary(Answer):
+    """What the robot's next run will start from."""
+
+    from_calibration: int
+    at: datetime
+    age_days: float
+    parameters: list[Quantity]
+
+
+class Robot(Answer):
+    """A robot as it is known here."""
+
+    serial: str
+    file: dict[str, Any] = Field(description="the sections of its robot file")
+    memory: MemorySummary | None = Field(description="null when nothing is known")
 
 
 class CalibrationList(Answer):

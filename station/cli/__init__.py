@@ -17,6 +17,7 @@ _MODULES = {
     "calibrate": "calibrate",
     "export": "archive",
     "identify": "numerics",
+    "memory": "history",
     "plan": "numerics",
     "runs": "history",
     "serve": "serve",

@@ -1,8 +1,9 @@
-"""`station runs` and `station show`: the history from the terminal, while the service runs or not."""
+"""`station runs`, `show` and `memory`: the history from the terminal, while the service runs or not."""
 
 from __future__ import annotations
 
 import csv
+import getpass
 import json
 import sys
 from collections.abc import Iterator
@@ -127,6 +128,12 @@ def show_command(home: Path, calibration_id: int, as_json: bool, config: Path | 
         console.print(f"{key.replace('_', ' '):>14}  {calibration[key] or ''}", soft_wrap=True)
     for key in ("created_at", "started_at", "ended_at"):
         console.print(f"{key.removesuffix('_at'):>14}  {calibration[key] or ''}")
+    if memory := calibration["memory"]:
+        console.print(
+            f"{'memory':>14}  of run {memory['from_calibration']}, {memory['age_days']:.1f} days old:"
+            f" {memory['text']}",
+            soft_wrap=True,
+        )
     for zero in calibration["zero_offsets"]:
         console.print(
             f"{'dtheta' + str(zero['joint']):>14}  {zero['value_deg']:+.4f} deg, sd {zero['sd_deg']:.4f}"
@@ -134,3 +141,25 @@ def show_command(home: Path, calibration_id: int, as_json: bool, config: Path | 
     console.print(f"{'readings':>14}  {len(readings)}")
     for event in events:
         console.print(f"{event['kind']:>14}  {event['at']} {event['data']}", soft_wrap=True)
+
+
+@click.command("memory")
+@click.argument("serial")
+@click.option("--clear", is_flag=True, help="The next run starts without it.")
+@_config
+@click.pass_obj
+def memory_command(home: Path, serial: str, clear: bool, config: Path | None) -> None:
+    """What a robot's next run knows of its geometry and mechanism."""
+    console = Console(highlight=False)
+    with closing(Store(database_path(load_settings(config), home))) as store:
+        store.robot(serial)
+        if clear:
+            store.forget(serial, getpass.getuser())
+        memory = store.memory(serial)
+    if memory is None:
+        console.print(f"Nothing is remembered of robot {serial}.")
+        return
+    known = memory.to_json()
+    console.print(f"Robot {serial}, from run {known['from_calibration']}, {known['age_days']:.1f} days old:")
+    for q in known["parameters"]:
+        console.print(f"{q['name']:>14}  {q['value']:+.4f} {q['unit']}, sd {q['sd']:.4f}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from fastapi import Depends, Path
+from fastapi import Depends, Header, Path
 from starlette.requests import HTTPConnection
 
 from station.runtime import Runtime
@@ -19,4 +19,5 @@ def _runtime(connection: HTTPConnection) -> Runtime:
 
 
 TheRuntime = Annotated[Runtime, Depends(_runtime)]
+CallerName = Annotated[str | None, Header(alias="X-Operator", max_length=64, description="for the log")]
 CalibrationId = Annotated[int, Path(ge=1, le=LARGEST_ID)]

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
-from fastapi import APIRouter, Header
+from fastapi import APIRouter
 
 from web.aside import aside
 from web.bodies import Stopped
 from web.problems import FieldAtFault, ProblemResponse, documented, problem
-from web.routes.parts import TheRuntime
+from web.routes.parts import CallerName, TheRuntime
 
 STOP_TIMEOUT_S = 3.0
 REMEDY = "Use the emergency stop."
@@ -18,12 +16,7 @@ router = APIRouter(tags=["stop"])
 
 
 @router.post("/stop", response_model=Stopped, responses=documented(502, 504))
-async def stop(
-    runtime: TheRuntime,
-    operator: Annotated[
-        str | None, Header(alias="X-Operator", max_length=64, description="for the log")
-    ] = None,
-) -> Stopped | ProblemResponse:
+async def stop(runtime: TheRuntime, operator: CallerName = None) -> Stopped | ProblemResponse:
     """Stop both axes now.  Not the emergency stop: it needs this program, the network and the drives."""
     who = operator or "REST"
     try:

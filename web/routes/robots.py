@@ -1,0 +1,30 @@
+"""`/robots`: what is known of one robot, and forgetting it."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from fastapi import APIRouter
+
+from web.bodies import Robot, Serial
+from web.problems import documented
+from web.routes.parts import CallerName, TheRuntime
+
+router = APIRouter(prefix="/robots", tags=["robots"])
+
+
+@router.get("/{serial:path}", response_model=Robot, responses=documented(404))
+def read_robot(serial: Serial, runtime: TheRuntime) -> dict[str, Any]:
+    """Its file, and what its next run will know of geometry and mechanism."""
+    memory = runtime.store.memory(serial)
+    return {
+        "serial": serial,
+        "file": runtime.store.robot(serial).to_json(),
+        "memory": memory and memory.to_json(),
+    }
+
+
+@router.delete("/{serial:path}/memory", status_code=204, responses=documented(404))
+def forget(serial: Serial, runtime: TheRuntime, operator: CallerName = None) -> None:
+    """The next run starts without memory; what was known stays on record.  Again is harmless."""
+    runtime.store.forget(serial, operator or "REST")
