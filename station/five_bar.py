@@ -18,7 +18,7 @@ from station.error_model import (
     pose,
     position_jacobian,
 )
-from station.kinematics import Geometry, Real, inverse
+from station.kinematics import Complex, Geometry, Real, inverse
 from station.measurements import Index, Measurements
 from station.mechanism import Observation, Parameter
 from station.robot import Robot
@@ -106,6 +106,10 @@ class FiveBar:
         own = self._mount[:, None] == np.arange(mounts)
         drm = (own[:, :, None] * by_drm[:, None, :]).reshape(len(by_drm), 2 * mounts)
         return drm, -own.astype(float)
+
+    def positions(self, p: Real) -> Complex:
+        """(K,) where P stood at each reading, by parameters p."""
+        return pose(perturbed(self.nominal, p[:SIZE]), self.theta + p[:2]).r
 
     def position_errors(self, p: Real) -> tuple[Real, Real]:
         """Over the workspace grid, commanded by nominal inverse position and zero offsets uncompensated.

@@ -42,6 +42,15 @@ class Measurements:
     payload_kg: Real | None = None
     tracker: Real | None = None
     """(K, 2 or 3) independent position, mm."""
+    came_from: Real | None = None
+    """(K, n + 1) joint angles and distance of the reading before, NaN before the first; filled in when
+    left out, and kept by `take`, so that leaving a reading out does not change another's history."""
+
+    def __post_init__(self) -> None:
+        if self.came_from is None:
+            here = np.column_stack([self.theta, self.distance])
+            before = np.vstack([np.full((1, here.shape[1]), np.nan), here[:-1]])
+            object.__setattr__(self, "came_from", before)
 
     def __len__(self) -> int:
         return len(self.ids)

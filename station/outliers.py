@@ -69,11 +69,25 @@ def find(measurements: Measurements, fit: Fit, row_sd: Real) -> tuple[Outlier, .
         residual = -solution.residual * stretch
         t = residual / np.sqrt(_left(solution))
         scale = _scale(t)
-    suspects = np.flatnonzero(np.abs(t) > limit * scale)
+    return _named(measurements, residual, t, scale, row_sd)
+
+
+def off(measurements: Measurements, solution: Solution, row_sd: Real) -> tuple[Outlier, ...]:
+    """The outlying readings against a fit that the majority already decided."""
+    residual = -solution.residual
+    t = residual / np.sqrt(_left(solution))
+    return _named(measurements, residual, t, _scale(t), row_sd)
+
+
+def _named(
+    measurements: Measurements, residual: Real, t: Real, scale: float, row_sd: Real
+) -> tuple[Outlier, ...]:
+    limit = float(stats.norm.isf(SIGNIFICANCE / (2 * len(measurements)))) * scale
+    suspects = np.flatnonzero(np.abs(t) > limit)
     return tuple(
         Outlier(measurements.ids[k], float(residual[k] * row_sd[k]), float(abs(t[k]) / scale))
         for k in suspects
-        if _apart(measurements, residual, int(k), suspects) > limit * scale
+        if _apart(measurements, residual, int(k), suspects) > limit
     )
 
 

@@ -49,7 +49,7 @@ def conditions(mechanism: FiveBar, p: Real, reference: Reference, *, first: bool
     rise = None
     if reference.temperature_c is not None and m.temperature_c is not None:
         rise = m.temperature_c - reference.temperature_c
-    before = None if first else reference
+    before = _before(m, None if first else reference)
     return Conditions(
         t_s=m.t_s,
         theta=theta,
@@ -57,7 +57,7 @@ def conditions(mechanism: FiveBar, p: Real, reference: Reference, *, first: bool
         approach=m.approach.astype(float),
         travel=m.distance,
         slider_direction=_last_motion(m, by_joint, before),
-        slider_net=_net_travel(m, by_joint, before),
+        slider_net=_net_travel(m, before),
         temperature_rise=rise,
         payload_kg=m.payload_kg,
         lengths={"L1": robot.L[0], "L2": robot.L[1], "l1": robot.l[0], "l2": robot.l[1]},
@@ -65,24 +65,29 @@ def conditions(mechanism: FiveBar, p: Real, reference: Reference, *, first: bool
     )
 
 
-def _last_motion(m: Measurements, by_joint: Real, before: Reference | None) -> Real:
+def _before(m: Measurements, reference: Reference | None) -> Real:
+    """(K, n + 1) joint angles and distance before each reading, NaN where unknown."""
+    came_from = np.array(m.came_from)
+    if reference is not None:
+        unknown = np.isnan(came_from).any(axis=1)
+        came_from[unknown] = [*reference.theta, reference.travel]
+    return came_from
+
+
+def _last_motion(m: Measurements, by_joint: Real, before: Real) -> Real:
     """(K,) sign in which rho last changed: by the way from the reading before, or by the run-up where the
-    recorded approach says that the last motion was another."""
-    start = m.theta[0] if before is None else before.theta
-    way = np.diff(m.theta, axis=0, prepend=start[None])
+    recorded approach says that the last motion was another; 0 unknown."""
+    way = m.theta - before[:, :-1]
     way[np.abs(way) < SAME_PLACE_RAD] = 0.0
     run_up = (m.approach != 0) & (m.approach != np.sign(way))
     last = np.where(run_up.any(axis=1)[:, None], m.approach, way)
-    return np.asarray(np.sign(np.sum(by_joint * last, axis=1)))
+    direction = np.sign(np.sum(by_joint * last, axis=1))
+    return np.where(np.isnan(before).any(axis=1), 0.0, direction)
 
 
-def _net_travel(m: Measurements, by_joint: Real, before: Reference | None) -> Real:
-    """(K,) sign of the change of reading; for the very first reading its approach is all there is."""
-    start = m.distance[0] if before is None else before.travel
-    net = np.sign(np.diff(m.distance, prepend=start))
-    if before is None:
-        net[0] = np.sign(by_joint[0] @ m.approach[0])
-    return np.asarray(net)
+def _net_travel(m: Measurements, before: Real) -> Real:
+    """(K,) sign of the change of reading, 0 unknown."""
+    return np.nan_to_num(np.sign(m.distance - before[:, -1]))
 
 
 def _pull(w: np.ndarray) -> Real:

@@ -11,12 +11,14 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from station import outliers
 from station.diagnosis.adequacy import ALPHA, Adequacy, judge
 from station.diagnosis.model import Fit, Model, Term, fit
 from station.diagnosis.scan import Candidate, Scan
 from station.effects import Effect
 from station.kinematics import Real
 from station.least_squares import NotConvergedError, Prior
+from station.outliers import Outlier
 
 MOST_EFFECTS = 3
 SIGNIFICANT = 0.01
@@ -24,6 +26,7 @@ SIGNIFICANT = 0.01
 RIVALS = 40.0
 """A candidate this much worse (chi-square) in the linear scan is not worth a nonlinear fit."""
 MOST_RIVALS = 6
+ODD_SHARE = 0.03
 ALIAS = 11.0
 """Chi-square by which a look-alike may be worse and still be the cause (true cause kept in 99.9 %)."""
 
@@ -55,6 +58,8 @@ class Trace:
     findings: tuple[Finding, ...]
     last_scan: tuple[Candidate, ...]
     """What the catalogue says of the last residual (for what could not have been seen)."""
+    outliers: tuple[Outlier, ...]
+    """Few single readings off the last model: the trace ends there, to be begun again without them."""
 
     @property
     def adequate(self) -> bool:
@@ -70,7 +75,8 @@ def trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[Effec
     stages = [stage]
     findings: list[Finding] = []
     candidates = Scan(stage.fit).candidates(effects)
-    while not _done(stage, candidates, len(effects)) and len(findings) < MOST_EFFECTS:
+    odd = _odd_readings(stage.fit)
+    while not odd and not _done(stage, candidates, len(effects)) and len(findings) < MOST_EFFECTS:
         if not _significant(candidates, len(effects)):
             break
         chosen = _add(stage.fit, prior, candidates)
@@ -81,7 +87,14 @@ def trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[Effec
         stage = _settled(better.model, prior, specified_sd, better)
         stages.append(stage)
         candidates = Scan(stage.fit).candidates(_others(effects, stage.fit.model.terms))
-    return Trace(tuple(stages), tuple(findings), tuple(candidates))
+        odd = _odd_readings(stage.fit)
+    return Trace(tuple(stages), tuple(findings), tuple(candidates), odd)
+
+
+def _odd_readings(found: Fit) -> tuple[Outlier, ...]:
+    """Single readings off the model; many of them are an effect, not outliers."""
+    odd = outliers.off(found.model.mechanism.measurements, found.solution, found.row_sd)
+    return odd if len(odd) <= max(1, int(ODD_SHARE * len(found.row_sd))) else ()
 
 
 def _done(stage: Stage, candidates: list[Candidate], tests: int) -> bool:
@@ -133,12 +146,12 @@ def _add(current: Fit, prior: Prior, candidates: list[Candidate]) -> tuple[Findi
     fits.sort(key=lambda item: item[0])
     _, winner, better = fits[0]
     unit = _noise_square(better.cost, better.dof - winner.size)
-    aliases = [
-        c.term()
-        for score, c, refit in fits[1:]
-        if (refit.cost - better.cost) / unit < ALIAS + 2.0 * (winner.size - c.size)
-    ]
-    return Finding(winner.term(), winner.p_value, tuple(aliases)), better
+    aliases: dict[tuple[str, int | None], Term] = {}
+    for _, c, refit in fits[1:]:
+        if (refit.cost - better.cost) / unit < ALIAS + 2.0 * (winner.size - c.size):
+            aliases.setdefault(c.term().key, c.term())
+    aliases.pop(winner.term().key, None)
+    return Finding(winner.term(), winner.p_value, tuple(aliases.values())), better
 
 
 def _noise_square(cost: float, dof: int) -> float:

@@ -11,7 +11,7 @@ from station.records import Quantity
 
 class TransmissionGain(Effect):
     id = "transmission_gain"
-    physics = "The joint turns a little more or less than counted, in proportion to the angle."
+    physics = "The joint turns more or less than counted, in proportion to the angle from the drive's zero."
     remedy = "Correct the drive's ratio or pulses per turn."
     experiment = "Turn the joint through its whole range against an inclinometer."
 

@@ -1,0 +1,166 @@
+"""The closed loop on one set of readings, with or without fresh ones (method.md section 3)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from station import outliers
+from station.diagnosis.conditions import reference_of
+from station.diagnosis.confirm import FEWEST, Confirmation, confirm
+from station.diagnosis.hints import Hint, hints
+from station.diagnosis.model import Fit, Model
+from station.diagnosis.trace import Trace, trace
+from station.effects import Effect, catalogue
+from station.errors import InputRefused
+from station.five_bar import FiveBar
+from station.identification import check_places, check_poses, tolerance_prior
+from station.kinematics import Real
+from station.least_squares import NotConvergedError
+from station.measurements import Measurements
+from station.robot import Robot
+
+Verdict = Literal["adequate", "explained", "partly_explained", "unexplained"]
+
+FEWEST_READINGS = 30
+"""Thirteen unknowns and an effect leave too little of fewer readings to judge a residual by."""
+FEWEST_REPEATS = 6
+MOST_LEFT_OUT = 0.05
+USELESS = 0.6
+"""Fresh residual over that of the base model from which on an added effect predicts nothing worth having."""
+GOOD_SHARE = 0.5
+"""An effect that takes less of the residual's square than this explains nothing by itself."""
+
+
+@dataclass(frozen=True)
+class Diagnosis:
+    """What became of one residual."""
+
+    robot: Robot
+    measurements: Measurements
+    """The readings that took part."""
+    outliers: tuple[outliers.Outlier, ...]
+    trace: Trace
+    confirmations: tuple[Confirmation, ...]
+    """One per stage; empty without fresh readings."""
+    hints: tuple[Hint, ...]
+
+    @property
+    def base(self) -> Fit:
+        return self.trace.stages[0].fit
+
+    @property
+    def last(self) -> Fit:
+        return self.trace.stages[-1].fit
+
+    @property
+    def confirmed(self) -> bool | None:
+        """Whether the last model predicted fresh readings; None without any."""
+        return self.confirmations[-1].confirmed if self.confirmations else None
+
+    @property
+    def explained_share(self) -> float:
+        """Of the base residual's square beyond the noise."""
+        before = np.sum(self.base.residual_mm**2)
+        after = np.sum(self.last.residual_mm**2)
+        return float(1.0 - after / before)
+
+    @property
+    def verdict(self) -> Verdict:
+        """The last model fits and, where there are fresh readings, predicts them; or how far it came."""
+        found = bool(self.trace.findings)
+        if not found:
+            return "adequate" if self.trace.adequate and self.confirmed is not False else "unexplained"
+        if self.trace.adequate and self.confirmed is not False:
+            return "explained"
+        return "partly_explained" if self.explained_share >= GOOD_SHARE else "unexplained"
+
+
+def diagnose(
+    robot: Robot,
+    measurements: Measurements,
+    fresh: Measurements | None = None,
+    effects: Sequence[Effect] | None = None,
+) -> Diagnosis:
+    """Residual, cause, model, confirmation.
+
+    :raises InputRefused: the readings are malformed or not enough to judge, with what is missing.
+    """
+    check_poses(robot, measurements)
+    check_places(measurements)
+    check_enough(measurements)
+    if fresh is not None:
+        check_poses(robot, fresh)
+        if len(fresh) < FEWEST:
+            raise InputRefused(f"Only {len(fresh)} fresh readings; at least {FEWEST} are needed to confirm.")
+    effects = catalogue() if effects is None else effects
+    kept = measurements
+    left_out: tuple[outliers.Outlier, ...] = ()
+    found = _trace(robot, kept, effects)
+    while found.outliers and len(left_out) < MOST_LEFT_OUT * len(measurements):
+        left_out = (*left_out, *found.outliers)
+        named = {o.reading for o in found.outliers}
+        kept = kept.take(np.array([i not in named for i in kept.ids]))
+        found = _trace(robot, kept, effects)
+    last = found.stages[-1]
+    noise = float(np.sqrt(np.mean(last.fit.row_sd**2)))
+    checks: tuple[Confirmation, ...] = ()
+    if fresh is not None:
+        checks = tuple(confirm(s.fit, fresh, max(s.adequacy.pure_dof, 10)) for s in found.stages)
+    unexplained = not found.adequate or (bool(checks) and not checks[-1].confirmed)
+    rest = found.stages[0] if _hopeless(found, checks) else last
+    return Diagnosis(
+        robot=robot,
+        measurements=kept,
+        outliers=left_out,
+        trace=found,
+        confirmations=checks,
+        hints=hints(rest.fit, noise, repeats_agree=rest.adequacy.quiet) if unexplained else (),
+    )
+
+
+def check_enough(measurements: Measurements) -> None:
+    """:raises InputRefused: "not enough data to judge", with what is missing."""
+    groups = measurements.repeat_group
+    repeats = len(groups) - len(np.unique(groups))
+    missing = []
+    if len(measurements) < FEWEST_READINGS:
+        missing.append(f"{FEWEST_READINGS - len(measurements)} more readings")
+    if repeats < FEWEST_REPEATS:
+        missing.append(
+            f"{FEWEST_REPEATS - repeats} more repeats (readings that share `position` and approach)"
+        )
+    if missing:
+        raise InputRefused(f"Not enough data to judge: {' and '.join(missing)} are needed.")
+
+
+def _trace(robot: Robot, measurements: Measurements, effects: Sequence[Effect]) -> Trace:
+    mechanism = FiveBar(robot, measurements)
+    try:
+        return trace(
+            Model(mechanism, reference_of(measurements)),
+            tolerance_prior(mechanism),
+            mechanism.row_sd,
+            effects,
+        )
+    except NotConvergedError as error:
+        raise InputRefused(
+            f"The identification did not converge ({error}); check that angles and distances belong together."
+        ) from error
+
+
+def _hopeless(found: Trace, checks: Sequence[Confirmation]) -> bool:
+    """The effects found take or predict so little that the rest is better described from the base on."""
+    if checks:
+        return checks[-1].rms_mm > USELESS * checks[0].rms_mm
+    before = float(np.sum(found.stages[0].fit.residual_mm ** 2))
+    after = float(np.sum(found.stages[-1].fit.residual_mm ** 2))
+    return not found.adequate and 1.0 - after / before < GOOD_SHARE
+
+
+def sd_of(fit: Fit) -> Real:
+    """(P,) standard deviations of all unknowns."""
+    return np.sqrt(np.diag(fit.solution.covariance))
