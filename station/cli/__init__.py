@@ -19,6 +19,7 @@ _MODULES = {
     "identify": "numerics",
     "memory": "history",
     "plan": "numerics",
+    "reproduce": "studies",
     "runs": "history",
     "serve": "serve",
     "show": "history",

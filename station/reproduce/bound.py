@@ -1,12 +1,4 @@
-"""The bound beside each figure: what no unbiased use of the same readings and priors could beat.
-
-Definition.  The errors of the machine are fixed.  The model is linearised about them, and the Bayes
-estimator of the linear model with normal noise, whose covariance is the (posterior) Cramer-Rao bound, is
-sampled: its error is C (J' z + L (m - p)), J the whitened Jacobian, z standard normal noise, L the
-information and m the mean of the prior, C = (J' J + L)^-1.  So the prior pulls it as it pulls any estimator
-that uses it.  The bound is the median over samples of the largest position error over the workspace, to
-first order.
-"""
+"""The bound beside each figure: what the same readings and priors allow (`DEFINITION`)."""
 
 from __future__ import annotations
 
@@ -32,6 +24,14 @@ from station.reproduce.trial import (
 )
 
 SAMPLES = 4000
+DEFINITION = (
+    "The errors of the machine are fixed and the model is linearised about them. The Bayes estimator of the "
+    "linear model with normal noise, whose covariance is the Cramer-Rao bound with prior, is sampled: its "
+    "error is C (J' z + W (m - p)), J the whitened Jacobian, z standard normal noise, W the information and "
+    "m the mean of the prior, p the true errors, C = (J' J + W)^-1; so the prior pulls it as it pulls any "
+    "estimator that uses it. For a memory both runs are sampled in turn. The bound is the median of the "
+    "largest position error over the workspace, to first order."
+)
 
 
 @dataclass(frozen=True)

@@ -4,20 +4,26 @@ from __future__ import annotations
 
 import numpy as np
 
-from station.error_model import perturbed
+from station.error_model import SIZE, perturbed
 from station.five_bar import GRID
 from station.kinematics import HOME, Complex, Real, forward, inverse
 from station.published import boundary_positions
+from station.reproduce.printed import true_errors
 from station.robot import Robot
 
 EDGE_PLACES = 42
 """Evenly spaced along the edge of the workspace (Fig. 11)."""
 
 
-def position_errors(robot: Robot, truth: Real, identified: Real, targets: Complex) -> Real:
-    """(K,) mm from targets (K,) when commands are made with the identified errors (12,) of truth (12,)."""
+def position_vectors(robot: Robot, truth: Real, identified: Real, targets: Complex) -> Complex:
+    """(K,) position less targets (K,), mm: commands made with the errors identified (12,) of truth (12,)."""
     command = inverse(perturbed(robot.geometry, identified), targets) - identified[:2]
-    return np.asarray(np.abs(forward(perturbed(robot.geometry, truth), command + truth[:2]) - targets))
+    return np.asarray(forward(perturbed(robot.geometry, truth), command + truth[:2]) - targets)
+
+
+def position_errors(robot: Robot, truth: Real, identified: Real, targets: Complex) -> Real:
+    """(K,) distances from targets, mm."""
+    return np.abs(position_vectors(robot, truth, identified, targets))
 
 
 def home(robot: Robot) -> Complex:
@@ -42,3 +48,12 @@ def edge(robot: Robot) -> Complex:
 def whole_workspace(robot: Robot) -> Complex:
     """The grid over which "largest position error" is taken."""
     return robot.workspace_grid(*GRID)
+
+
+def before(group: int) -> dict[str, float]:
+    """{home_mm, six_mm, edge_mm}: largest error without calibration, from the forward model alone."""
+    robot, nothing = Robot.default(), np.zeros(SIZE)
+    return {
+        name: float(position_errors(robot, true_errors(group), nothing, targets).max())
+        for name, targets in (("home_mm", home(robot)), ("six_mm", six(robot)), ("edge_mm", edge(robot)))
+    }

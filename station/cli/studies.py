@@ -1,0 +1,61 @@
+"""`station reproduce` and `station bench`: the figures that this product stands on, computed anew."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+from rich.console import Console
+from rich.table import Table
+
+from station.cli.numerics import write_json
+from station.reproduce.page import page
+from station.reproduce.study import study
+
+_file = click.Path(dir_okay=False, path_type=Path)
+SEEDS = 200
+
+
+@click.command("reproduce")
+@click.option("--json", "json_file", type=_file, help="Write every figure here.")
+@click.option("--html", "html_file", type=_file, help="Write tables and plots as one page here.")
+@click.option("--seeds", type=click.IntRange(2), default=SEEDS, show_default=True, help="Machines a row.")
+def reproduce_command(json_file: Path | None, html_file: Path | None, seeds: int) -> None:
+    """The paper's tables and figures beside ours."""
+    check_folders(json_file, html_file)
+    console = Console()
+    content = study(seeds, console)
+    if json_file:
+        write_json(json_file, content)
+    if html_file:
+        write_text(html_file, page(content).to_html())
+    console.print(
+        f"kappa_1 = {content['kappa_1']:.2f}, kappa_m = {content['kappa_m']:.2f} (f = {content['f']})"
+    )
+    table = Table("group", "method", "largest error mm", "bound mm", "ratio", "target mm", title="One sample")
+    for row in content["accuracy"]:
+        if row["servo"] == "whole pulses" and row["samples"] == 1:
+            table.add_row(
+                str(row["group"]),
+                row["variant"],
+                f"{row['workspace_mm']['median']:.3f}",
+                *(f"{row[key]:.3f}" if row[key] else "" for key in ("bound_mm", "ratio", "target_mm")),
+            )
+    console.print(table)
+    for erratum in content["errata"]:
+        console.print(f"{erratum['where']}: {erratum['printed']} -> {erratum['found']}", markup=False)
+
+
+def check_folders(*files: Path | None) -> None:
+    """Before minutes of work, not after.  :raises click.UsageError: there is no such folder."""
+    for file in files:
+        if file and not file.parent.is_dir():
+            raise click.UsageError(f"{file} cannot be written: there is no folder {file.parent}.")
+
+
+def write_text(path: Path, text: str) -> None:
+    """:raises click.UsageError: the file cannot be written."""
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise click.UsageError(f"{path} cannot be written: {error.strerror}.") from error
