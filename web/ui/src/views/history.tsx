@@ -16,7 +16,8 @@ export function HistoryView() {
   const latest = `${station.value?.run?.id} ${station.value?.last?.id}`;
   const { value: page, trouble } = useLoaded(`${filters} ${latest}`, () => calibrations(toApi(filters))).value;
   const set = (name: string, value: string) => {
-    const next = new URLSearchParams(filters);
+    // the address as it is now: another filter may have been set since this was drawn
+    const next = new URLSearchParams(query.value);
     next.delete("cursor");
     if (value) next.set(name, value);
     else next.delete(name);
