@@ -19,6 +19,10 @@ from station.kinematics import Real
 
 TOLERANCE = 3e-8
 MAX_STEPS = 60
+MISFIT = 5.0
+"""Residuals this many standard deviations large come from a model that is wrong."""
+LOOSE = 1e-3
+"""Length of the last step then, per standard deviation of misfit."""
 ROUNDING = 1e-7
 """Share of the cost that double precision may get wrong: distances are known to 1e-13 mm of 600."""
 BLIND = 1e-10
@@ -123,12 +127,18 @@ def _solve(residuals: Residuals, start: Real, prior: Prior) -> Solution:
             damping = max(10.0 * damping, 1e-4)
         length = math.sqrt(max(float(along @ gradient), 0.0))
         x, stacked, target, r, J, cost = trial, new_stacked, new_target, new_r, new_J, new_cost
-        if damping == 0.0 and length < TOLERANCE:
+        if damping == 0.0 and length < _tolerance(cost, len(r)):
             return _shape(x, stacked, r, J, cost, step)
         damping = damping / 10.0 if damping > 1e-8 else 0.0
     raise NotConvergedError(
         f"no convergence in {MAX_STEPS} steps; the last was {length:.2g} standard deviations"
     )
+
+
+def _tolerance(cost: float, rows: int) -> float:
+    """A misfit far beyond the noise need not be pinned down to a fraction of the noise."""
+    misfit = math.sqrt(cost / rows)
+    return TOLERANCE if misfit < MISFIT else LOOSE * misfit
 
 
 def _descend(normal: Real, gradient: Real, damping: float) -> Real:

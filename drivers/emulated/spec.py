@@ -48,7 +48,7 @@ class MachineSpec(_Table):
     servo_error_pulses: float = Field(default=4.0, ge=0)
     """Largest error of a stop (three standard deviations), pulses."""
     whole_pulses: bool = True
-    """Whether a servo comes to rest on a pulse of its encoder (eq. 35 speaks of pulse errors) or between two."""
+    """Whether a servo rests on a pulse of its encoder (eq. 35 speaks of pulse errors) or between two."""
     effects: tuple[AnyEffect, ...] = ()
 
     @property

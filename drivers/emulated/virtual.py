@@ -5,8 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
+from drivers.emulated.effects.base import JointNumber
 from drivers.emulated.machine import Machine
 from drivers.emulated.spec import MachineSpec
+
+_JOINTS: tuple[JointNumber, JointNumber] = (1, 2)
+_LEAST_RPM = 0.1
 
 
 class VirtualClock:
@@ -52,8 +56,14 @@ class VirtualRig:
         :param samples: readings of the head that are averaged
         """
         spec, machine = self._spec, self.machine
-        machine.command(1, self._pulses(0, theta_deg[0]), rpm)
-        machine.command(2, self._pulses(1, theta_deg[1]), rpm)
+        targets = [self._pulses(i, angle) for i, angle in enumerate(theta_deg)]
+        ways = [
+            abs(target - axis.feedback_pulses()) for target, axis in zip(targets, machine.axes, strict=True)
+        ]
+        longest = max(ways) or 1
+        for joint, target, way in zip(_JOINTS, targets, ways, strict=True):
+            # both joints arrive together, as the station drives them
+            machine.command(joint, target, max(rpm * way / longest, _LEAST_RPM))
         self.clock.advance_to(machine.rests_from_s + settle_s)
         scale_mm = sum(machine.head_mm() for _ in range(samples)) / samples
         first, second = machine.axes

@@ -55,7 +55,7 @@ def conditions(mechanism: FiveBar, p: Real, reference: Reference, *, first: bool
         theta=theta,
         drive_angle=m.theta - np.radians(robot.zero_at_deg),
         approach=m.approach.astype(float),
-        travel=m.distance,
+        travel=mechanism.observe(p, m.theta).value,
         slider_direction=_last_motion(m, by_joint, before),
         slider_net=_net_travel(m, before),
         temperature_rise=rise,

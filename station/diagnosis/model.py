@@ -15,8 +15,9 @@ from station.kinematics import Real
 from station.least_squares import Prior, Solution, solve
 from station.mechanism import Observation
 
-CONDITION_ROUNDS = 2
-"""The basis depends a little on the zero offsets: fitted, evaluated anew, fitted again."""
+CONDITION_ROUNDS = 6
+"""The basis depends a little on the zero offsets: fitted, evaluated anew, fitted again until it stays."""
+SETTLED_RAD = 1e-5
 
 
 @dataclass(frozen=True)
@@ -136,7 +137,7 @@ def fit(model: Model, base_prior: Prior, row_sd: Real, start: Real | None = None
     )
     x = np.concatenate([base_prior.mean if start is None else start, np.zeros(extra)])
     measured = model.mechanism.measured
-    for _ in range(CONDITION_ROUNDS if model.terms else 1):
+    for _ in range(CONDITION_ROUNDS):
         c = model.conditions(x[: model.base_size])
         bases = model.bases(c)
 
@@ -145,6 +146,9 @@ def fit(model: Model, base_prior: Prior, row_sd: Real, start: Real | None = None
             return (at.value - measured) / row_sd, at.by_parameter / row_sd[:, None]
 
         solution = solve(residuals, x, prior)
+        moved = np.abs(solution.x[:2] - x[:2]).max()
         x = solution.x
+        if not model.terms or moved < SETTLED_RAD:
+            break
     c = model.conditions(x[: model.base_size])
     return Fit(model, solution, prior, row_sd, model.observe(x, bases), c)

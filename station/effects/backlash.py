@@ -16,6 +16,7 @@ class Backlash(Effect):
     physics = "The arm lags by half the play in the sense of the joint's last motion."
     remedy = "Adjust or replace the reducer, or approach every position from the same side."
     experiment = "Read the same places from the other side."
+    by_approach = True
 
     def variants(self, c: Conditions) -> Variants | None:
         i = (self.joint or 1) - 1

@@ -33,7 +33,7 @@ class Conditions:
     approach: Real
     """(K, n) sign of each joint's last motion, 0 unknown."""
     travel: Real
-    """(K,) head reading, mm."""
+    """(K,) where the slider stands on the scale, mm: what a perfect scale would read."""
     slider_direction: Real
     """(K,) sign of the slider's last motion, 0 unknown."""
     slider_net: Real
@@ -90,6 +90,8 @@ class Effect(ABC):
     remedy: ClassVar[str]
     experiment: ClassVar[str]
     """What separates it from its look-alikes."""
+    by_approach: ClassVar[bool] = False
+    """Whether it moves the arm differently with the sense of the joint's last motion."""
 
     def __init__(self, joint: int | None = None) -> None:
         self.joint = joint

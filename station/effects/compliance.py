@@ -6,7 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from station.effects.base import Acts, Conditions, Effect, Variants, one, scaled
+from station.effects.base import Acts, Conditions, Effect, Variants, scaled
+from station.errors import InputRefused
 from station.kinematics import Real
 from station.records import Quantity
 
@@ -19,10 +20,16 @@ class Compliance(Effect):
 
     def variants(self, c: Conditions) -> Variants | None:
         i = (self.joint or 1) - 1
-        sag = np.cos(c.theta[:, i])
-        if c.payload_kg is not None and np.ptp(c.payload_kg) > 0:
-            return one(Acts(joint=i), np.column_stack([sag, sag * c.payload_kg]))
-        return one(Acts(joint=i), sag)
+        known = {"by_payload": 1.0} if c.payload_kg is not None and np.ptp(c.payload_kg) > 0 else {}
+        return Variants(Acts(joint=i), self.at(known, c)[None], (known,), 1.0)
+
+    def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
+        sag = np.cos(c.theta[:, (self.joint or 1) - 1])
+        if "by_payload" not in hidden:
+            return np.asarray(sag[:, None])
+        if c.payload_kg is None:
+            raise InputRefused(f"{self.label} was learned on payloads: a column payload_kg is needed.")
+        return np.column_stack([sag, sag * c.payload_kg])
 
     def quantities(
         self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real

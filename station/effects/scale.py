@@ -49,6 +49,9 @@ class ScaleBow(Effect):
         basis = np.stack([self._square(c, centre)[:, None] for centre in centres])
         return Variants(ON_READING, basis, tuple({"centre_mm": v} for v in centres), 2.0)
 
+    def refined(self, hidden: Mapping[str, float], c: Conditions) -> Mapping[str, tuple[float, float]]:
+        return {"centre_mm": (hidden["centre_mm"] - 60.0, hidden["centre_mm"] + 60.0)}
+
     def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
         return self._square(c, hidden["centre_mm"])[:, None]
 

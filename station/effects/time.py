@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from station.effects.base import ON_READING, Acts, Conditions, Effect, Variants, one, scaled
+from station.errors import InputRefused
 from station.kinematics import Real
 from station.records import Quantity
 
@@ -57,7 +58,7 @@ class ThermalGrowth(Effect):
     def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
         course = c.temperature_rise if "tau_s" not in hidden else _warming(c.t_s, hidden["tau_s"])
         if course is None:
-            raise ValueError("thermal_growth was learned on temperatures, and these readings have none")
+            raise InputRefused("thermal_growth was learned on temperatures: a column temperature_c is needed.")
         return (course * (c.travel if "scale" in hidden else 1.0))[:, None]
 
     def quantities(
@@ -76,6 +77,10 @@ class ThermalGrowth(Effect):
 class ThermalLinks(ThermalGrowth):
     """The same effect acting on the links."""
 
+    @property
+    def label(self) -> str:
+        return f"{self.id} of the links"
+
     def _stack(self, c: Conditions, courses: list[tuple[dict[str, float], Real]], trials: float) -> Variants:
         return Variants(
             Acts(lengths=dict(c.lengths)),
@@ -87,7 +92,7 @@ class ThermalLinks(ThermalGrowth):
     def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
         course = c.temperature_rise if "tau_s" not in hidden else _warming(c.t_s, hidden["tau_s"])
         if course is None:
-            raise ValueError("thermal_growth was learned on temperatures, and these readings have none")
+            raise InputRefused("thermal_growth was learned on temperatures: a column temperature_c is needed.")
         return course[:, None]
 
 
