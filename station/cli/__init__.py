@@ -14,6 +14,7 @@ from station.settings import station_home
 
 _MODULES = {
     "backup": "archive",
+    "bench": "studies",
     "calibrate": "calibrate",
     "export": "archive",
     "identify": "numerics",

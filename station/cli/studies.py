@@ -8,6 +8,7 @@ import click
 from rich.console import Console
 from rich.table import Table
 
+from station.bench.study import bench
 from station.cli.numerics import write_json
 from station.reproduce.page import page
 from station.reproduce.study import study
@@ -44,6 +45,35 @@ def reproduce_command(json_file: Path | None, html_file: Path | None, seeds: int
     console.print(table)
     for erratum in content["errata"]:
         console.print(f"{erratum['where']}: {erratum['printed']} -> {erratum['found']}", markup=False)
+
+
+@click.command("bench")
+@click.option("--json", "json_file", type=_file, help="Write every figure here.")
+@click.option("--quick", is_flag=True, help="Short histories and few repeats, to see that it works.")
+def bench_command(json_file: Path | None, quick: bool) -> None:
+    """How fast and how small, peers beside ours."""
+    check_folders(json_file)
+    console = Console()
+    content = bench(console, quick=quick)
+    if json_file:
+        write_json(json_file, content)
+    table = Table("figure", "median", "smallest", "n", "target")
+    for name, target in content["targets"].items():
+        table.add_row(name, *_figures(content[name]), "" if target is None else f"< {target:g}")
+    for peer, figures in content["peers"].items():
+        for name, figure in figures.items():
+            table.add_row(f"{name}, {peer}", *_figures(figure))
+    console.print(table)
+    for name, relative in content["agreement"].items():
+        console.print(f"{name}: agrees with a general solver to {relative:.1e}")
+    console.print(f"Load of this machine: {content['machine']['load_1min']:.2f}")
+
+
+def _figures(figure: dict[str, float] | None) -> tuple[str, str, str]:
+    """Median, smallest and number, or that it is not measured."""
+    if figure is None:
+        return "not measured", "", ""
+    return f"{figure['median']:.4g}", f"{figure['min']:.4g}", str(figure["n"])
 
 
 def check_folders(*files: Path | None) -> None:

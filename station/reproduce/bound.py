@@ -64,7 +64,7 @@ class _Linear:
     def largest(self, errors: Real) -> float:
         """Median over samples of the largest position error over the workspace, mm."""
         jacobian = self.mechanism.position_errors(self.truth)[1]
-        moved = np.einsum("gdp,np->ngd", jacobian, errors)
+        moved = (errors @ jacobian.reshape(-1, errors.shape[1]).T).reshape(len(errors), -1, 2)
         return float(np.median(np.linalg.norm(moved, axis=2).max(axis=1)))
 
 
