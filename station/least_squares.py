@@ -23,6 +23,8 @@ MISFIT = 5.0
 """Residuals this many standard deviations large come from a model that is wrong."""
 LOOSE = 1e-3
 """Length of the last step then, per standard deviation of misfit."""
+CURVED_EVERY = 3
+"""Steps after which one is made with the full Hessian."""
 ROUNDING = 1e-7
 """Share of the cost that double precision may get wrong: distances are known to 1e-13 mm of 600."""
 BLIND = 1e-10
@@ -107,8 +109,10 @@ def _solve(residuals: Residuals, start: Real, prior: Prior) -> Solution:
         raise NotConvergedError("the model cannot be evaluated at the starting values")
     damping = 0.0
     for step in range(1, MAX_STEPS + 1):
-        normal = stacked.T @ stacked
         gradient = stacked.T @ target
+        # with large residuals Gauss-Newton crawls: its matrix lacks their curvature
+        curved = _hessian(residuals, x, gradient, prior) if step % CURVED_EVERY == 0 else None
+        normal = stacked.T @ stacked if curved is None else curved
         scale = np.sqrt(normal.diagonal())
         scale[scale == 0.0] = 1.0
         normal /= scale
@@ -133,6 +137,21 @@ def _solve(residuals: Residuals, start: Real, prior: Prior) -> Solution:
     raise NotConvergedError(
         f"no convergence in {MAX_STEPS} steps; the last was {length:.2g} standard deviations"
     )
+
+
+def _hessian(residuals: Residuals, x: Real, gradient: Real, prior: Prior) -> Real | None:
+    """(P, P) of half the cost by differences of its gradient; None where it is not positive definite."""
+    sd = 1.0 / np.linalg.norm(_stack(residuals, x, prior)[0], axis=0)
+    columns = []
+    for k, step in enumerate(sd):
+        aside = x.copy()
+        aside[k] += step
+        stacked, target, _, _ = _stack(residuals, aside, prior)
+        columns.append((stacked.T @ target - gradient) / step)
+    hessian = np.column_stack(columns)
+    hessian = (hessian + hessian.T) / 2.0
+    unit = hessian * np.outer(sd, sd)
+    return hessian if np.isfinite(unit).all() and np.linalg.eigvalsh(unit)[0] > 0.0 else None
 
 
 def _tolerance(cost: float, rows: int) -> float:

@@ -15,6 +15,9 @@ from station.measurements import Measurements
 REFUSED_P = 0.005
 """A true model is refused this often."""
 FEWEST = 8
+FAR_OFF = 5.0
+"""Standard deviations; and of few fresh readings, at most this share:"""
+FEW_OFF = 0.05
 
 
 @dataclass(frozen=True)
@@ -26,6 +29,8 @@ class Confirmation:
     sd_mm: Real
     """(K,) of that, by the model's covariance and the noise."""
     p_value: float
+    left_out: tuple[int | str, ...]
+    """Ids of few fresh readings far off a model that predicts all others; they took no part in p_value."""
 
     @property
     def confirmed(self) -> bool:
@@ -55,8 +60,12 @@ def confirm(learned: Fit, fresh: Measurements, noise_dof: int) -> Confirmation:
     noise = model.mechanism.row_sd * ratio
     J, C = at.by_parameter, learned.solution.covariance
     covariance = J @ C @ J.T + np.diag(noise**2)
-    square = float(residual @ np.linalg.solve(covariance, residual))
-    n = len(residual)
-    return Confirmation(
-        residual, np.sqrt(np.diag(covariance)), float(fdtrc(n, max(noise_dof, 1), square / n))
-    )
+    sd = np.sqrt(np.diag(covariance))
+    kept = np.ones(len(residual), dtype=bool)
+    off = np.abs(residual) > FAR_OFF * sd
+    if 0 < off.sum() <= max(1, int(FEW_OFF * len(residual))):
+        kept = ~off
+    few = residual[kept]
+    square = float(few @ np.linalg.solve(covariance[np.ix_(kept, kept)], few))
+    p_value = float(fdtrc(len(few), max(noise_dof, 1), square / len(few)))
+    return Confirmation(residual, sd, p_value, tuple(np.array(fresh.ids, dtype=object)[~kept]))

@@ -125,8 +125,8 @@ class Fit:
         return self.x[part], self.solution.covariance[part, part]
 
 
-def fit(model: Model, base_prior: Prior, row_sd: Real, start: Real | None = None) -> Fit:
-    """Fit all unknowns of a model; `start` (base_size,) is where the base parameters begin.
+def fit(model: Model, base_prior: Prior, row_sd: Real) -> Fit:
+    """Fit all unknowns of a model, from the prior mean on.
 
     :raises NotConvergedError: no convergence.
     """
@@ -135,7 +135,7 @@ def fit(model: Model, base_prior: Prior, row_sd: Real, start: Real | None = None
         np.concatenate([base_prior.mean, np.zeros(extra)]),
         np.hstack([base_prior.root, np.zeros((len(base_prior.root), extra))]),
     )
-    x = np.concatenate([base_prior.mean if start is None else start, np.zeros(extra)])
+    x = prior.mean
     measured = model.mechanism.measured
     for _ in range(CONDITION_ROUNDS):
         c = model.conditions(x[: model.base_size])

@@ -75,7 +75,9 @@ class Scan:
         left = whole - np.einsum("jvq,jvp->vqp", inside, inside, optimize=True)
         along = (self._residual @ flat).reshape(S.shape[::2])
         reduction, smallest = _explained(left, along)
-        total = np.trace(whole, axis1=1, axis2=2)
+        # what a constant reading offset takes up is no part of a signature
+        mean = flat.mean(axis=0).reshape(S.shape[::2])
+        total = np.trace(whole, axis1=1, axis2=2) - len(fit.row_sd) * np.sum(mean**2, axis=1)
         share = np.sqrt(np.maximum(np.trace(left, axis1=1, axis2=2), 0.0) / np.where(total > 0, total, 1.0))
         return reduction, share, smallest
 

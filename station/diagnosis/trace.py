@@ -110,9 +110,7 @@ def _significant(candidates: list[Candidate], tests: int, level: float = SIGNIFI
 
 def _settled(model: Model, prior: Prior, specified_sd: Real, better: Fit | None) -> Stage:
     """Fit with the noise that the repeats of this very model show, if they are better than specified."""
-    start = None if better is None else better.x[: model.base_size]
-    row_sd = specified_sd if better is None else better.row_sd
-    found = fit(model, prior, row_sd, start)
+    found = fit(model, prior, specified_sd) if better is None else better
     for _ in range(2):
         adequacy = judge(found, specified_sd)
         sd = found.row_sd * adequacy.pure_factor
@@ -120,7 +118,7 @@ def _settled(model: Model, prior: Prior, specified_sd: Real, better: Fit | None)
             sd = specified_sd
         if np.allclose(sd, found.row_sd, rtol=0.02):
             break
-        found = fit(model, prior, sd, found.x[: model.base_size])
+        found = fit(model, prior, sd)
     return Stage(found, judge(found, specified_sd))
 
 
@@ -137,7 +135,8 @@ def _add(current: Fit, prior: Prior, candidates: list[Candidate]) -> tuple[Findi
     for c in sorted(rivals, key=lambda c: -c.reduction)[:MOST_RIVALS]:
         model = replace(current.model, terms=(*current.model.terms, c.term()))
         try:
-            refit = fit(model, prior, current.row_sd, current.x[: model.base_size])
+            # from the prior mean: without the effect the base parameters have gone far astray
+            refit = fit(model, prior, current.row_sd)
         except NotConvergedError:
             continue
         fits.append((_score(refit, c), c, refit))
