@@ -58,7 +58,7 @@ class Columns:
 FIVE_BAR = Columns()
 
 
-class _Table:
+class Table:
     """The cells of one file, with refusals that say where."""
 
     def __init__(self, source: str, header: list[str], rows: list[list[str]], lines: list[int]) -> None:
@@ -110,7 +110,7 @@ def read(path: Path, columns: Columns = FIVE_BAR) -> Measurements:
 
 def parse(content: bytes, columns: Columns = FIVE_BAR, *, source: str = "measurement file") -> Measurements:
     """The same from the file's bytes (an upload).  :raises InputRefused:"""
-    table = _split(content, columns, source)
+    table = read_table(content, columns.required, columns.optional, source)
     ids = _ids(table)
     t_s = table.numbers("t_s")
     backwards = np.flatnonzero(np.diff(t_s) < 0)
@@ -127,7 +127,7 @@ def parse(content: bytes, columns: Columns = FIVE_BAR, *, source: str = "measure
         ids=ids,
         t_s=t_s,
         theta=np.radians(theta_deg),
-        approach=np.column_stack([_approach(table, name) for name in columns.approach]).astype(np.int8),
+        approach=np.column_stack([approaches(table, name) for name in columns.approach]).astype(np.int8),
         distance=table.numbers(columns.distance) if columns.distance else np.full(len(ids), np.nan),
         position=position,
         mount=mount,
@@ -145,7 +145,8 @@ def parse(content: bytes, columns: Columns = FIVE_BAR, *, source: str = "measure
     return measurements
 
 
-def _split(content: bytes, columns: Columns, source: str) -> _Table:
+def read_table(content: bytes, required: Sequence[str], optional: Sequence[str], source: str) -> Table:
+    """The cells of a CSV file with a header.  :raises InputRefused: anything that is not one."""
     if not content.strip():
         raise InputRefused(f"{source} is empty; a header row and readings are needed.")
     if b"\0" in content:
@@ -165,7 +166,7 @@ def _split(content: bytes, columns: Columns, source: str) -> _Table:
         for row in reader:
             if not header:
                 header = [name.strip() for name in row]
-                _check_header(header, columns, source)
+                _check_header(header, required, optional, source)
             elif any(cell.strip() for cell in row):
                 if len(row) != len(header):
                     raise InputRefused(
@@ -178,29 +179,28 @@ def _split(content: bytes, columns: Columns, source: str) -> _Table:
         raise InputRefused(f"{source}: row {reader.line_num} is not valid CSV: {error}.") from error
     if not rows:
         raise InputRefused(f"{source} has a header and no readings.")
-    return _Table(source, header, rows, lines)
+    return Table(source, header, rows, lines)
 
 
-def _check_header(header: list[str], columns: Columns, source: str) -> None:
-    missing = [name for name in columns.required if name not in header]
+def _check_header(header: list[str], required: Sequence[str], optional: Sequence[str], source: str) -> None:
+    missing = [name for name in required if name not in header]
     if missing:
         if len(header) == 1 and any(mark in header[0] for mark in ";\t|"):
             raise InputRefused(
                 f"{source}: row 1: columns must be separated by commas, with `.` as decimal point."
             )
         raise InputRefused(
-            f"{source}: row 1: column {', '.join(missing)} is missing; "
-            f"required are {', '.join(columns.required)}."
+            f"{source}: row 1: column {', '.join(missing)} is missing; required are {', '.join(required)}."
         )
     twice = {name for name in header if name and header.count(name) > 1}
     if twice:
         raise InputRefused(f"{source}: row 1: column {', '.join(sorted(twice))} appears twice.")
-    unknown = [name for name in header if name not in (*columns.required, *columns.optional)]
+    unknown = [name for name in header if name not in (*required, *optional)]
     if unknown:
         log.warning("%s: column %s is not known and is ignored.", source, ", ".join(unknown))
 
 
-def _ids(table: _Table) -> tuple[int | str, ...]:
+def _ids(table: Table) -> tuple[int | str, ...]:
     seen: dict[str, int] = {}
     for k, cell in enumerate(table.text("reading")):
         if not cell:
@@ -211,12 +211,13 @@ def _ids(table: _Table) -> tuple[int | str, ...]:
     return tuple(int(cell) if cell.isascii() and cell.isdigit() else cell for cell in seen)
 
 
-def _tracker(table: _Table, columns: Columns) -> Real | None:
+def _tracker(table: Table, columns: Columns) -> Real | None:
     axes = [values for name in columns.tracker if (values := table.optional_numbers(name)) is not None]
     return np.column_stack(axes) if len(axes) == len(columns.tracker) else None
 
 
-def _approach(table: _Table, column: str) -> Real:
+def approaches(table: Table, column: str) -> Real:
+    """(K,) -1, 0 or 1; zeros where there is no such column.  :raises InputRefused:"""
     if not table.has(column):
         return np.zeros(len(table.rows))
     values = np.zeros(len(table.rows))

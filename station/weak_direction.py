@@ -7,16 +7,16 @@ together with a sideways error of the mechanism (method.md section 1).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import Any, Protocol
 
 import numpy as np
 
 from station.error_model import distance_jacobian, pose
+from station.five_bar import FiveBar
 from station.kinematics import Real
+from station.measurements import Measurements
+from station.noise import Noise
 from station.published import KEPT
-
-if TYPE_CHECKING:
-    from station.identification import Identification
 
 BLIND = (
     "base joints and mechanism shifted together sideways",
@@ -28,7 +28,24 @@ KNOWN_DRM_SD_MM = 0.02
 SECOND_MOUNT_MM = 200.0
 
 
-def describe(fit: Identification) -> dict[str, Any]:
+class Posterior(Protocol):
+    """What a fit knows: an identification, or the base parameters of a diagnosis."""
+
+    @property
+    def mechanism(self) -> FiveBar: ...
+    @property
+    def measurements(self) -> Measurements: ...
+    @property
+    def noise(self) -> Noise: ...
+    @property
+    def sd_factor(self) -> float: ...
+    @property
+    def dtheta(self) -> Real: ...
+    @property
+    def covariance(self) -> Real: ...
+
+
+def describe(fit: Posterior) -> dict[str, Any]:
     """{singular_ratio, text, sd_deg, blind, remedies}: the contract's `weak_direction`.
 
     sd_deg is the standard uncertainty of the zero offsets along the weak direction; each remedy
@@ -43,7 +60,7 @@ def describe(fit: Identification) -> dict[str, Any]:
     }
 
 
-def singular_ratio(fit: Identification) -> float:
+def singular_ratio(fit: Posterior) -> float:
     """Smallest over largest singular value of the paper's four unknowns, the reading offset taken out."""
     geometry = fit.mechanism.nominal
     rows = distance_jacobian(geometry, pose(geometry, fit.measurements.theta + fit.dtheta))[:, KEPT]
@@ -60,7 +77,7 @@ def _common_sd_deg(covariance: Real) -> float:
     return float(np.degrees(np.sqrt(covariance[:2, :2].sum()) / 2.0))
 
 
-def _words(fit: Identification) -> str:
+def _words(fit: Posterior) -> str:
     """Read off the principal axis of the zero offsets' posterior and what moves with it."""
     C = fit.covariance
     axis = np.linalg.eigh(C[:2, :2])[1][:, -1]
@@ -78,7 +95,7 @@ def _words(fit: Identification) -> str:
     return arms
 
 
-def remedies(fit: Identification) -> list[dict[str, Any]]:
+def remedies(fit: Posterior) -> list[dict[str, Any]]:
     """What would tie the weak direction down, with the sd of the common mode it would bring."""
     finite = np.isfinite(np.diag(fit.covariance))
     information = np.linalg.inv(fit.covariance[np.ix_(finite, finite)])
@@ -97,7 +114,7 @@ def remedies(fit: Identification) -> list[dict[str, Any]]:
     ]
 
 
-def _with_second_mount(fit: Identification, information: Real) -> Real:
+def _with_second_mount(fit: Posterior, information: Real) -> Real:
     """Posterior covariance after the same walk from a second mount with its own dr_M and rho_0."""
     size = len(information)
     geometry = fit.mechanism.nominal

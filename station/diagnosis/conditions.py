@@ -61,7 +61,7 @@ def conditions(mechanism: FiveBar, p: Real, reference: Reference, *, first: bool
         temperature_rise=rise,
         payload_kg=m.payload_kg,
         lengths={"L1": robot.L[0], "L2": robot.L[1], "l1": robot.l[0], "l2": robot.l[1]},
-        pull=_pull(at.w),
+        pull=pull(at.w),
     )
 
 
@@ -90,7 +90,7 @@ def _net_travel(m: Measurements, before: Real) -> Real:
     return np.nan_to_num(np.sign(m.distance - before[:, -1]))
 
 
-def _pull(w: np.ndarray) -> Real:
+def pull(w: np.ndarray) -> Real:
     """(K, 2) +1 where gravity pulls a distal link, -1 where it pushes: w_1 f_1 + w_2 f_2 = (0, -1)."""
     both = np.stack([w.real, w.imag], axis=1)
     down = np.tile([0.0, -1.0], (len(w), 1))

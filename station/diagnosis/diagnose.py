@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -44,6 +44,7 @@ class Diagnosis:
     """The readings that took part."""
     outliers: tuple[outliers.Outlier, ...]
     trace: Trace
+    fresh: Measurements | None
     confirmations: tuple[Confirmation, ...]
     """One per stage; empty without fresh readings."""
     hints: tuple[Hint, ...]
@@ -96,6 +97,7 @@ def diagnose(
         check_poses(robot, fresh)
         if len(fresh) < FEWEST:
             raise InputRefused(f"Only {len(fresh)} fresh readings; at least {FEWEST} are needed to confirm.")
+        fresh = _on_same_mounts(fresh, measurements)
     effects = catalogue() if effects is None else effects
     kept = measurements
     left_out: tuple[outliers.Outlier, ...] = ()
@@ -117,6 +119,7 @@ def diagnose(
         measurements=kept,
         outliers=left_out,
         trace=found,
+        fresh=fresh,
         confirmations=checks,
         hints=hints(rest.fit, noise, repeats_agree=rest.adequacy.quiet) if unexplained else (),
     )
@@ -135,6 +138,18 @@ def check_enough(measurements: Measurements) -> None:
         )
     if missing:
         raise InputRefused(f"Not enough data to judge: {' and '.join(missing)} are needed.")
+
+
+def _on_same_mounts(fresh: Measurements, learned: Measurements) -> Measurements:
+    """Fresh readings with their mounts numbered as in the readings learned on.
+
+    :raises InputRefused: a mount whose offset was not learned.
+    """
+    unknown = [name for name in fresh.mounts if name not in learned.mounts]
+    if unknown:
+        raise InputRefused(f"The fresh readings are of mount {unknown[0]!r}, which the walk never used.")
+    renumbered = np.array([learned.mounts.index(name) for name in fresh.mounts])
+    return replace(fresh, mount=renumbered[fresh.mount], mounts=learned.mounts)
 
 
 def _trace(robot: Robot, measurements: Measurements, effects: Sequence[Effect]) -> Trace:

@@ -58,7 +58,9 @@ class ThermalGrowth(Effect):
     def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
         course = c.temperature_rise if "tau_s" not in hidden else _warming(c.t_s, hidden["tau_s"])
         if course is None:
-            raise InputRefused("thermal_growth was learned on temperatures: a column temperature_c is needed.")
+            raise InputRefused(
+                "thermal_growth was learned on temperatures: a column temperature_c is needed."
+            )
         return (course * (c.travel if "scale" in hidden else 1.0))[:, None]
 
     def quantities(
@@ -92,7 +94,9 @@ class ThermalLinks(ThermalGrowth):
     def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
         course = c.temperature_rise if "tau_s" not in hidden else _warming(c.t_s, hidden["tau_s"])
         if course is None:
-            raise InputRefused("thermal_growth was learned on temperatures: a column temperature_c is needed.")
+            raise InputRefused(
+                "thermal_growth was learned on temperatures: a column temperature_c is needed."
+            )
         return course[:, None]
 
 

@@ -1,0 +1,113 @@
+"""`station diagnose` and `station solve`: the closed loop from a file, and its use."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+from rich.console import Console
+from rich.table import Table
+
+from station import measurement_file
+from station.cli.numerics import describe, write_json
+from station.cli.studies import check_folders, write_text
+from station.diagnosis.diagnose import diagnose
+from station.diagnosis.document import Findings
+from station.diagnosis.model_file import read_model
+from station.diagnosis.solve import range_text, solve_targets
+from station.diagnosis.targets import commands_csv, read_targets
+from station.records import Quantity
+from station.robot import Robot
+
+_file = click.Path(path_type=Path)
+
+
+@click.command("diagnose")
+@click.argument("data", type=_file)
+@click.option("--confirm", "fresh_file", type=_file, help="Fresh readings to confirm the cause with.")
+@click.option("--robot", "robot_file", type=_file, help="Robot file; without it the paper's Table 1.")
+@click.option("--json", "json_file", type=_file, help="Write the whole diagnosis here.")
+@click.option("--html", "html_file", type=_file, help="Write the report page here.")
+@click.pass_context
+def diagnose_command(
+    context: click.Context,
+    data: Path,
+    fresh_file: Path | None,
+    robot_file: Path | None,
+    json_file: Path | None,
+    html_file: Path | None,
+) -> None:
+    """Trace what the model leaves over to its cause.
+
+    Exit status 0: the model fits, as it is or with the effects found; 1: it does not.
+    """
+    check_folders(json_file, html_file)
+    robot = Robot.from_toml(robot_file) if robot_file else Robot.default()
+    measurements = measurement_file.read(data)
+    fresh = measurement_file.read(fresh_file) if fresh_file else None
+    findings = Findings(diagnose(robot, measurements, fresh))
+    if json_file:
+        write_json(json_file, findings.as_json(describe(data, len(measurements))))
+    _print(findings)
+    context.exit(0 if findings.passed else 1)
+
+
+@click.command("solve")
+@click.argument("targets", type=_file)
+@click.option("--model", "model_file", type=_file, required=True, help="What `diagnose --json` wrote.")
+@click.option("--csv", "csv_file", type=_file, help="Write the commands here instead of to the terminal.")
+def solve_command(targets: Path, model_file: Path, csv_file: Path | None) -> None:
+    """Joint commands for target positions x_mm, y_mm under the identified model."""
+    check_folders(csv_file)
+    model = read_model(model_file)
+    wanted = read_targets(targets)
+    text = commands_csv(wanted, solve_targets(model, wanted))
+    if csv_file:
+        write_text(csv_file, text)
+    else:
+        click.echo(text, nl=False)
+    click.echo(range_text(model), err=True)
+    if model.confirmed is False:
+        click.echo("Fresh readings refuted this model: expect larger errors than it states.", err=True)
+
+
+def _print(findings: Findings) -> None:
+    console = Console(highlight=False)
+    console.print(f"[bold]{findings.sentence}[/bold]")
+    for q in findings.parameters[:2]:
+        console.print(f"{q.name} = {_shown(q)}")
+    for found in findings.effects:
+        sizes = ", ".join(f"{q.name} {_shown(q)}" for q in found.parameters)
+        console.print(
+            f"[bold]{found.term.effect.label}[/bold]: {sizes}; {100 * found.share:.0f} % of the residual"
+        )
+        if found.aliases:
+            others = ", ".join(t.effect.label for t in found.aliases)
+            console.print(
+                f"  looks the same here: {others}. To tell them apart: {found.term.effect.experiment}"
+            )
+        console.print(f"  {found.term.effect.remedy}")
+    table = Table("model", "unknowns", "fit", "left out", "worst", "fresh", "worst", title="errors, um rms")
+    for column in table.columns[1:]:
+        column.justify = "right"
+    for s in findings.stages:
+        sizes_mm = (s.fit_rms_mm, s.holdout_rms_mm, s.holdout_max_mm, s.confirm_rms_mm, s.confirm_max_mm)
+        table.add_row(s.model, str(s.unknowns), *("" if v is None else f"{v * 1e3:.2f}" for v in sizes_mm))
+    console.print(table)
+    before, after = findings.position_errors
+    console.print(
+        f"Position error over the workspace, predicted: {before['rms']:.4f} mm rms before, "
+        f"{after['rms']:.4f} mm after; largest {before['max']:.4f} and {after['max']:.4f} mm."
+    )
+    for hint in findings.diagnosis.hints:
+        console.print(f"Hint: {hint.text} ({100 * hint.strength:.0f} %)")
+    for outlier in findings.diagnosis.outliers:
+        console.print(f"Left out: reading {outlier.reading}, {outlier.reason}.")
+
+
+def _shown(q: Quantity) -> str:
+    """Value +- sd with two digits of the sd."""
+    if not q.sd:
+        return f"{q.value:.6g} {q.unit}"
+    digits = max(0, 1 - int(f"{q.sd:e}".split("e")[1]))
+    return f"{q.value:.{digits}f} +- {q.sd:.{digits}f} {q.unit}"

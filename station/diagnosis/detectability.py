@@ -1,0 +1,72 @@
+"""What these readings could not have shown: the smallest visible size of every effect not found."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from scipy.special import fdtri, ncfdtrinc
+
+from station.diagnosis.model import Fit
+from station.diagnosis.scan import INVISIBLE_SHARE, Scan
+from station.diagnosis.trace import SIGNIFICANT
+from station.effects import Effect, Variants
+
+POWER = 0.8
+
+
+@dataclass(frozen=True, slots=True)
+class Detectable:
+    """One effect that was not found."""
+
+    effect: str
+    joint: int | None
+    parameter: str | None
+    minimum_detectable: float | None
+    """Size found in four of five such walks; None when these readings cannot show the effect at all."""
+    unit: str | None
+    text: str
+
+    def as_json(self) -> dict[str, Any]:
+        return asdict(self)
+
+
+def detectable(fit: Fit, effects: Sequence[Effect]) -> tuple[Detectable, ...]:
+    """For every effect of the catalogue that is not in the fit."""
+    present = {term.effect for term in fit.model.terms}
+    scan = Scan(fit)
+    return tuple(_one(scan, effect, len(effects)) for effect in effects if effect not in present)
+
+
+def _one(scan: Scan, effect: Effect, tests: int) -> Detectable:
+    variants = effect.variants(scan.fit.conditions)
+    if variants is None:
+        text = "these readings were not taken in a way that could show it"
+        return Detectable(effect.id, effect.joint, None, None, None, text)
+    _, share, information = scan.reductions(variants, variants.basis)
+    visible = share >= INVISIBLE_SHARE
+    if not visible.any():
+        text = "invisible in these readings: geometry and zero offsets take up its signature"
+        return Detectable(effect.id, effect.joint, None, None, None, text)
+    size = variants.basis.shape[2]
+    amplitude = np.sqrt(_noncentrality(scan, variants, size, tests) / information)
+    shown = [
+        effect.quantities(hidden, np.array([a, *[0.0] * (size - 1)]), np.zeros((size, size)))[0]
+        for hidden, a in zip(variants.hidden, amplitude, strict=True)
+    ]
+    # one and the same quantity in every variant compared
+    name = next(q.name for q, seen in zip(shown, visible, strict=True) if seen)
+    sizes = [abs(q.value) for q, seen in zip(shown, visible, strict=True) if seen and q.name == name]
+    unit = next(q.unit for q in shown if q.name == name)
+    text = "" if len(sizes) == 1 else "typical of what was searched"
+    return Detectable(effect.id, effect.joint, name, float(np.median(sizes)), unit, text)
+
+
+def _noncentrality(scan: Scan, variants: Variants, size: int, tests: int) -> float:
+    """Of the F test at which it is passed with `POWER`, look-elsewhere and Holm included."""
+    dof = max(scan.fit.dof - size, 1)
+    level = SIGNIFICANT / (tests * variants.trials)
+    critical = float(fdtri(size, dof, 1.0 - level))
+    return float(ncfdtrinc(size, dof, 1.0 - POWER, critical))

@@ -1,0 +1,165 @@
+"""The identified model as JSON: all that `station solve` needs, and a reader that trusts nothing."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from station.diagnosis.diagnose import Diagnosis
+from station.diagnosis.identified import IdentifiedMachine, Situation
+from station.diagnosis.model import Fit, Term
+from station.effects import Acts, catalogue
+from station.errors import InputRefused
+from station.robot import Robot
+
+SCHEMA = "station.model/1"
+
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+Span = tuple[Finite, Finite]
+
+
+class _Part(BaseModel):
+    model_config = ConfigDict(extra="ignore")
+
+
+class TermPart(_Part):
+    """One effect with its searched parameters settled."""
+
+    effect: str
+    """Label in the catalogue."""
+    on_joint: Literal[1, 2] | None
+    on_lengths: dict[Literal["L1", "L2", "l1", "l2"], Finite] | None
+    """mm per unit of strength; None as well as no joint: it acts on the reading."""
+    hidden: dict[str, Finite]
+    amplitudes: Annotated[list[Finite], Field(min_length=1)]
+
+
+class Ranges(_Part):
+    """What the readings learned on covered."""
+
+    joints_deg: tuple[Span, Span]
+    travel_mm: Span
+    time_s: Span
+
+
+class Reference(_Part):
+    """From where temperatures are counted."""
+
+    temperature_c: Finite | None
+
+
+class ModelPart(_Part):
+    """The `model` of a diagnosis."""
+
+    schema_: Literal["station.model/1"] = Field(alias="schema")
+    robot: dict[str, Any]
+    names: list[str]
+    values: list[Finite]
+    covariance: list[list[Finite]]
+    terms: list[TermPart]
+    ranges: Ranges
+    reference: Reference
+    confirmed: bool | None = None
+
+
+@dataclass(frozen=True)
+class LearnedModel:
+    """A model read back."""
+
+    machine: IdentifiedMachine
+    joint_range_deg: tuple[Span, Span]
+    temperature_c: float | None
+    """Where temperatures are counted from; None when nothing warmed up."""
+    confirmed: bool | None
+    """Whether it predicted fresh readings; None when it was not asked to."""
+
+
+def model_json(diagnosis: Diagnosis, fit: Fit, sd_factor: float) -> dict[str, Any]:
+    """mm and rad, in the order base parameters, then each term's amplitudes."""
+    m = diagnosis.measurements
+    degrees = np.degrees(m.theta)
+    return {
+        "schema": SCHEMA,
+        "robot": diagnosis.robot.to_json(),
+        "names": [*fit.model.names, *(t.effect.label for t in fit.model.terms for _ in range(t.size))],
+        "values": fit.x.tolist(),
+        "covariance": (fit.solution.covariance * sd_factor**2).tolist(),
+        "terms": [
+            {
+                "effect": term.effect.label,
+                "on_joint": None if term.acts.joint is None else term.acts.joint + 1,
+                "on_lengths": None if term.acts.lengths is None else dict(term.acts.lengths),
+                "hidden": dict(term.hidden),
+                "amplitudes": fit.amplitudes(k)[0].tolist(),
+            }
+            for k, term in enumerate(fit.model.terms)
+        ],
+        "ranges": {
+            "joints_deg": [[float(a.min()), float(a.max())] for a in degrees.T],
+            "travel_mm": [float(m.distance.min()), float(m.distance.max())],
+            "time_s": [float(m.t_s.min()), float(m.t_s.max())],
+        },
+        "reference": {"temperature_c": fit.model.reference.temperature_c},
+    }
+
+
+def read_model(path: Path) -> LearnedModel:
+    """From the file of `station diagnose --json`.
+
+    :raises InputRefused: missing, broken, of another schema, or a value out of place.
+    """
+    try:
+        content = json.loads(path.read_bytes())
+    except OSError as error:
+        raise InputRefused(f"Model {path} cannot be read: {error.strerror}.") from error
+    except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise InputRefused(f"Model {path} is not valid JSON: {error}.") from error
+    part = content.get("model") if isinstance(content, dict) else None
+    if not isinstance(part, dict):
+        raise InputRefused(
+            f"Model {path} has no section `model`; give the file of `station diagnose --json`."
+        )
+    if part.get("schema") != SCHEMA:
+        raise InputRefused(
+            f"Model {path} is of schema {part.get('schema')!r}; this station reads {SCHEMA}: diagnose again."
+        )
+    try:
+        return learned_model(ModelPart.model_validate(part), str(path))
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ".".join(str(step) for step in first["loc"])
+        raise InputRefused(f"Model {path}: [model.{where}] {first['msg']}.") from error
+
+
+def learned_model(part: ModelPart, source: str) -> LearnedModel:
+    """:raises InputRefused: values that do not belong together."""
+    robot = Robot.from_dict(part.robot, source=f"{source}: [model.robot]")
+    terms = tuple(_term(term, source) for term in part.terms)
+    size = len(part.values)
+    amplitudes = [a for term in part.terms for a in term.amplitudes]
+    covariance = np.array(part.covariance) if {len(row) for row in part.covariance} == {size} else np.empty(0)
+    if covariance.shape != (size, size) or len(part.names) != size:
+        raise InputRefused(f"Model {source}: [model.covariance] does not have a row and column a value.")
+    if size < len(amplitudes) + 13 or part.values[size - len(amplitudes) :] != amplitudes:
+        raise InputRefused(f"Model {source}: [model.values] do not end with the amplitudes of the terms.")
+    machine = IdentifiedMachine(robot, np.array(part.values), covariance, terms, part.ranges.time_s[1])
+    centre = np.array([complex(np.mean(robot.workspace_x), np.mean(robot.workspace_y))])
+    try:
+        machine.commands(centre, Situation.plain(1))
+    except (ValueError, KeyError, IndexError, ArithmeticError) as error:
+        raise InputRefused(f"Model {source}: it cannot be evaluated ({error}).") from error
+    return LearnedModel(machine, part.ranges.joints_deg, part.reference.temperature_c, part.confirmed)
+
+
+def _term(part: TermPart, source: str) -> Term:
+    effect = next((e for e in catalogue() if e.label == part.effect), None)
+    if effect is None:
+        raise InputRefused(f"Model {source}: [model.terms] effect {part.effect!r} is not in the catalogue.")
+    lengths = None if part.on_lengths is None else {str(k): mm for k, mm in part.on_lengths.items()}
+    acts = Acts(None if part.on_joint is None else part.on_joint - 1, lengths)
+    return Term(effect, part.hidden, acts, len(part.amplitudes))

@@ -1,0 +1,118 @@
+"""Errors of every model on the way: the paper's, the base model, then one per effect added."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from station.diagnosis.cross_validation import held_out
+from station.diagnosis.diagnose import Diagnosis
+from station.diagnosis.model import Term
+from station.errors import InputRefused
+from station.five_bar import FiveBar
+from station.kinematics import Real
+from station.least_squares import NotConvergedError, Prior, Solution, solve
+from station.measurements import Measurements
+
+
+@dataclass(frozen=True, slots=True)
+class StageErrors:
+    """Measured less predicted under one model: readings learned, each place left out in turn, fresh ones."""
+
+    model: str
+    unknowns: int
+    """Of geometry, mechanism and effects; reading offsets are not counted."""
+    fit_rms_mm: float
+    holdout_rms_mm: float
+    holdout_max_mm: float
+    confirm_rms_mm: float | None
+    confirm_max_mm: float | None
+
+    def as_json(self) -> dict[str, Any]:
+        return asdict(self)
+
+
+def stage_errors(diagnosis: Diagnosis) -> tuple[StageErrors, ...]:
+    """Paper, base, and one more per effect found."""
+    stages = [_paper(diagnosis)]
+    names = ["base", *(finding.term.effect.label for finding in diagnosis.trace.findings)]
+    for k, (stage, name) in enumerate(zip(diagnosis.trace.stages, names, strict=True)):
+        fit = stage.fit
+        fresh = diagnosis.confirmations[k].residual_mm if diagnosis.confirmations else None
+        stages.append(
+            _errors(
+                name if k == 0 else f"+ {name}",
+                base_unknowns(fit.model.mechanism) + sum(len_of(term) for term in fit.model.terms),
+                fit.solution,
+                fit.row_sd,
+                fit.model.mechanism.measurements,
+                fresh,
+            )
+        )
+    return tuple(stages)
+
+
+def base_unknowns(mechanism: FiveBar) -> int:
+    """Number of parameters of geometry and mechanism."""
+    return sum(not p.name.startswith("rho0") for p in mechanism.parameters)
+
+
+def len_of(term: Term) -> int:
+    """Number of a term's parameters, the searched ones included."""
+    return len(term.effect.quantities(term.hidden, np.ones(term.size), np.eye(term.size)))
+
+
+def _errors(
+    model: str,
+    unknowns: int,
+    solution: Solution,
+    row_sd: Real,
+    measurements: Measurements,
+    fresh_mm: Real | None,
+) -> StageErrors:
+    fit_mm = solution.residual * row_sd
+    out_mm = held_out(solution, measurements.position) * row_sd
+    return StageErrors(
+        model,
+        unknowns,
+        _rms(fit_mm),
+        _rms(out_mm),
+        float(np.abs(out_mm).max()),
+        None if fresh_mm is None else _rms(fresh_mm),
+        None if fresh_mm is None else float(np.abs(fresh_mm).max()),
+    )
+
+
+def _paper(diagnosis: Diagnosis) -> StageErrors:
+    """The four unknowns of eq. 28 and the reading offset: e, L, l stay nominal, nothing is known before."""
+    mechanism = FiveBar(diagnosis.robot, diagnosis.measurements)
+    held = [p.name[0] in "eLl" for p in mechanism.parameters]
+    free = np.flatnonzero(~np.array(held))
+    start = np.array([p.prior_mean for p in mechanism.parameters])
+    row_sd = diagnosis.base.row_sd
+
+    def full(q: Real) -> Real:
+        p = start.copy()
+        p[free] = q
+        return p
+
+    def residuals(q: Real) -> tuple[Real, Real]:
+        at = mechanism.observe(full(q), mechanism.theta)
+        return (at.value - mechanism.measured) / row_sd, at.by_parameter[:, free] / row_sd[:, None]
+
+    try:
+        solution = solve(residuals, start[free], Prior(start[free], np.zeros((0, len(free)))))
+    except NotConvergedError as error:
+        raise InputRefused(f"The paper's model did not converge ({error}); check the robot file.") from error
+    fresh_mm = None
+    if diagnosis.fresh is not None:
+        fresh = FiveBar(diagnosis.robot, diagnosis.fresh)
+        fresh_mm = fresh.measured - fresh.observe(full(solution.x), fresh.theta).value
+    unknowns = base_unknowns(mechanism) - sum(held)
+    return _errors("paper", unknowns, solution, row_sd, diagnosis.measurements, fresh_mm)
+
+
+def _rms(values: Real) -> float:
+    return float(np.sqrt(np.mean(values**2)))
