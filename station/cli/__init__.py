@@ -16,6 +16,7 @@ _MODULES = {
     "backup": "archive",
     "bench": "studies",
     "calibrate": "calibrate",
+    "diagnose": "diagnosis",
     "export": "archive",
     "identify": "numerics",
     "memory": "history",
@@ -24,6 +25,7 @@ _MODULES = {
     "runs": "history",
     "serve": "serve",
     "show": "history",
+    "solve": "diagnosis",
 }
 """Where each command is; imported when it is asked for, since the numerics take a second to load."""
 
