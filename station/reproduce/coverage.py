@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from station.error_model import SIZE
+from station.errors import InputRefused
 from station.identification import Identification, identify
 from station.kinematics import Complex, Real
 from station.memory import memory_of
@@ -127,28 +128,36 @@ def places_of() -> dict[str, Complex]:
     return {"24 chosen": np.array(list(chosen.values())), "90 grid": robot.workspace_grid(*PLAIN_GRID)}
 
 
-def positions_of(seed: int) -> dict[str, float]:
-    """Largest position error of one drawn machine after one reading at each place, mm."""
+def positions_of(seed: int) -> dict[str, float | None]:
+    """Largest position error of one drawn machine after one reading at each place, mm; None where refused."""
     robot, truth = CONDITIONS.robot, drawn_machine(np.random.default_rng([seed, 2]))
-    out = {}
+    out: dict[str, float | None] = {}
     for name, places in places_of().items():
-        fit = identify(robot, CONDITIONS.machine(seed, truth).read_at(robot, places))
-        out[name] = float(position_errors(robot, truth, fit.p[:SIZE], whole_workspace(robot)).max())
+        try:
+            fit = identify(robot, CONDITIONS.machine(seed, truth).read_at(robot, places))
+        except InputRefused:
+            out[name] = None
+        else:
+            out[name] = float(position_errors(robot, truth, fit.p[:SIZE], whole_workspace(robot)).max())
     return out
 
 
-def positions_summary(machines: Sequence[dict[str, float]]) -> list[dict[str, Any]]:
-    """[{places, readings, workspace_mm: spread, median_error_mm, predicted}]"""
+def positions_summary(machines: Sequence[dict[str, float | None]]) -> list[dict[str, Any]]:
+    """[{places, readings, workspace_mm: spread, median_error_mm, refused, predicted}]
+
+    refused: share in which the identification took the readings for outliers and asked to measure again.
+    """
     robot = CONDITIONS.robot
     rows = []
     for name, places in places_of().items():
-        values = [m[name] for m in machines]
+        values = [value for m in machines if (value := m[name]) is not None]
         rows.append(
             {
                 "places": name,
                 "readings": len(places),
                 "workspace_mm": spread(values),
                 "median_error_mm": median_error(values),
+                "refused": 1.0 - len(values) / len(machines),
                 "predicted": predict(robot, places),
             }
         )

@@ -128,6 +128,7 @@ def _coverage(content: Content) -> Section:
             row["readings"],
             _spread(row["workspace_mm"]),
             f"{row['median_error_mm']:.3f}",
+            f"{row['refused']:.1%}",
             f"{row['predicted']['position_error_mm']['rms']:.3f}",
         )
         for row in content["positions"]
@@ -143,7 +144,7 @@ def _coverage(content: Content) -> Section:
         (
             Table(("case", "zero offsets held", "positions held"), rows),
             Table(
-                ("places", "readings", "largest error mm", "se of median", "predicted rms mm"),
+                ("places", "readings", "largest error mm", "se of median", "refused", "predicted rms mm"),
                 places,
                 "One reading at each place.",
             ),

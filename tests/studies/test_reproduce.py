@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import re
 from pathlib import Path
 from typing import Any
@@ -86,11 +87,14 @@ def test_errata_are_named_with_evidence(content: dict[str, Any]) -> None:
     assert "K = 13: 9, K = 30: 9, K = 90: 9" in rank["evidence"]
 
 
-def test_home_is_more_sensitive_to_the_zero_offset(content: dict[str, Any]) -> None:
-    """Fig. 5: 1 deg of one arm moves P_0 by about half of L sin 1 deg over the sine between the links."""
+def test_sensitivities_at_home_by_hand(content: dict[str, Any]) -> None:
+    """Fig. 5: dr is square to w_2, so its length is w_1 . dr times 825^2 / (2 * 455 * 688.186)."""
     slopes = {s["parameter"]: s["per_unit_mm"] for s in content["fig5"]}
-    assert slopes["dtheta1"] == pytest.approx(4.946, abs=5e-3)
-    assert slopes["dtheta1"] > 3.0 * max(v for name, v in slopes.items() if name != "dtheta1")
+    per_mm = 825**2 / (2 * 455 * 688.186)
+    assert slopes["l1"] == pytest.approx(per_mm, rel=1e-5)
+    assert slopes["dtheta1"] == pytest.approx(per_mm * 688.186 / 825 * 375 * math.radians(1.0), rel=1e-5)
+    assert slopes["e1x"] == slopes["L1"] == pytest.approx(per_mm * 455 / 825, rel=1e-5)
+    assert slopes["dtheta1"] > 5.0 * max(v for name, v in slopes.items() if name != "dtheta1")
 
 
 def test_figures_9_and_12(content: dict[str, Any]) -> None:
