@@ -17,6 +17,10 @@ class Busy(Exception):
         self.calibration_id = calibration_id
 
 
+class NotApplicable(Exception):
+    """The zero offsets of a run cannot be written to the drives, or not taken back; says why."""
+
+
 class KeyReused(Exception):
     """An idempotency key came again with another request."""
 

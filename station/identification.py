@@ -14,15 +14,14 @@ import numpy as np
 from station import noise, outliers, weak_direction
 from station.errors import InputRefused
 from station.five_bar import FiveBar
-from station.kinematics import Real, Unreachable, forward
+from station.kinematics import Real
 from station.least_squares import NotConvergedError, Prior, Solution, solve
 from station.measurements import Measurements
 from station.memory import GATE_P, Memory, contradiction_p
+from station.plausibility import check_distances, check_places, check_poses
 from station.records import Quantity
 from station.robot import Robot
 
-OUTSIDE_MM = 80.0
-"""A pose further outside the workspace than zero offsets of a few degrees explain is a wrong unit or row."""
 LACK_OF_FIT_P = 1e-3
 IMPOSSIBLE_SDS = 20.0
 """A parameter this many tolerances from nominal is a wrong file or a missing effect, not a calibration."""
@@ -83,6 +82,12 @@ class Identification:
     @property
     def adequate(self) -> bool:
         return self.lack_of_fit_p >= LACK_OF_FIT_P
+
+    def moved(self, shift_deg: tuple[float, float]) -> Identification:
+        """The same machine seen from drives whose frames have moved: theta before = theta now + shift."""
+        x = self.p.copy()
+        x[:2] += np.radians(shift_deg)
+        return replace(self, solution=replace(self.solution, x=x))
 
     def quantities(self) -> tuple[Quantity, ...]:
         """Every parameter in shown units with its standard uncertainty."""
@@ -169,6 +174,7 @@ def identify(robot: Robot, measurements: Measurements, memory: Memory | None = N
     """
     check_poses(robot, measurements)
     check_places(measurements)
+    check_distances(robot, measurements)
     kept, left_out = _without_outliers(robot, measurements)
     mechanism = FiveBar(robot, kept)
     prior = tolerance_prior(mechanism)
@@ -242,46 +248,6 @@ def _solve(mechanism: FiveBar, prior: Prior, row_sd: Real) -> Solution:
         raise InputRefused(
             f"The identification did not converge ({error}); check that angles and distances belong together."
         ) from error
-
-
-def check_poses(robot: Robot, measurements: Measurements) -> None:
-    """:raises InputRefused: naming the first reading whose angles cannot be of this robot."""
-    theta = measurements.theta
-    if np.abs(np.degrees(theta)).max() < 2.0 * np.pi:
-        raise InputRefused(
-            f"Reading {measurements.ids[0]}, columns theta1_deg and theta2_deg: "
-            "the angles look like radians; give degrees."
-        )
-    try:
-        r = forward(robot.geometry, theta)
-    except Unreachable as error:
-        k = int(error.indices[0])
-        raise InputRefused(_pose_refusal(measurements, k, str(error))) from error
-    (x0, x1), (y0, y1) = robot.workspace_x, robot.workspace_y
-    dx = np.maximum(np.maximum(x0 - r.real, r.real - x1), 0.0)
-    dy = np.maximum(np.maximum(y0 - r.imag, r.imag - y1), 0.0)
-    outside = np.hypot(dx, dy)
-    bad = np.flatnonzero(outside > OUTSIDE_MM)
-    if bad.size:
-        k = int(bad[0])
-        text = f"the platform would stand {outside[k]:.0f} mm outside the workspace."
-        raise InputRefused(_pose_refusal(measurements, k, text))
-
-
-def _pose_refusal(measurements: Measurements, k: int, text: str) -> str:
-    return (
-        f"Reading {measurements.ids[k]}, columns theta1_deg and theta2_deg: {text} "
-        "Check unit, sign and order of the joints and the robot file."
-    )
-
-
-def check_places(measurements: Measurements) -> None:
-    """:raises InputRefused: fewer than five distinct places cannot hold four unknowns and an offset."""
-    places = len(np.unique(np.round(np.degrees(measurements.theta), 1), axis=0))
-    if places < 5:
-        raise InputRefused(
-            f"Only {places} different places were measured; at least 5 are needed (paper, section 5)."
-        )
 
 
 def _check_possible(fit: Identification) -> None:

@@ -69,3 +69,18 @@ def memories(db: Database) -> None:
             at_ms INTEGER NOT NULL, memory TEXT NOT NULL, cleared_ms INTEGER, cleared_by TEXT)"""
     )
     db.execute("CREATE INDEX memories_robot ON memories (robot_serial, calibration_id)")
+
+
+@migrations()
+def zero_writes(db: Database) -> None:
+    """Runs that write the zero offsets of an earlier run to the drives, and every zero they wrote."""
+    db.execute("ALTER TABLE calibrations ADD COLUMN of_id INTEGER REFERENCES calibrations (id)")
+    db.execute("CREATE INDEX calibrations_of ON calibrations (of_id) WHERE of_id IS NOT NULL")
+    # A row is on the disk before its zero is written; `to_deg` and `taken` follow when it was read back.
+    db.execute(
+        """CREATE TABLE zero_writes (
+            id INTEGER PRIMARY KEY, run_id INTEGER NOT NULL REFERENCES calibrations (id),
+            joint INTEGER NOT NULL, at_ms INTEGER NOT NULL, offset_deg REAL NOT NULL,
+            from_deg REAL NOT NULL, to_deg REAL, taken INTEGER)"""
+    )
+    db.execute("CREATE INDEX zero_writes_run ON zero_writes (run_id)")

@@ -17,6 +17,8 @@ from threading import Lock, Thread
 from typing import Any
 
 from drivers.protocols import DeviceError
+from station.application import check_apply, check_roll_back, rolled_back_by
+from station.applying import start_application
 from station.devices import Devices
 from station.errors import Busy, InputRefused, KeyReused, NotFound
 from station.events import Listener, Listeners, LiveEvent
@@ -28,6 +30,7 @@ from station.records import (
     PlanName,
     Procedure,
     Reading,
+    SetZeros,
     State,
     Walk,
 )
@@ -37,6 +40,7 @@ from station.settings import Settings
 from station.store import Store
 from station.store_rows import compact
 from station.walking import Cancelled, Walker
+from station.zeroing import Zeroing
 
 __all__ = ["Busy", "InputRefused", "KeyReused", "LiveEvent", "NotFound", "Orchestrator", "Submitted"]
 
@@ -91,6 +95,7 @@ class Orchestrator:
         :raises Busy: another run holds the rig.
         :raises KeyReused: the key came with another request.
         :raises InputRefused: the robot does not fit this station, or the station is shutting down.
+        :raises NotApplicable: the offsets of the run it is about cannot be written or taken back.
         """
         body_hash = hashlib.sha256(compact(asdict(request)).encode()).digest()[:16]
         with self._submitting:
@@ -103,6 +108,8 @@ class Orchestrator:
             if (holder := self._run) is not None:
                 raise Busy(holder.id)
             robot = self._robot(request.robot_serial)
+            if request.of is not None:
+                (check_apply if request.plan == "apply" else check_roll_back)(self._store, request.of)
             calibration_id = self._store.create(request, robot, key=idempotency_key, body_hash=body_hash)
             run = Run(calibration_id, request, robot)
             with self._lock:
@@ -110,6 +117,26 @@ class Orchestrator:
         self._listeners.publish("run", run.brief())
         self._queue.put(run)
         return Submitted(calibration_id, created=True)
+
+    def apply(self, calibration_id: int, operator: str, *, idempotency_key: str | None = None) -> Submitted:
+        """Write the offsets of a passed run to the drives, verify, roll back by itself when that fails.
+
+        :raises NotFound: there is no such run; else as `submit`.
+        """
+        serial = self._store.summary(calibration_id)["robot_serial"]
+        request = CalibrationRequest(serial, "apply", operator, of=calibration_id)
+        return self.submit(request, idempotency_key=idempotency_key)
+
+    def roll_back(self, calibration_id: int, operator: str) -> Submitted:
+        """Put the zeros back that the drives had before a run was applied; again is harmless.
+
+        :raises NotFound: there is no such run; else as `submit`.
+        """
+        done = rolled_back_by(self._store, calibration_id)
+        if done is not None:
+            return Submitted(done, created=False)
+        serial = self._store.summary(calibration_id)["robot_serial"]
+        return self.submit(CalibrationRequest(serial, "rollback", operator, of=calibration_id))
 
     def _robot(self, serial: str) -> Robot:
         """The kept robot file, else the paper's Table 1, checked against the drives' scaling."""
@@ -272,9 +299,8 @@ class Orchestrator:
             ending = _Ending(State.FAILED)
             self._machine.make_safe()
         else:
-            has_moved = run.steps > 0
-            doubt = self._machine.make_safe(insist=has_moved)
-            if not has_moved:
+            doubt = self._machine.make_safe(insist=run.has_moved)
+            if not run.has_moved:
                 doubt = None
         if run.cancel.is_set():
             ending = _Ending(State.ABORTED, f"Stopped by {run.stopped_by}.")
@@ -286,17 +312,30 @@ class Orchestrator:
         self._set_state(run, State.RUNNING)
         walker = Walker(self._machine, run.robot, self._settings.joints, run.cancel)
         walker.prepare()
-        procedure = self._start_procedure(run.request.plan, run.robot)
+        zeroing = Zeroing(run.id, self._machine, walker, self._store)
+        zeroing.settle()
+        procedure = self._procedure(run)
+
+        def carry_out(step: Walk | SetZeros) -> Any:
+            return self._walk(run, walker, step) if isinstance(step, Walk) else self._set(run, zeroing, step)
+
         try:
-            walk = next(procedure)
-            while True:
-                walk = procedure.send(self._walk(run, walker, walk))
-        except StopIteration as end:
-            result: CalibrationResult = end.value
+            result = _follow(procedure, carry_out)
         finally:
             procedure.close()
         self._listeners.publish("residuals", run.add_result(result))
         return result
+
+    def _procedure(self, run: Run) -> Procedure:
+        request = run.request
+        if request.plan == "apply" or request.plan == "rollback":
+            return start_application(self._store, request)
+        return self._start_procedure(request.plan, run.robot)
+
+    def _set(self, run: Run, zeroing: Zeroing, step: SetZeros) -> tuple[float, float]:
+        self._listeners.publish("walk", run.begin_walk(Walk(step.title, step.number, ())))
+        self._listeners.publish("run", run.brief())
+        return zeroing.carry_out(step)
 
     def _walk(self, run: Run, walker: Walker, walk: Walk) -> list[Reading]:
         self._listeners.publish("walk", run.begin_walk(walk))
@@ -318,3 +357,22 @@ class Orchestrator:
         self._store.set_state(run.id, state, steps=run.steps)
         run.state = state
         self._listeners.publish("run", run.brief())
+
+
+def _follow(procedure: Procedure, carry_out: Callable[[Walk | SetZeros], Any]) -> CalibrationResult:
+    """Step by step to the result.
+
+    What a step fails with is raised in the procedure, which may have a way back.
+    """
+    try:
+        step = next(procedure)
+        while True:
+            try:
+                answer = carry_out(step)
+            except (DeviceError, StepFailed) as error:
+                step = procedure.throw(error)
+            else:
+                step = procedure.send(answer)
+    except StopIteration as end:
+        result: CalibrationResult = end.value
+        return result

@@ -29,6 +29,8 @@ class State(StrEnum):
 
 
 PlanName = Literal["paper", "rapid", "full"]
+RunKind = Literal[PlanName, "apply", "rollback"]
+"""What a run does: calibrate by a plan, or write the zeros of an earlier run, or take them back."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -36,10 +38,12 @@ class CalibrationRequest:
     """What the operator or the MES asks for."""
 
     robot_serial: str
-    plan: PlanName
+    plan: RunKind
     operator: str
     work_order: str | None = None
     metadata: dict[str, Any] = field(default_factory=dict)
+    of: int | None = None
+    """The run whose zero offsets are applied or rolled back; None for a calibration."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +69,43 @@ class Walk:
     number: int
     """1, 2, ...; stored with each reading of the walk as `pass`."""
     stops: tuple[Stop, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class SetZeros:
+    """Drives to be given new zeros; answered with the shift (2) of their frames since run `of`, deg."""
+
+    title: str
+    number: int
+    of: int
+    """The run in whose frame the offsets are meant."""
+    offsets_deg: tuple[float, float]
+    """Zero offset of each joint to be taken out, actual minus nominal angle; 0 puts the old zero back."""
+
+
+@dataclass(frozen=True, slots=True)
+class ZeroWrite:
+    """One zero written to a drive: theta in the frame before = theta after it + `shift_deg`."""
+
+    id: int
+    run_id: int
+    of: int
+    joint: int
+    offset_deg: float
+    """What it was to take out, see `SetZeros`."""
+    from_deg: float
+    """Feedback before, in the frame until then."""
+    to_deg: float | None
+    """Feedback read back."""
+    taken: bool | None
+    """None: the drive may or may not have taken it."""
+
+    @property
+    def shift_deg(self) -> float | None:
+        """None while it is not known."""
+        if self.taken and self.to_deg is not None:
+            return self.from_deg - self.to_deg
+        return None if self.taken is None else 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,8 +199,9 @@ class Remembered:
         }
 
 
-Procedure = Generator[Walk, list[Reading], CalibrationResult]
-"""A calibration method: yields walks, is sent the readings of each, returns the result.
+Procedure = Generator[Walk | SetZeros, Any, CalibrationResult]
+"""A method: yields walks and is sent the readings of each, yields zeros and is sent their shifts.
 
-It never touches a device: the orchestrator walks, stores and sends.
+What goes wrong meanwhile is raised where it yielded, so that it may still put something right.  It
+never touches a device: the orchestrator walks, stores and sends.
 """

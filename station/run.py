@@ -36,6 +36,11 @@ class Run:
     _started_at: datetime = field(default_factory=lambda: datetime.now(UTC))
     _lock: Lock = field(default_factory=Lock)
 
+    @property
+    def has_moved(self) -> bool:
+        """Whether a motion may have been commanded."""
+        return self._walk is not None
+
     def begin_walk(self, walk: Walk) -> dict[str, Any]:
         """Returns the `walk` event."""
         with self._lock:
@@ -109,6 +114,7 @@ class Run:
             "state": str(self.state),
             "robot_serial": self.request.robot_serial,
             "plan": self.request.plan,
+            "of": self.request.of,
             "operator": self.request.operator,
             "work_order": self.request.work_order,
             "started_at": self._started_at.isoformat(timespec="milliseconds").replace("+00:00", "Z"),

@@ -20,7 +20,7 @@ from sqlite_utils import Database
 
 from station.database import Readers, open_writer
 from station.errors import InputRefused, KeyReused, NotFound
-from station.records import CalibrationRequest, CalibrationResult, Reading, Remembered, State
+from station.records import CalibrationRequest, CalibrationResult, Reading, Remembered, State, ZeroWrite
 from station.robot import Robot
 from station.store_rows import (
     LIST_COLUMNS,
@@ -35,6 +35,7 @@ from station.store_rows import (
     row_id,
     unsound,
     utc,
+    zero_write_from_row,
 )
 
 _UNFINISHED = (State.QUEUED, State.RUNNING)
@@ -176,7 +177,7 @@ class Store:
             latest = db.execute("SELECT max(created_ms) FROM calibrations").fetchone()[0] or 0
             cursor = db.execute(
                 "INSERT INTO calibrations (robot_id, robot_serial, plan, operator, work_order, metadata,"
-                " state, created_ms) VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+                " of_id, state, created_ms) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?)",
                 [
                     robot_id,
                     robot.serial,
@@ -184,6 +185,7 @@ class Store:
                     request.operator,
                     request.work_order,
                     compact(request.metadata) if request.metadata else None,
+                    request.of,
                     State.QUEUED,
                     max(_now(), latest),
                 ],
@@ -335,6 +337,43 @@ class Store:
         )
         items = [calibration_dict(row, full=False) for row in rows[:limit]]
         return Page(items, items[-1]["id"] if len(rows) > limit else None)
+
+    def runs_of(self, calibration_id: int) -> list[dict[str, Any]]:
+        """Summaries of the runs that applied or rolled back a calibration, oldest first."""
+        rows = self._readers.all(
+            f"SELECT {LIST_COLUMNS} FROM calibrations LEFT JOIN results ON calibration_id = id"
+            " WHERE of_id = ? ORDER BY id",
+            [calibration_id],
+        )
+        return [calibration_dict(row, full=False) for row in rows]
+
+    # Zeros of the drives -----------------------------------------------------------------------
+
+    def begin_zero_write(self, run_id: int, joint: int, offset_deg: float, from_deg: float) -> int:
+        """On the disk before the drive is told; its row id for `end_zero_write`."""
+        with self._writing() as db:
+            cursor = db.execute(
+                "INSERT INTO zero_writes (run_id, joint, at_ms, offset_deg, from_deg) VALUES (?, ?, ?, ?, ?)",
+                [run_id, joint, _now(), offset_deg, from_deg],
+            )
+            return int(cursor.lastrowid or 0)
+
+    def end_zero_write(self, write_id: int, to_deg: float | None) -> None:
+        """What the drive's feedback says afterwards; None: it did not take the zero."""
+        with self._writing() as db:
+            db.execute(
+                "UPDATE zero_writes SET to_deg = ?, taken = ? WHERE id = ?",
+                [to_deg, to_deg is not None, write_id],
+            )
+
+    def zero_writes(self, serial: str, *, since: int = 0) -> list[ZeroWrite]:
+        """Zeros written to a robot's drives by runs later than `since`, in order."""
+        rows = self._readers.all(
+            "SELECT zero_writes.*, of_id FROM zero_writes JOIN calibrations ON calibrations.id = run_id"
+            " WHERE robot_serial = ? AND run_id > ? ORDER BY zero_writes.id",
+            [serial, since],
+        )
+        return [zero_write_from_row(row) for row in rows]
 
     # Readings and events -----------------------------------------------------------------------
 

@@ -12,14 +12,14 @@ from datetime import UTC, datetime
 from typing import Any
 
 from station.errors import InputRefused
-from station.records import CalibrationResult, Reading
+from station.records import CalibrationResult, Reading, ZeroWrite
 
 READING_COLUMNS = (
     "reading, walk, t_s, theta1_deg, theta2_deg, approach1, approach2, scale_mm, position,"
     " samples, temperature_c, payload_kg, mount"
 )
 LIST_COLUMNS = (
-    "id, robot_serial, plan, operator, work_order, state, verdict, reason, step, steps,"
+    "id, robot_serial, plan, operator, work_order, of_id, state, verdict, reason, step, steps,"
     " created_ms, started_ms, ended_ms, zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg"
 )
 # What results have in common need not be stored with each.  Never change it: old results need it.
@@ -145,7 +145,7 @@ def calibration_dict(row: sqlite3.Row, *, full: bool) -> dict[str, Any]:
     ]
     columns = ("id", "robot_serial", "plan", "operator", "work_order", "state", "verdict", "reason")
     item: dict[str, Any] = {key: row[key] for key in columns}
-    item |= {"step": row["step"], "steps": row["steps"]}
+    item |= {"of": row["of_id"], "step": row["step"], "steps": row["steps"]}
     item |= {f"{moment}_at": utc(row[f"{moment}_ms"]) for moment in ("created", "started", "ended")}
     item["zero_offsets"] = zeros
     if full:
@@ -193,6 +193,20 @@ def reading_from_row(row: sqlite3.Row) -> Reading:
         temperature_c=row["temperature_c"],
         payload_kg=row["payload_kg"],
         mount=row["mount"],
+    )
+
+
+def zero_write_from_row(row: sqlite3.Row) -> ZeroWrite:
+    """The record again."""
+    return ZeroWrite(
+        id=row["id"],
+        run_id=row["run_id"],
+        of=row["of_id"],
+        joint=row["joint"],
+        offset_deg=row["offset_deg"],
+        from_deg=row["from_deg"],
+        to_deg=row["to_deg"],
+        taken=None if row["taken"] is None else bool(row["taken"]),
     )
 
 

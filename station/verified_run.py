@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy import stats
+from scipy.linalg import null_space
 from scipy.stats import qmc
 
 from station.five_bar import FiveBar
@@ -22,17 +23,23 @@ REFUSED_P = 1e-3
 LIMIT_SDS = 3.5
 
 
-def fresh_stops(fit: Identification) -> tuple[Stop, ...]:
-    """Interior places that no plan visits, commands compensated by what was identified."""
+def fresh_stops(
+    fit: Identification, count: int = FRESH_PLACES, seed: int | None = None, label: str = "V"
+) -> tuple[Stop, ...]:
+    """Interior places that no plan visits, commands compensated by what was identified.
+
+    :param count: a power of two
+    """
     robot = fit.mechanism.robot
     low = (robot.workspace_x[0] + FRESH_INSET_MM, robot.workspace_y[0] + FRESH_INSET_MM)
     high = (robot.workspace_x[1] - FRESH_INSET_MM, robot.workspace_y[1] - FRESH_INSET_MM)
     # a new set each run, so that no place is ever learned by heart
-    points = qmc.scale(qmc.Sobol(2, rng=len(fit.measurements)).random(FRESH_PLACES), low, high)
+    sequence = qmc.Sobol(2, rng=len(fit.measurements) if seed is None else seed)
+    points = qmc.scale(sequence.random(count), low, high)
     places = points[:, 0] + 1j * points[:, 1]
     theta = np.degrees(inverse(robot.geometry, places) - fit.dtheta)
     return tuple(
-        Stop(f"V{k + 1}", (float(r.real), float(r.imag)), (float(t[0]), float(t[1])))
+        Stop(f"{label}{k + 1}", (float(r.real), float(r.imag)), (float(t[0]), float(t[1])))
         for k, (r, t) in enumerate(zip(places, theta, strict=True))
     )
 
@@ -42,7 +49,7 @@ class Verification:
     """Fresh readings against the frozen model."""
 
     residual_mm: Real
-    """(K,) measured less predicted, the common offset taken out of neither."""
+    """(K,) measured less predicted."""
     sd_mm: Real
     """(K,) prediction uncertainty with noise."""
     p_value: float
@@ -56,16 +63,22 @@ class Verification:
         return float(np.sqrt(np.mean(self.residual_mm**2)))
 
 
-def verify(fit: Identification, fresh: Measurements) -> Verification:
-    """Predict fresh readings with everything frozen; chi-square with the prediction covariance."""
+def verify(fit: Identification, fresh: Measurements, *, offset_known: bool = True) -> Verification:
+    """Predict fresh readings with everything frozen; chi-square with the prediction covariance.
+
+    :param offset_known: False when the readout may have been switched off or zeroed since the fit
+    """
     mechanism = FiveBar(fit.mechanism.robot, fresh)
     at = mechanism.observe(fit.p, fresh.theta)
     residual = fresh.distance - at.value
     ratio = fit.noise.sigma_mm / float(np.sqrt(np.mean(fit.mechanism.row_sd**2)))
     noise = np.diag((mechanism.row_sd * ratio * fit.sd_factor) ** 2)
     covariance = at.by_parameter @ fit.covariance @ at.by_parameter.T + noise
-    square = float(residual @ np.linalg.solve(covariance, residual))
-    return Verification(residual, np.sqrt(np.diag(covariance)), float(stats.chi2.sf(square, len(residual))))
+    told = np.eye(len(residual)) if offset_known else null_space(np.ones((1, len(residual))))
+    rest, its_covariance = told.T @ residual, told.T @ covariance @ told
+    square = float(rest @ np.linalg.solve(its_covariance, rest))
+    sd = np.sqrt(np.diag(told @ its_covariance @ told.T))
+    return Verification(told @ rest, sd, float(stats.chi2.sf(square, len(rest))))
 
 
 def result_of(fit: Identification, readings: list[Reading], fresh: list[Reading]) -> CalibrationResult:
@@ -85,7 +98,7 @@ def result_of(fit: Identification, readings: list[Reading], fresh: list[Reading]
         method="measurement model",
         zero_offsets=quantities[:2],
         parameters=quantities[2:],
-        weak_direction=_weak(fit),
+        weak_direction=weak_direction_of(fit),
         before={
             "reading_rms_mm": float(np.std(raw)),
             "predicted_position_error_mm": fit.position_error(compensated=False),
@@ -109,7 +122,21 @@ def result_of(fit: Identification, readings: list[Reading], fresh: list[Reading]
     )
 
 
-def _weak(fit: Identification) -> dict[str, object]:
+def prediction_fault(check: Verification) -> str:
+    """Why fresh readings do not confirm the model; empty when they do, on finite numbers."""
+    if not np.isfinite(check.p_value):
+        return "the result is not a finite number"
+    if check.passed:
+        return ""
+    worst = int(np.argmax(np.abs(check.residual_mm) / check.sd_mm))
+    return (
+        f"fresh readings are not predicted (p = {check.p_value:.1g}); the worst, number {worst + 1}, "
+        f"is off by {check.residual_mm[worst] * 1e3:.1f} um, sd {check.sd_mm[worst] * 1e3:.1f} um"
+    )
+
+
+def weak_direction_of(fit: Identification) -> dict[str, object]:
+    """The least known direction in words, and what would help most."""
     words = describe(fit)
     best = min(words["remedies"], key=lambda remedy: remedy["sd_deg"])
     words["remedy"] = f"{best['text']} (sd {best['sd_deg']:.3f} deg)"
@@ -119,17 +146,11 @@ def _weak(fit: Identification) -> dict[str, object]:
 def _fault(fit: Identification, check: Verification) -> str:
     """Why the run is not a pass; empty when every check passed on finite numbers."""
     sd = np.sqrt(np.diag(fit.covariance)[:2])
-    if not (np.isfinite(sd).all() and np.isfinite(fit.p).all() and np.isfinite(check.p_value)):
+    if not (np.isfinite(sd).all() and np.isfinite(fit.p).all()):
         return "the result is not a finite number"
     if not fit.adequate:
         return (
             f"the model does not fit the readings (p = {fit.lack_of_fit_p:.1g}); "
             "an effect is missing from it: run the diagnosis"
         )
-    if not check.passed:
-        worst = int(np.argmax(np.abs(check.residual_mm) / check.sd_mm))
-        return (
-            f"fresh readings are not predicted (p = {check.p_value:.1g}); the worst, number {worst + 1}, "
-            f"is off by {check.residual_mm[worst] * 1e3:.1f} um, sd {check.sd_mm[worst] * 1e3:.1f} um"
-        )
-    return ""
+    return prediction_fault(check)

@@ -53,12 +53,17 @@ class Walker:
         """
         self.machine.robot, self.machine.compensation_deg = self.robot, (0.0, 0.0)
         self.machine.connect_missing()
-        self._check_cancel()
+        self.check_cancel()
         self.machine.ready_axes()
-        self._theta = self.machine.look().theta_deg
+        self.look()
         broken = [f"{lock['text']}: {lock['detail']}" for lock in self.machine.interlocks() if not lock["ok"]]
         if broken:
             raise NotReady(f"Not ready to start. {'. '.join(broken)}.")
+
+    def look(self) -> None:
+        """Where the joints stand now, in the frames of their drives as they are now.  :raises DeviceError:"""
+        self._theta = self.machine.look().theta_deg
+        self._origin = None
 
     def measure(self, stop: Stop, number: int, walk: int) -> Reading:
         """Go there and read.
@@ -67,18 +72,22 @@ class Walker:
         :raises DeviceError: a device failed.
         :raises StepFailed: a limit forbids the stop, it was not reached, or its reading is in doubt.
         """
-        way = self._way(stop)
-        check_way(self.robot, self.joints, self.machine.limits, stop, [self._theta, *way])
-        self.machine.compensation_deg = self._compensation(stop)
-        for target in way:
-            self._go(stop, target)
-        self._pause(self.machine.limits.settle_s)
+        self.stand_at(stop)
         samples, theta = self._samples(stop, number)
         scale_mm = round(statistics.fmean(samples), _DIGITS)
         self._check_travel(stop, number, scale_mm, theta)
         t_s = round((time.monotonic() - self.started) * self.machine.devices.speed, 3)
         self.machine.moved(theta, scale_mm)
         return Reading(number, t_s, theta, self._direction, scale_mm, stop.position, walk, tuple(samples))
+
+    def stand_at(self, stop: Stop) -> None:
+        """Go there and come to rest.  :raises: as `measure`."""
+        way = self._way(stop)
+        check_way(self.robot, self.joints, self.machine.limits, stop, [self._theta, *way])
+        self.machine.compensation_deg = self._compensation(stop)
+        for target in way:
+            self._go(stop, target)
+        self._pause(self.machine.limits.settle_s)
 
     # The way --------------------------------------------------------------------------------------
 
@@ -109,7 +118,7 @@ class Walker:
         longest = max(travel)
         speed = self.machine.limits.speed_deg_s
         for axis, angle, distance in zip(self.machine.devices.axes, target, travel, strict=True):
-            self._check_cancel()
+            self.check_cancel()
             share = speed * distance / longest if longest else speed
             with self.machine.using(axis):
                 axis.move_to(angle, max(share, min(speed, _SLOWEST_DEG_S)))
@@ -131,7 +140,7 @@ class Walker:
         deadline = time.monotonic() + limit_s
         next_look = time.monotonic() + _LOOK_S
         while True:
-            self._check_cancel()
+            self.check_cancel()
             # Both, each time: one that has arrived may still raise an alarm while the other moves.
             waiting = [axis for axis in self.machine.devices.axes if not self._arrived(stop, axis)]
             if not waiting:
@@ -178,7 +187,7 @@ class Walker:
             scale: list[float] = []
             angles: list[Angles] = []
             for _ in range(self.machine.limits.samples):
-                self._check_cancel()
+                self.check_cancel()
                 with self.machine.using(self.machine.devices.scale):
                     scale.append(self.machine.devices.scale.read_mm())
                 angles.append(self._feedback())
@@ -224,7 +233,8 @@ class Walker:
         if self.cancel.wait(seconds):
             raise Cancelled
 
-    def _check_cancel(self) -> None:
+    def check_cancel(self) -> None:
+        """:raises Cancelled: stop was pressed."""
         if self.cancel.is_set():
             raise Cancelled
 

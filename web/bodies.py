@@ -98,7 +98,8 @@ class CalibrationSummary(Answer):
 
     id: int
     robot_serial: str
-    plan: str
+    plan: str = Field(description="of a calibration; `apply` and `rollback` belong to the run `of`")
+    of: int | None = None
     operator: str
     work_order: str | None = None
     state: State
@@ -112,6 +113,51 @@ class CalibrationSummary(Answer):
     zero_offsets: list[ZeroOffset] | None = None
 
 
+ApplicationState = Literal["unwritten", "applied", "partly", "in doubt", "rolled back", "superseded"]
+
+
+class ApplyBody(BaseModel):
+    """Who writes zero offsets to the drives, or takes them back."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    operator: Name
+
+
+class JointApplication(Answer):
+    """One drive: `shift_deg` is how far its frame has moved since the calibration."""
+
+    joint: int
+    state: ApplicationState
+    old_offset_deg: float
+    shift_deg: float | None
+    new_offset_deg: float | None = Field(description="what is left of the zero offset in the drive's frame")
+
+
+class ApplicationRun(Answer):
+    """One attempt to apply or to roll back."""
+
+    id: int
+    plan: Literal["apply", "rollback"]
+    operator: str
+    state: State
+    verdict: Literal["pass", "fail"] | None
+    reason: str | None
+    ended_at: datetime | None
+
+
+class Application(Answer):
+    """What the drives hold of a calibration's zero offsets."""
+
+    state: ApplicationState
+    verified: bool
+    text: str
+    joints: list[JointApplication]
+    runs: list[ApplicationRun]
+    apply_refused: str | None = Field(description="why it cannot be applied, null when it can")
+    rollback_refused: str | None = Field(description="why it cannot be rolled back, null when it can")
+
+
 class Calibration(CalibrationSummary):
     """All that is known about one run."""
 
@@ -120,6 +166,7 @@ class Calibration(CalibrationSummary):
     zero_offset_tolerance_deg: float | None = None
     parameters: list[Quantity] | None = None
     weak_direction: WeakDirection | None = None
+    application: Application | None = Field(default=None, description="null unless the run has passed")
     memory: MemoryUse | None = Field(default=None, description="null when nothing was known")
     before: Accuracy | None = None
     after: Accuracy | None = None
@@ -261,6 +308,7 @@ class Run(Answer):
     state: State
     robot_serial: str
     plan: str
+    of: int | None = None
     operator: str
     work_order: str | None = None
     started_at: datetime | None = None

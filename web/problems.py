@@ -12,7 +12,7 @@ from fastapi.responses import JSONResponse
 from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
 
-from station.errors import Busy, InputRefused, KeyReused, NotFound
+from station.errors import Busy, InputRefused, KeyReused, NotApplicable, NotFound
 
 MEDIA_TYPE = "application/problem+json"
 
@@ -104,6 +104,10 @@ def add(app: FastAPI) -> None:
     @app.exception_handler(Busy)
     async def busy(request: Request, error: Busy) -> ProblemResponse:
         return problem(409, str(error), kind="busy", calibration_id=error.calibration_id)
+
+    @app.exception_handler(NotApplicable)
+    async def not_applicable(request: Request, error: NotApplicable) -> ProblemResponse:
+        return problem(409, str(error), kind="not-applicable")
 
     @app.exception_handler(KeyReused)
     async def key_reused(request: Request, error: KeyReused) -> ProblemResponse:

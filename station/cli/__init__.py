@@ -13,6 +13,7 @@ from station.errors import InputRefused, NotFound
 from station.settings import station_home
 
 _MODULES = {
+    "apply": "apply",
     "backup": "archive",
     "bench": "studies",
     "calibrate": "calibrate",
@@ -22,6 +23,7 @@ _MODULES = {
     "memory": "history",
     "plan": "numerics",
     "reproduce": "studies",
+    "rollback": "apply",
     "runs": "history",
     "serve": "serve",
     "show": "history",

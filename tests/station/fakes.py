@@ -49,6 +49,10 @@ class FakeAxis:
     def __init__(self, number: int, script: Script) -> None:
         self.name = f"axis {number}"
         self.theta_deg = HOME_DEG[number - 1]
+        self.offset_deg = 0.0
+        """Actual less nominal joint angle."""
+        self.stands_off_deg = 0.0
+        """How far beside its command it comes to rest."""
         self.enabled = False
         self.alarm: int | None = None
         self.alarm_resettable = True
@@ -84,7 +88,7 @@ class FakeAxis:
         if self.stuck:
             self.moving = True
         else:
-            self.theta_deg = theta_deg
+            self.theta_deg = theta_deg + self.stands_off_deg
 
     def status(self) -> AxisStatus:
         self._happens("status")
@@ -106,6 +110,8 @@ class FakeAxis:
 
     def preset(self, theta_deg: float) -> None:
         self._happens("preset")
+        self.offset_deg += self.theta_deg - theta_deg
+        self.theta_deg = theta_deg
 
 
 class FakeScale:
@@ -129,7 +135,7 @@ class FakeScale:
 
     def read_mm(self) -> float:
         self._script.happens("scale read")
-        theta = np.radians([[axis.theta_deg for axis in self._axes]])
+        theta = np.radians([[axis.theta_deg + axis.offset_deg for axis in self._axes]])
         return float(abs(forward(GEOMETRY, theta)[0] - GEOMETRY.cd)) - self.offset_mm + self.noise_mm()
 
 

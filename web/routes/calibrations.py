@@ -8,18 +8,20 @@ from typing import Annotated, Any, Literal
 from fastapi import APIRouter, Header, Query, Response
 from starlette.exceptions import HTTPException
 
+from station.application import application
+from station.orchestrator import Submitted
 from station.records import CalibrationRequest, State
 from station.runtime import Runtime
 from station.store_rows import Page
 from web.aside import aside
-from web.bodies import Calibration, CalibrationBody, CalibrationList, CalibrationSummary
+from web.bodies import ApplyBody, Calibration, CalibrationBody, CalibrationList, CalibrationSummary
 from web.problems import documented
 from web.routes.parts import LARGEST_ID, CalibrationId, TheRuntime
 
 ABORT_TIMEOUT_S = 5.0
 
 router = APIRouter(prefix="/calibrations", tags=["calibrations"])
-
+Key = Annotated[str | None, Header(alias="Idempotency-Key", min_length=1, max_length=255)]
 
 STARTED: dict[int | str, dict[str, Any]] = {
     202: {
@@ -35,13 +37,12 @@ def start_calibration(
     body: CalibrationBody,
     runtime: TheRuntime,
     response: Response,
-    idempotency_key: Annotated[str | None, Header(min_length=1, max_length=255)] = None,
+    idempotency_key: Key = None,
 ) -> dict[str, Any]:
     """Start a run.  The same `Idempotency-Key` with the same body answers the same run."""
     request = CalibrationRequest(**body.model_dump())
     submitted = runtime.orchestrator.submit(request, idempotency_key=idempotency_key)
-    response.headers["Location"] = f"/api/v1/calibrations/{submitted.id}"
-    return runtime.store.calibration(submitted.id)
+    return _started(submitted, runtime, response)
 
 
 @router.get("", response_model=CalibrationList)
@@ -70,8 +71,10 @@ def list_calibrations(
 @router.get("/{calibration_id}", response_model=Calibration, responses=documented(404))
 def read_calibration(calibration_id: CalibrationId, runtime: TheRuntime) -> dict[str, Any]:
     """One run in full."""
+    calibration = runtime.store.calibration(calibration_id)
     return {
-        **runtime.store.calibration(calibration_id),
+        **calibration,
+        "application": application(runtime.store, calibration),
         "zero_offset_tolerance_deg": _tolerance(runtime, calibration_id),
     }
 
@@ -95,6 +98,45 @@ async def abort_calibration(calibration_id: CalibrationId, runtime: TheRuntime) 
         raise HTTPException(
             504, "The abort was sent but not confirmed; use the stop or the emergency stop."
         ) from late
+
+
+@router.post(
+    "/{calibration_id}/apply",
+    status_code=202,
+    response_model=CalibrationSummary,
+    responses={**STARTED, **documented(404)},
+)
+def apply_calibration(
+    calibration_id: CalibrationId,
+    body: ApplyBody,
+    runtime: TheRuntime,
+    response: Response,
+    idempotency_key: Key = None,
+) -> dict[str, Any]:
+    """Write the zero offsets to the drives, read them back, verify at fresh places.
+
+    A run of its own; when its verification fails it puts the old zeros back by itself.
+    """
+    submitted = runtime.orchestrator.apply(calibration_id, body.operator, idempotency_key=idempotency_key)
+    return _started(submitted, runtime, response)
+
+
+@router.post(
+    "/{calibration_id}/rollback",
+    status_code=202,
+    response_model=CalibrationSummary,
+    responses={**STARTED, **documented(404)},
+)
+def roll_back_calibration(
+    calibration_id: CalibrationId, body: ApplyBody, runtime: TheRuntime, response: Response
+) -> dict[str, Any]:
+    """Put the old zeros back; a run of its own.  Calling it again answers the run that did it."""
+    return _started(runtime.orchestrator.roll_back(calibration_id, body.operator), runtime, response)
+
+
+def _started(submitted: Submitted, runtime: Runtime, response: Response) -> dict[str, Any]:
+    response.headers["Location"] = f"/api/v1/calibrations/{submitted.id}"
+    return runtime.store.calibration(submitted.id)
 
 
 def _tolerance(runtime: Runtime, calibration_id: int) -> float:

@@ -1,0 +1,52 @@
+"""`station apply` and `station rollback`: the zeros of the drives from the terminal."""
+
+from __future__ import annotations
+
+import getpass
+from pathlib import Path
+
+import click
+
+from station.cli.machine_options import machine_options, read_settings
+from station.cli.one_run import one_run
+
+_id = click.argument("calibration_id", metavar="ID", type=click.IntRange(1, 2**63 - 1))
+_operator = click.option("--operator", help="Who is responsible; else the user of this terminal.")
+
+
+@click.command("apply")
+@_id
+@_operator
+@machine_options
+@click.pass_obj
+def apply_command(
+    home: Path,
+    calibration_id: int,
+    operator: str | None,
+    config: Path | None,
+    emulate: Path | None,
+    speed: float | None,
+) -> None:
+    """Write the zero offsets of a passed run to the drives and verify them."""
+    who = operator or getpass.getuser()
+    settings = read_settings(config, speed)
+    one_run(home, settings, emulate, lambda runtime: runtime.orchestrator.apply(calibration_id, who))
+
+
+@click.command("rollback")
+@_id
+@_operator
+@machine_options
+@click.pass_obj
+def rollback_command(
+    home: Path,
+    calibration_id: int,
+    operator: str | None,
+    config: Path | None,
+    emulate: Path | None,
+    speed: float | None,
+) -> None:
+    """Put the zeros back that the drives had before a run was applied."""
+    who = operator or getpass.getuser()
+    settings = read_settings(config, speed)
+    one_run(home, settings, emulate, lambda runtime: runtime.orchestrator.roll_back(calibration_id, who))

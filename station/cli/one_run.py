@@ -1,0 +1,74 @@
+"""One run from the terminal: live progress, Ctrl-C stops the machine first, exit status by verdict."""
+
+from __future__ import annotations
+
+import logging
+import signal
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any, NoReturn
+
+import click
+from rich.console import Console
+
+from station.cli.machine_options import logging_to
+from station.cli.progress import progress
+from station.errors import NotApplicable
+from station.orchestrator import Submitted
+from station.records import State
+from station.runtime import Runtime
+from station.settings import Settings
+
+_STOP_LIMIT_S = 15.0
+
+
+def one_run(
+    home: Path, settings: Settings, emulate: Path | None, submit: Callable[[Runtime], Submitted]
+) -> NoReturn:
+    """Take the rig, submit, wait for the end, say how it ended; exits with 0 for a pass, else 1.
+
+    :raises InputRefused: the station cannot be opened or refuses the run.
+    :raises click.UsageError: the offsets it is about cannot be written or taken back.
+    """
+    logs = logging_to(home, terminal=logging.ERROR)
+    with _interruptible(), logs, Runtime.open(settings, home, emulate) as runtime:
+        console = Console(highlight=False)
+        with progress(console, runtime.orchestrator):
+            try:
+                calibration_id = submit(runtime).id
+            except NotApplicable as refusal:
+                raise click.UsageError(str(refusal)) from refusal
+            state = _end_of(runtime, calibration_id)
+        calibration = runtime.store.calibration(calibration_id)
+    _print_outcome(console, state, calibration)
+    sys.exit(0 if calibration["verdict"] == "pass" else 1)
+
+
+def _end_of(runtime: Runtime, calibration_id: int) -> State:
+    try:
+        return runtime.orchestrator.wait(calibration_id)
+    except KeyboardInterrupt:
+        runtime.orchestrator.stop("the operator at the terminal")
+        return runtime.orchestrator.wait(calibration_id, _STOP_LIMIT_S)
+
+
+@contextmanager
+def _interruptible() -> Iterator[None]:
+    """An end asked for from outside takes the same way as Ctrl-C: stop, store, release."""
+    before = {sig: signal.signal(sig, signal.default_int_handler) for sig in (signal.SIGTERM, signal.SIGHUP)}
+    try:
+        yield
+    finally:
+        for sig, handler in before.items():
+            signal.signal(sig, handler)
+
+
+def _print_outcome(console: Console, state: State, calibration: dict[str, Any]) -> None:
+    verdict = (calibration["verdict"] or str(state)).upper()
+    console.print(f"Run {calibration['id']} {verdict}: {calibration['reason']}", soft_wrap=True)
+    for zero in calibration["zero_offsets"]:
+        console.print(f"  dtheta{zero['joint']} = {zero['value_deg']:+.4f} deg, sd {zero['sd_deg']:.4f}")
+    if weak := calibration["weak_direction"]:
+        console.print(f"  weakest: {weak['text']}", soft_wrap=True)
