@@ -17,10 +17,11 @@ from station.diagnosis.trace import Trace, trace
 from station.effects import Effect, catalogue
 from station.errors import InputRefused
 from station.five_bar import FiveBar
-from station.identification import check_places, check_poses, tolerance_prior
+from station.identification import tolerance_prior
 from station.kinematics import Real
 from station.least_squares import NotConvergedError
 from station.measurements import Measurements
+from station.plausibility import check_distances, check_places, check_poses
 from station.robot import Robot
 
 Verdict = Literal["adequate", "explained", "partly_explained", "unexplained"]
@@ -92,9 +93,11 @@ def diagnose(
     """
     check_poses(robot, measurements)
     check_places(measurements)
+    check_distances(robot, measurements)
     check_enough(measurements)
     if fresh is not None:
         check_poses(robot, fresh)
+        check_distances(robot, fresh)
         if len(fresh) < FEWEST:
             raise InputRefused(f"Only {len(fresh)} fresh readings; at least {FEWEST} are needed to confirm.")
         fresh = _on_same_mounts(fresh, measurements)

@@ -190,19 +190,23 @@ class Findings:
     def sentence(self) -> str:
         """The verdict in one line."""
         names = " and ".join(f.term.effect.label for f in self.effects)
+        model = "them" if len(self.effects) > 1 else "it"
         share = f"{100.0 * self.diagnosis.explained_share:.0f} %"
         match self.diagnosis.verdict:
             case "adequate":
                 text = "Adequate: the model fits the readings, nothing is missing from it"
             case "explained":
-                text = f"Explained: {names}; with it the model fits the readings"
+                text = f"Explained: {names}; with {model} the model fits the readings"
             case "partly_explained":
                 text = f"Partly explained: {names} took {share} of the residual's square, a rest stays"
             case _:
-                text = "Unexplained: the residual is not noise, and nothing in the catalogue accounts for it"
+                text = (
+                    "Unexplained: the residual is not noise, and no effect of the catalogue accounts for it"
+                )
+                return f"{text}." if not names else f"{text}; {names} came nearest."
         after = {
             True: "fresh readings confirm it",
-            False: "fresh readings refute it",
+            False: "fresh readings refute the model",
             None: "not confirmed yet by fresh readings",
         }
         return f"{text}; {after[self.diagnosis.confirmed]}."
@@ -228,6 +232,7 @@ class Findings:
             "invisible": [i.as_json() for i in self.invisible],
             "outliers": [o.reading for o in d.outliers],
             "outlier_reasons": [o.reason for o in d.outliers],
+            "fresh_outliers": list(d.confirmations[-1].left_out) if d.confirmations else [],
             "model": {
                 **model_json(d, self.fit, self.sd_factor),
                 "stage": self.stages[self.trusted + 1].model,

@@ -15,9 +15,9 @@ from station.kinematics import Real
 from station.least_squares import Prior, Solution, solve
 from station.mechanism import Observation
 
-CONDITION_ROUNDS = 6
+CONDITION_ROUNDS = 12
 """The basis depends a little on the zero offsets: fitted, evaluated anew, fitted again until it stays."""
-SETTLED_RAD = 1e-5
+SETTLED_MM = 2e-5
 
 
 @dataclass(frozen=True)
@@ -137,18 +137,20 @@ def fit(model: Model, base_prior: Prior, row_sd: Real) -> Fit:
     )
     x = prior.mean
     measured = model.mechanism.measured
+    bases = model.bases(model.conditions(x[: model.base_size]))
     for _ in range(CONDITION_ROUNDS):
-        c = model.conditions(x[: model.base_size])
-        bases = model.bases(c)
 
         def residuals(q: Real, bases: list[Real] = bases) -> tuple[Real, Real]:
             at = model.observe(q, bases)
             return (at.value - measured) / row_sd, at.by_parameter / row_sd[:, None]
 
         solution = solve(residuals, x, prior)
-        moved = np.abs(solution.x[:2] - x[:2]).max()
         x = solution.x
-        if not model.terms or moved < SETTLED_RAD:
+        if not model.terms:
+            break
+        before = model.observe(x, bases).value
+        bases = model.bases(model.conditions(x[: model.base_size]))
+        if np.abs(model.observe(x, bases).value - before).max() < SETTLED_MM:
             break
     c = model.conditions(x[: model.base_size])
     return Fit(model, solution, prior, row_sd, model.observe(x, bases), c)

@@ -6,6 +6,7 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from station.diagnosis.cross_validation import held_out
 from station.diagnosis.diagnose import Diagnosis
@@ -15,6 +16,8 @@ from station.five_bar import FiveBar
 from station.kinematics import Real
 from station.least_squares import NotConvergedError, Prior, Solution, solve
 from station.measurements import Measurements
+
+Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +43,9 @@ def stage_errors(diagnosis: Diagnosis) -> tuple[StageErrors, ...]:
     names = ["base", *(finding.term.effect.label for finding in diagnosis.trace.findings)]
     for k, (stage, name) in enumerate(zip(diagnosis.trace.stages, names, strict=True)):
         fit = stage.fit
-        fresh = diagnosis.confirmations[k].residual_mm if diagnosis.confirmations else None
+        fresh = None
+        if diagnosis.confirmations:
+            fresh = diagnosis.confirmations[k].residual_mm[kept_fresh(diagnosis)]
         stages.append(
             _errors(
                 name if k == 0 else f"+ {name}",
@@ -52,6 +57,14 @@ def stage_errors(diagnosis: Diagnosis) -> tuple[StageErrors, ...]:
             )
         )
     return tuple(stages)
+
+
+def kept_fresh(diagnosis: Diagnosis) -> Mask:
+    """(K,) fresh readings that took part in the confirmation of the last model."""
+    if diagnosis.fresh is None:
+        return np.zeros(0, dtype=bool)
+    left_out = diagnosis.confirmations[-1].left_out
+    return np.array([i not in left_out for i in diagnosis.fresh.ids])
 
 
 def base_unknowns(mechanism: FiveBar) -> int:
@@ -110,6 +123,7 @@ def _paper(diagnosis: Diagnosis) -> StageErrors:
     if diagnosis.fresh is not None:
         fresh = FiveBar(diagnosis.robot, diagnosis.fresh)
         fresh_mm = fresh.measured - fresh.observe(full(solution.x), fresh.theta).value
+        fresh_mm = fresh_mm[kept_fresh(diagnosis)]
     unknowns = base_unknowns(mechanism) - sum(held)
     return _errors("paper", unknowns, solution, row_sd, diagnosis.measurements, fresh_mm)
 

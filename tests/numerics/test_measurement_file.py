@@ -60,7 +60,14 @@ BROKEN = {
     "blank": (b"\n \n", "is empty"),
     "header only": (text([]), "has a header and no readings"),
     "truncated": (text()[:-20], "row 7 has 5 fields where the header has 9"),
-    "unreachable pose": (text(changed(4, 2, "178.0")), "Reading 5, columns theta1_deg and theta2_deg"),
+    "unreachable pose": (
+        text(changed(4, 2, "178.0")),
+        "Reading 5, column theta1_deg: 178.0 deg is beyond",
+    ),
+    "row of another pose": (
+        text(changed(3, 6, "640.0")),
+        "Reading 4, column scale_mm: the distance is",
+    ),
     "joints exchanged": (
         text([",".join(np.array(r.split(","))[[0, 1, 3, 2, 4, 5, 6, 7, 8]]) for r in ROWS]),
         "Check unit, sign and order",
