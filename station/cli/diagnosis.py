@@ -14,9 +14,9 @@ from station.cli.studies import check_folders, write_text
 from station.diagnosis.diagnose import diagnose
 from station.diagnosis.document import Findings
 from station.diagnosis.model_file import read_model
+from station.diagnosis.page import page, shown
 from station.diagnosis.solve import range_text, solve_targets
 from station.diagnosis.targets import commands_csv, read_targets
-from station.records import Quantity
 from station.robot import Robot
 
 _file = click.Path(path_type=Path)
@@ -48,6 +48,8 @@ def diagnose_command(
     findings = Findings(diagnose(robot, measurements, fresh))
     if json_file:
         write_json(json_file, findings.as_json(describe(data, len(measurements))))
+    if html_file:
+        write_text(html_file, page(findings, data.name).to_html())
     _print(findings)
     context.exit(0 if findings.passed else 1)
 
@@ -75,9 +77,9 @@ def _print(findings: Findings) -> None:
     console = Console(highlight=False)
     console.print(f"[bold]{findings.sentence}[/bold]")
     for q in findings.parameters[:2]:
-        console.print(f"{q.name} = {_shown(q)}")
+        console.print(f"{q.name} = {shown(q)}")
     for found in findings.effects:
-        sizes = ", ".join(f"{q.name} {_shown(q)}" for q in found.parameters)
+        sizes = ", ".join(f"{q.name} {shown(q)}" for q in found.parameters)
         console.print(
             f"[bold]{found.term.effect.label}[/bold]: {sizes}; {100 * found.share:.0f} % of the residual"
         )
@@ -87,7 +89,7 @@ def _print(findings: Findings) -> None:
                 f"  looks the same here: {others}. To tell them apart: {found.term.effect.experiment}"
             )
         console.print(f"  {found.term.effect.remedy}")
-    table = Table("model", "unknowns", "fit", "left out", "worst", "fresh", "worst", title="errors, um rms")
+    table = Table("model", "unknowns", "fit", "left out", "worst", "fresh", "worst", title="errors, µm rms")
     for column in table.columns[1:]:
         column.justify = "right"
     for s in findings.stages:
@@ -103,11 +105,3 @@ def _print(findings: Findings) -> None:
         console.print(f"Hint: {hint.text} ({100 * hint.strength:.0f} %)")
     for outlier in findings.diagnosis.outliers:
         console.print(f"Left out: reading {outlier.reading}, {outlier.reason}.")
-
-
-def _shown(q: Quantity) -> str:
-    """Value +- sd with two digits of the sd."""
-    if not q.sd:
-        return f"{q.value:.6g} {q.unit}"
-    digits = max(0, 1 - int(f"{q.sd:e}".split("e")[1]))
-    return f"{q.value:.{digits}f} +- {q.sd:.{digits}f} {q.unit}"

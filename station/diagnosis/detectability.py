@@ -35,9 +35,9 @@ class Detectable:
 
 def detectable(fit: Fit, effects: Sequence[Effect]) -> tuple[Detectable, ...]:
     """For every effect of the catalogue that is not in the fit."""
-    present = {term.effect for term in fit.model.terms}
+    present = {term.effect.label for term in fit.model.terms}
     scan = Scan(fit)
-    return tuple(_one(scan, effect, len(effects)) for effect in effects if effect not in present)
+    return tuple(_one(scan, effect, len(effects)) for effect in effects if effect.label not in present)
 
 
 def _one(scan: Scan, effect: Effect, tests: int) -> Detectable:

@@ -20,6 +20,8 @@ DASHES = ("none", "6 3", "2 3", "8 3 2 3", "none", "6 3", "2 3")
 WIDTH, HEIGHT = 560, 320
 LEFT, RIGHT, TOP, BOTTOM = 64, 12, 12, 46
 TICKS = 6
+LARGEST_DISC = 11.0
+"""Radius, px."""
 
 
 @dataclass(frozen=True)
@@ -64,9 +66,41 @@ def line(series: Sequence[Series], x_label: str, y_label: str, *, log_y: bool = 
     return _chart("line", series, x_label, y_label, log_y)
 
 
-def scatter(series: Sequence[Series], x_label: str, y_label: str, *, log_y: bool = False) -> Markup:
-    """Points, with whiskers where `low` and `high` are given."""
-    return _chart("scatter", series, x_label, y_label, log_y)
+def scatter(
+    series: Sequence[Series],
+    x_label: str,
+    y_label: str,
+    *,
+    log_y: bool = False,
+    x_names: Sequence[str] | None = None,
+) -> Markup:
+    """Points, with whiskers where `low` and `high` are given; x_names stand at x = 0, 1, ... for numbers."""
+    return _chart("scatter", series, x_label, y_label, log_y, x_names)
+
+
+def place_map(x: Sequence[float], y: Sequence[float], value: Sequence[float], unit: str) -> Markup:
+    """Discs at places of the workspace (mm), their area as the size of a value, their colour its sign."""
+    x_axis = _Axis(*_range(x, 0.08), LEFT, WIDTH - RIGHT)
+    y_axis = _Axis(*_range(y, 0.12), HEIGHT - BOTTOM, TOP)
+    largest = max(map(abs, value)) or 1.0
+    discs = [
+        {
+            "x": x_axis.at(a),
+            "y": y_axis.at(b),
+            "r": round(1.0 + LARGEST_DISC * math.sqrt(abs(v) / largest), 2),
+            "colour": COLOURS[1] if v > 0 else COLOURS[0],
+            "title": f"x {a:.0f}, y {b:.0f} mm: {v:.3g} {unit}",
+        }
+        for a, b, v in zip(x, y, value, strict=True)
+    ]
+    legend = (
+        Series("negative", (), ()),
+        Series(f"positive; largest disc {largest:.3g} {unit}", (), ()),
+    )
+    return _render(
+        kind="map", discs=discs, x_ticks=x_axis.ticks, y_ticks=y_axis.ticks, x_label="x mm", y_label="y mm",
+        labels=legend,
+    )  # fmt: skip
 
 
 def bar(categories: Sequence[str], series: Sequence[Series], y_label: str) -> Markup:
@@ -95,11 +129,18 @@ def bar(categories: Sequence[str], series: Sequence[Series], y_label: str) -> Ma
 
 
 def _chart(
-    kind: Literal["line", "scatter"], series: Sequence[Series], x_label: str, y_label: str, log_y: bool
+    kind: Literal["line", "scatter"],
+    series: Sequence[Series],
+    x_label: str,
+    y_label: str,
+    log_y: bool,
+    x_names: Sequence[str] | None = None,
 ) -> Markup:
     xs = [v for s in series for v in s.x]
     ys = [v for s in series for part in (s.y, s.low or (), s.high or ()) for v in part]
-    x_axis = _Axis(*_range(xs, 0.0), LEFT + 6, WIDTH - RIGHT - 6)
+    span = _range(xs, 0.0) if x_names is None else (-0.5, len(x_names) - 0.5)
+    x_axis = _Axis(*span, LEFT + 6, WIDTH - RIGHT - 6)
+    x_ticks = x_axis.ticks if x_names is None else [(x_axis.at(k), name) for k, name in enumerate(x_names)]
     y_axis = _Axis(*(_decades(ys) if log_y else _range(ys, 0.06)), HEIGHT - BOTTOM, TOP, log_y)
     drawn = []
     for i, s in enumerate(series):
@@ -120,7 +161,7 @@ def _chart(
             }
         )
     return _render(
-        kind=kind, drawn=drawn, x_ticks=x_axis.ticks, y_ticks=y_axis.ticks, x_label=x_label, y_label=y_label,
+        kind=kind, drawn=drawn, x_ticks=x_ticks, y_ticks=y_axis.ticks, x_label=x_label, y_label=y_label,
         labels=series,
     )  # fmt: skip
 

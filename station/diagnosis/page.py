@@ -1,0 +1,227 @@
+"""A diagnosis as one self-contained HTML page."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+import numpy as np
+
+from station.diagnosis.document import Findings, FoundEffect
+from station.diagnosis.model import Fit
+from station.kinematics import Real
+from station.records import Quantity
+from station.report import svg
+from station.report.page import Chart, Page, Section, Table
+from station.report.svg import Series
+
+UM = "µm"
+MICROMETRES = 1e3
+
+
+def page(findings: Findings, source: str) -> Page:
+    """Verdict, stages, causes, residual before and after, what could not have been seen."""
+    sections = [_errors(findings)]
+    if findings.effects:
+        sections.append(_causes(findings))
+    if findings.diagnosis.hints:
+        sections.append(_hints(findings))
+    sections += [_residual(findings), _parameters(findings), _invisible(findings)]
+    return Page(f"Diagnosis of {source}", findings.sentence, sections)
+
+
+def shown(q: Quantity) -> str:
+    """Value +- sd with two digits of the sd."""
+    if not q.sd:
+        return f"{q.value:.6g} {q.unit}"
+    digits = max(0, 1 - int(np.floor(np.log10(q.sd))))
+    return f"{q.value:.{digits}f} ± {q.sd:.{digits}f} {q.unit}"
+
+
+def _errors(findings: Findings) -> Section:
+    rows = []
+    for s in findings.stages:
+        sizes = (s.fit_rms_mm, s.holdout_rms_mm, s.holdout_max_mm, s.confirm_rms_mm, s.confirm_max_mm)
+        rows.append((s.model, s.unknowns, *(_um(v) for v in sizes)))
+    before, after = findings.position_errors
+    noise = findings.noise
+    origin = f"from {noise.dof} repeats" if noise.source == "repeats" else "as specified"
+    return Section(
+        "Errors before and after",
+        (
+            f"Noise of one reading {noise.sigma_mm * MICROMETRES:.2f} {UM}, {origin}. "
+            "“Place left out”: each place predicted from all others. "
+            "“Fresh”: readings taken afterwards, predicted with everything frozen.",
+        ),
+        (
+            Table(
+                ("model", "unknowns", "fit rms", "place left out rms", "largest", "fresh rms", "largest"),
+                rows,
+                f"Measured less predicted, {UM}",
+            ),
+            Table(
+                ("commands by", "rms", "largest"),
+                [
+                    ("base model", f"{before['rms']:.3f}", f"{before['max']:.3f}"),
+                    ("last model", f"{after['rms']:.3f}", f"{after['max']:.3f}"),
+                ],
+                "Predicted position error over the workspace, mm",
+            ),
+        ),
+    )
+
+
+def _um(value: float | None) -> str:
+    return "" if value is None else f"{value * MICROMETRES:.2f}"
+
+
+def _causes(findings: Findings) -> Section:
+    rows = [
+        (
+            found.term.effect.label,
+            "; ".join(f"{q.name} {shown(q)}" for q in found.parameters),
+            f"{100.0 * found.share:.1f} %",
+            f"{found.p_value:.1g}",
+            ", ".join(t.effect.label for t in found.aliases) or "nothing",
+        )
+        for found in findings.effects
+    ]
+    return Section(
+        "Effects added" if findings.passed else "Effects tried",
+        [_explanation(found) for found in findings.effects],
+        (
+            Table(
+                ("effect", "size", "share of the residual's square", "p", "looks the same in these readings"),
+                rows,
+            ),
+        ),
+    )
+
+
+def _explanation(found: FoundEffect) -> str:
+    effect = found.term.effect
+    text = f"{effect.label}: {effect.physics} Remedy: {effect.remedy}"
+    if found.aliases:
+        text += f" To tell the look-alikes apart: {effect.experiment}"
+    return text
+
+
+def _hints(findings: Findings) -> Section:
+    return Section(
+        "What the rest depends on",
+        ("Found without the catalogue.",),
+        (
+            Table(
+                ("depends on", "share", "in words"),
+                [(h.depends_on, f"{100.0 * h.strength:.0f} %", h.text) for h in findings.diagnosis.hints],
+            ),
+        ),
+    )
+
+
+def _residual(findings: Findings) -> Section:
+    before, after = findings.diagnosis.base, findings.diagnosis.last
+    added = bool(findings.effects)
+    text = ["Left: the base model's residual" + (", and what the effects account for. " if added else ". ")]
+    if added:
+        text[0] += "Right: what is left with the effects in the model."
+    return Section("Residual", text, (), tuple(_charts(before, after, added)))
+
+
+def _charts(before: Fit, after: Fit, added: bool) -> Iterator[Chart]:
+    """Pairs against order, time, angles, travel, approach and place; single ones where nothing was added."""
+    m, c = before.model.mechanism.measurements, before.conditions
+    was, left = before.residual_mm * MICROMETRES, after.residual_mm * MICROMETRES
+    by_number: list[tuple[str, Real]] = [
+        ("order", np.arange(1.0, len(was) + 1.0)),
+        ("time s", m.t_s),
+        *((f"theta{i + 1} deg", np.degrees(c.theta[:, i])) for i in range(m.joints)),
+        ("travel mm", c.travel),
+    ]
+    if c.temperature_rise is not None:
+        by_number.append(("temperature rise K", c.temperature_rise))
+    for name, along in by_number:
+        yield Chart(
+            svg.scatter(_series(along, was, left, added), name, f"residual {UM}"), f"before, by {name}"
+        )
+        if added:
+            yield Chart(svg.scatter([_points("left", along, left)], name, f"rest {UM}"), f"after, by {name}")
+    for i in range(m.joints):
+        if np.any(c.approach[:, i]):
+            yield from _by_approach(i, c.approach[:, i], was, left, added)
+    at = before.model.mechanism.positions(before.x[: before.model.base_size])
+    first = np.unique(m.position, return_index=True)[1]
+    for values, name in ((was, "before"), (left, "after")):
+        mean = np.bincount(m.position, values) / np.maximum(np.bincount(m.position), 1)
+        places = mean[m.position[first]]
+        drawing = svg.place_map(at[first].real.tolist(), at[first].imag.tolist(), places.tolist(), UM)
+        yield Chart(drawing, f"{name}, mean of each place")
+        if not added:
+            break
+
+
+def _by_approach(i: int, approach: Real, was: Real, left: Real, added: bool) -> Iterator[Chart]:
+    names = ("from above (-1)", "unknown (0)", "from below (+1)")
+    # side by side, so that points of one kind do not cover each other
+    along = approach + 1.0 + np.linspace(-0.3, 0.3, len(approach))
+    label = f"approach of joint {i + 1}"
+    yield Chart(
+        svg.scatter(_series(along, was, left, added), label, f"residual {UM}", x_names=names),
+        f"before, by {label}",
+    )
+    if added:
+        drawing = svg.scatter([_points("left", along, left)], label, f"rest {UM}", x_names=names)
+        yield Chart(drawing, f"after, by {label}")
+
+
+def _series(along: Real, was: Real, left: Real, added: bool) -> Sequence[Series]:
+    measured = _points("measured less base model", along, was)
+    return (measured, _points("the effects account for", along, was - left)) if added else (measured,)
+
+
+def _points(label: str, x: Real, y: Real) -> Series:
+    return Series(label, x.tolist(), y.tolist())
+
+
+def _parameters(findings: Findings) -> Section:
+    weak = findings.weak_direction
+    d = findings.diagnosis
+    text = [
+        f"From the model “{findings.stages[findings.trusted + 1].model}”. Held least: {weak['text']}, "
+        f"sd {weak['sd_deg']:.4f} deg. Not seen by one distance at all: {'; '.join(weak['blind'])}."
+    ]
+    if findings.sd_factor > 1.0:
+        text.append(
+            f"The model does not fit: every sd is widened by {findings.sd_factor:.1f}, "
+            "the ratio of what is left to the noise."
+        )
+    text += [f"Left out: reading {o.reading}, {o.reason}." for o in d.outliers]
+    if d.confirmations and d.confirmations[-1].left_out:
+        names = ", ".join(map(str, d.confirmations[-1].left_out))
+        text.append(f"Left out of the confirmation: fresh reading {names}.")
+    rows = [(q.name, f"{q.value:.5f}", f"{q.sd:.5f}", q.unit) for q in findings.parameters]
+    remedies = [(r["text"], f"{r['sd_deg']:.4f}") for r in weak["remedies"]]
+    return Section(
+        "Parameters",
+        text,
+        (
+            Table(("parameter", "value", "sd", "unit"), rows),
+            Table(("what would hold the weak direction", "sd deg"), remedies),
+        ),
+    )
+
+
+def _invisible(findings: Findings) -> Section:
+    rows = [
+        (
+            i.effect if i.joint is None else f"{i.effect} of joint {i.joint}",
+            i.parameter or "",
+            "" if i.minimum_detectable is None else f"{i.minimum_detectable:.3g} {i.unit}",
+            i.text,
+        )
+        for i in findings.invisible
+    ]
+    return Section(
+        "What these readings could not have shown",
+        ("Smaller effects than these may be there: each size would be found in four of five such walks.",),
+        (Table(("effect", "parameter", "smallest visible size", "remark"), rows),),
+    )
