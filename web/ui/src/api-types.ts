@@ -88,6 +88,48 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/v1/calibrations/{calibration_id}/apply": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Apply Calibration
+         * @description Write the zero offsets to the drives, read them back, verify at fresh places.
+         *
+         *     A run of its own; when its verification fails it puts the old zeros back by itself.
+         */
+        post: operations["apply_calibration_api_v1_calibrations__calibration_id__apply_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/calibrations/{calibration_id}/rollback": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * Roll Back Calibration
+         * @description Put the old zeros back; a run of its own.  Calling it again answers the run that did it.
+         */
+        post: operations["roll_back_calibration_api_v1_calibrations__calibration_id__rollback_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/v1/calibrations/{calibration_id}/readings": {
         parameters: {
             query?: never;
@@ -123,6 +165,46 @@ export interface paths {
         put?: never;
         post?: never;
         delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/robots/{serial}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * Read Robot
+         * @description Its file, and what its next run will know of geometry and mechanism.
+         */
+        get: operations["read_robot_api_v1_robots__serial__get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/v1/robots/{serial}/memory": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * Forget
+         * @description The next run starts without memory; what was known stays on record.  Again is harmless.
+         */
+        delete: operations["forget_api_v1_robots__serial__memory_delete"];
         options?: never;
         head?: never;
         patch?: never;
@@ -211,6 +293,65 @@ export interface components {
             status: "alive";
         };
         /**
+         * Application
+         * @description What the drives hold of a calibration's zero offsets.
+         */
+        Application: {
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "unwritten" | "applied" | "partly" | "in doubt" | "rolled back" | "superseded";
+            /** Verified */
+            verified: boolean;
+            /** Text */
+            text: string;
+            /** Joints */
+            joints: components["schemas"]["JointApplication"][];
+            /** Runs */
+            runs: components["schemas"]["ApplicationRun"][];
+            /**
+             * Apply Refused
+             * @description why it cannot be applied, null when it can
+             */
+            apply_refused: string | null;
+            /**
+             * Rollback Refused
+             * @description why it cannot be rolled back, null when it can
+             */
+            rollback_refused: string | null;
+        };
+        /**
+         * ApplicationRun
+         * @description One attempt to apply or to roll back.
+         */
+        ApplicationRun: {
+            /** Id */
+            id: number;
+            /**
+             * Plan
+             * @enum {string}
+             */
+            plan: "apply" | "rollback";
+            /** Operator */
+            operator: string;
+            state: components["schemas"]["State"];
+            /** Verdict */
+            verdict: ("pass" | "fail") | null;
+            /** Reason */
+            reason: string | null;
+            /** Ended At */
+            ended_at: string | null;
+        };
+        /**
+         * ApplyBody
+         * @description Who writes zero offsets to the drives, or takes them back.
+         */
+        ApplyBody: {
+            /** Operator */
+            operator: string;
+        };
+        /**
          * Calibration
          * @description All that is known about one run.
          */
@@ -219,8 +360,13 @@ export interface components {
             id: number;
             /** Robot Serial */
             robot_serial: string;
-            /** Plan */
+            /**
+             * Plan
+             * @description of a calibration; `apply` and `rollback` belong to the run `of`
+             */
             plan: string;
+            /** Of */
+            of: number | null;
             /** Operator */
             operator: string;
             /** Work Order */
@@ -256,6 +402,10 @@ export interface components {
             /** Parameters */
             parameters: components["schemas"]["Quantity"][] | null;
             weak_direction: components["schemas"]["WeakDirection"] | null;
+            /** @description null unless the run has passed */
+            application: components["schemas"]["Application"] | null;
+            /** @description null when nothing was known */
+            memory: components["schemas"]["MemoryUse"] | null;
             before: components["schemas"]["Accuracy"] | null;
             after: components["schemas"]["Accuracy"] | null;
             /** Iterations */
@@ -307,8 +457,13 @@ export interface components {
             id: number;
             /** Robot Serial */
             robot_serial: string;
-            /** Plan */
+            /**
+             * Plan
+             * @description of a calibration; `apply` and `rollback` belong to the run `of`
+             */
             plan: string;
+            /** Of */
+            of: number | null;
             /** Operator */
             operator: string;
             /** Work Order */
@@ -382,6 +537,28 @@ export interface components {
             /** Mu Deg */
             mu_deg: number | null;
         };
+        /**
+         * JointApplication
+         * @description One drive: `shift_deg` is how far its frame has moved since the calibration.
+         */
+        JointApplication: {
+            /** Joint */
+            joint: number;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "unwritten" | "applied" | "partly" | "in doubt" | "rolled back" | "superseded";
+            /** Old Offset Deg */
+            old_offset_deg: number;
+            /** Shift Deg */
+            shift_deg: number | null;
+            /**
+             * New Offset Deg
+             * @description what is left of the zero offset in the drive's frame
+             */
+            new_offset_deg: number | null;
+        };
         JsonValue: unknown;
         /**
          * Machine
@@ -400,6 +577,42 @@ export interface components {
             scale_mm: number | null;
             /** Age S */
             age_s: number | null;
+        };
+        /**
+         * MemorySummary
+         * @description What the robot's next run will start from.
+         */
+        MemorySummary: {
+            /** From Calibration */
+            from_calibration: number;
+            /**
+             * At
+             * Format: date-time
+             */
+            at: string;
+            /** Age Days */
+            age_days: number;
+            /** Parameters */
+            parameters: components["schemas"]["Quantity"][];
+        };
+        /**
+         * MemoryUse
+         * @description Whether what earlier runs know of geometry and mechanism took part.
+         */
+        MemoryUse: {
+            /** Used */
+            used: boolean;
+            /**
+             * P Value
+             * @description of the readings under the memory
+             */
+            p_value: number | null;
+            /** Text */
+            text: string;
+            /** From Calibration */
+            from_calibration: number;
+            /** Age Days */
+            age_days: number | null;
         };
         /** PositionError */
         PositionError: {
@@ -477,6 +690,23 @@ export interface components {
             limit_mm: number | null;
         };
         /**
+         * Robot
+         * @description A robot as it is known here.
+         */
+        Robot: {
+            /** Serial */
+            serial: string;
+            /**
+             * File
+             * @description the sections of its robot file
+             */
+            file: {
+                [key: string]: unknown;
+            };
+            /** @description null when nothing is known */
+            memory: components["schemas"]["MemorySummary"] | null;
+        };
+        /**
          * Run
          * @description The run that holds the rig.
          */
@@ -488,6 +718,8 @@ export interface components {
             robot_serial: string;
             /** Plan */
             plan: string;
+            /** Of */
+            of: number | null;
             /** Operator */
             operator: string;
             /** Work Order */
@@ -797,7 +1029,7 @@ export interface operations {
         parameters: {
             query?: never;
             header?: {
-                "idempotency-key"?: string | null;
+                "Idempotency-Key"?: string | null;
             };
             path?: never;
             cookie?: never;
@@ -955,6 +1187,136 @@ export interface operations {
             };
         };
     };
+    apply_calibration_api_v1_calibrations__calibration_id__apply_post: {
+        parameters: {
+            query?: never;
+            header?: {
+                "Idempotency-Key"?: string | null;
+            };
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ApplyBody"];
+            };
+        };
+        responses: {
+            /** @description Accepted */
+            202: {
+                headers: {
+                    /** @description the run's address */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CalibrationSummary"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Internal Server Error */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    roll_back_calibration_api_v1_calibrations__calibration_id__rollback_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                calibration_id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ApplyBody"];
+            };
+        };
+        responses: {
+            /** @description Accepted */
+            202: {
+                headers: {
+                    /** @description the run's address */
+                    Location?: string;
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CalibrationSummary"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Internal Server Error */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
     list_readings_api_v1_calibrations__calibration_id__readings_get: {
         parameters: {
             query?: never;
@@ -1023,6 +1385,105 @@ export interface operations {
                 content: {
                     "text/csv": string;
                 };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Internal Server Error */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    read_robot_api_v1_robots__serial__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                serial: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Robot"];
+                };
+            };
+            /** @description Not Found */
+            404: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Unprocessable Entity */
+            422: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+            /** @description Internal Server Error */
+            500: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/problem+json": components["schemas"]["Problem"];
+                };
+            };
+        };
+    };
+    forget_api_v1_robots__serial__memory_delete: {
+        parameters: {
+            query?: never;
+            header?: {
+                /** @description for the log */
+                "X-Operator"?: string | null;
+            };
+            path: {
+                serial: string;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
             /** @description Not Found */
             404: {

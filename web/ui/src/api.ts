@@ -29,7 +29,7 @@ export class Refused extends Error {
   }
 }
 
-async function call<T>(method: "GET" | "POST", path: string, options: RequestInit = {}): Promise<T> {
+async function call<T>(method: "GET" | "POST" | "DELETE", path: string, options: RequestInit = {}): Promise<T> {
   let response: Response;
   try {
     response = await fetch(`/api/v1${path}`, { method, signal: AbortSignal.timeout(TIMEOUT_MS), ...options });
@@ -51,6 +51,25 @@ export const start = (body: CalibrationBody, key: string) =>
   });
 
 export const abort = (id: number) => call<Summary>("POST", `/calibrations/${id}/abort`);
+
+export const apply = (id: number, operator: string, key: string) =>
+  call<Summary>("POST", `/calibrations/${id}/apply`, {
+    headers: { "Content-Type": "application/json", "Idempotency-Key": key },
+    body: JSON.stringify({ operator }),
+  });
+
+export const rollBack = (id: number, operator: string) =>
+  call<Summary>("POST", `/calibrations/${id}/rollback`, {
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify({ operator }),
+  });
+
+export const robot = (serial: string) => call<Schemas["Robot"]>("GET", `/robots/${encodeURIComponent(serial)}`);
+
+export const forget = (serial: string, who: string) =>
+  call<null>("DELETE", `/robots/${encodeURIComponent(serial)}/memory`, {
+    headers: { "X-Operator": encodeURIComponent(who) },
+  });
 
 export const stop = () =>
   call<Schemas["Stopped"]>("POST", "/stop", {

@@ -3,15 +3,14 @@ import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { type CalibrationBody, newKey, Refused, start } from "../api";
 import { connected, station } from "../live";
+import { keepOperator, operator } from "../operator";
 import { dismissOutcome } from "./outcome";
 
 type Plan = CalibrationBody["plan"];
 
 const PLANS: Record<Plan, string> = { paper: "Paper", rapid: "Rapid", full: "Full" };
-const OPERATOR = "operator";
 
 const serial = signal("");
-const operator = signal(sessionStorage.getItem(OPERATOR) ?? "");
 const plan = signal<Plan>("paper");
 /** The confirmed start's key; null while nothing waits to be confirmed. */
 const armed = signal<string | null>(null);
@@ -54,7 +53,7 @@ export function StartForm() {
     sending.value = true;
     try {
       await start({ robot_serial: serial.value.trim(), plan: plan.value, operator: operator.value.trim() }, key);
-      sessionStorage.setItem(OPERATOR, operator.value.trim());
+      keepOperator();
       trouble.value = null;
       armed.value = null;
       dismissOutcome();

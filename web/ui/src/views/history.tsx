@@ -103,6 +103,7 @@ function Row({ run }: { run: Summary }) {
       <td class="text serial">{run.robot_serial}</td>
       <td class="text outcome-cell">
         <Badge run={run} />
+        {run.of !== null && ` ${run.plan} of run ${run.of}`}
         {run.reason && <small>{run.reason}</small>}
       </td>
       <td>{cell(1)}</td>

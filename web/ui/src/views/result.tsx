@@ -1,18 +1,20 @@
 import { calibration, type Calibration } from "../api";
 import { dateTime, duration, fixed, signed } from "../format";
 import { station } from "../live";
+import { Application } from "../parts/application";
 import { Link } from "../parts/link";
 import { useLoaded } from "../parts/load";
+import { Memory } from "../parts/memory";
 import { ResidualChart } from "../parts/residual-chart";
 import { VerdictLine } from "../parts/verdict";
 
 /** Coverage factor of every expanded uncertainty on this page. */
 const K = 2;
 
-/** One run: `id` from the address, else the last one that ended. */
+/** One run: `id` from the address, else the last one that ended or whose offsets were written. */
 export function ResultView({ id }: { id: number | null }) {
-  const last = station.value?.last?.id ?? null;
-  const shown = id ?? last;
+  const last = station.value?.last;
+  const shown = id ?? last?.of ?? last?.id ?? null;
   if (shown === null) return <Empty text={station.value ? "No run has ended yet." : "Waiting for the station …"} />;
   return <Result key={shown} id={shown} />;
 }
@@ -28,14 +30,17 @@ function Empty({ text }: { text: string }) {
 
 function Result({ id }: { id: number }) {
   const run = station.value?.run;
-  // asked again when the run that is shown makes a step or ends
-  const progress = run?.id === id ? `running ${run.step}` : "ended";
+  // asked again when the run that is shown, or one that writes its offsets, makes a step or ends
+  const progress = run?.id === id || run?.of === id ? `running ${run.id} ${run.step}` : `ended ${station.value?.last?.id}`;
   const { value: result, trouble } = useLoaded(`${id} ${progress}`, () => calibration(id)).value;
   if (!result) return <Empty text={trouble ?? "Loading …"} />;
   return (
     <div class="result">
       <section class="panel summary">
-        <h1>Result of run {id}</h1>
+        <h1>
+          Result of run {id}
+          {result.of !== null && `: ${result.plan} of run ${result.of}`}
+        </h1>
         <VerdictLine run={result} />
         <dl>
           <Fact name="Plan" value={result.plan} />
@@ -46,6 +51,11 @@ function Result({ id }: { id: number }) {
           {result.method && <Fact name="Method" value={result.method} />}
         </dl>
         <p class="actions">
+          {result.of !== null && (
+            <Link class="button" to={`/result/${result.of}`}>
+              Result {result.of}
+            </Link>
+          )}
           <a class="button" href={`/api/v1/calibrations/${id}/readings.csv`} download>
             Readings (CSV)
           </a>
@@ -56,9 +66,11 @@ function Result({ id }: { id: number }) {
       </section>
       {result.zero_offsets?.length ? (
         <>
+          <Application result={result} />
           <ZeroOffsets result={result} />
           <BeforeAfter result={result} />
           <WeakDirection result={result} />
+          {result.of === null && <Memory result={result} />}
           <Iterations result={result} />
           <ResidualChart residuals={result.residuals ?? []} />
         </>

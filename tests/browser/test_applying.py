@@ -1,0 +1,70 @@
+"""From a result to the drives and back: two steps each way, no button is ever replaced."""
+
+from __future__ import annotations
+
+from playwright.sync_api import Page, expect
+
+from tests.browser.conftest import Station
+from tests.browser.steps import add_run, violations
+
+MARK = "button => button.dataset.mine = 'yes'"
+
+
+def press(page: Page, label: str) -> None:
+    page.get_by_role("button", name=label, exact=True).click()
+    page.get_by_role("group", name=f"Confirm: {label}").get_by_role("button", name="Confirm").click()
+
+
+def test_offsets_are_applied_verified_and_rolled_back(page: Page, station: Station) -> None:
+    run = add_run(station, "FB-A")
+    page.goto(f"{station.url}/result/{run['id']}")
+    drives = page.get_by_role("region", name="Drives")
+    apply, back = (
+        drives.get_by_role("button", name=name, exact=True) for name in ("Apply to drives", "Roll back")
+    )
+    expect(drives).to_contain_text("The drives hold the old zero offsets.")
+    expect(apply).to_be_disabled()
+    drives.get_by_label("Operator").fill("ada")
+    expect(apply).to_be_enabled()
+    expect(back).to_be_disabled()
+    for button in (apply, back):
+        button.evaluate(MARK)
+    press(page, "Apply to drives")
+    expect(drives).to_contain_text("The drives hold these zero offsets. Verified.")
+    assert violations(page) == []
+    expect(apply).to_be_disabled()
+    press(page, "Roll back")
+    expect(drives).to_contain_text("Rolled back: the drives hold the old zero offsets again.")
+    expect(drives.get_by_role("listitem")).to_have_count(2)
+    for button in (apply, back):
+        assert button.get_attribute("data-mine") == "yes"
+
+
+def test_stop_is_at_hand_while_offsets_are_written(page: Page, slow_station: Station) -> None:
+    run = add_run(slow_station, "FB-B")
+    page.goto(f"{slow_station.url}/result/{run['id']}")
+    drives = page.get_by_role("region", name="Drives")
+    drives.get_by_label("Operator").fill("ada")
+    press(page, "Apply to drives")
+    expect(drives).to_contain_text("Checking the machine")
+    page.get_by_role("button", name="STOP").click()
+    expect(page.get_by_role("alert").filter(has_text="both drives confirmed")).to_be_visible()
+    expect(drives).to_contain_text("ABORTED")
+    expect(drives).to_contain_text("The drives hold the old zero offsets.")
+
+
+def test_what_is_remembered_can_be_forgotten(page: Page, station: Station) -> None:
+    body = {"robot_serial": "FB-M", "plan": "rapid", "operator": "mes"}
+    for _ in range(2):
+        run = station.api.post("/calibrations", json=body).raise_for_status().json()["id"]
+        while (ended := station.get(f"/calibrations/{run}"))["state"] in ("queued", "running"):
+            pass
+        assert ended["verdict"] == "pass"
+    page.goto(f"{station.url}/result/{run}")
+    memory = page.locator(".memory")
+    expect(memory).to_contain_text("Used: geometry and mechanism as earlier calibrations found them")
+    expect(memory).to_contain_text(f"starts from run {run}")
+    press(page, "Forget")
+    expect(memory).to_contain_text("The next run starts without memory.")
+    expect(memory.get_by_role("button", name="Forget")).to_be_disabled()
+    assert violations(page) == []

@@ -1,0 +1,79 @@
+/** Two steps for what writes or forgets: press, then confirm.  Nothing is replaced while it updates. */
+import { useSignal } from "@preact/signals";
+import type { ComponentChildren } from "preact";
+import { useEffect, useRef } from "preact/hooks";
+
+interface Props {
+  label: string;
+  /** What will happen, in a sentence. */
+  children: ComponentChildren;
+  disabled: boolean;
+  act: () => Promise<unknown>;
+}
+
+export function ConfirmedButton({ label, children, disabled, act }: Props) {
+  const armed = useSignal(false);
+  const sending = useSignal(false);
+  const trouble = useSignal<string | null>(null);
+  const button = useRef<HTMLButtonElement>(null);
+  const confirmButton = useRef<HTMLButtonElement>(null);
+
+  useEffect(() => {
+    if (armed.value) confirmButton.current?.focus();
+  }, [armed.value]);
+  useEffect(() => {
+    if (disabled) armed.value = false;
+  }, [disabled]);
+
+  const confirm = async () => {
+    if (sending.value) return;
+    sending.value = true;
+    trouble.value = await act().then(
+      () => null,
+      (error: Error) => error.message,
+    );
+    sending.value = false;
+    armed.value = false;
+    button.current?.focus();
+  };
+  return (
+    <div class="confirmed">
+      <button
+        type="button"
+        ref={button}
+        disabled={disabled || armed.value}
+        onClick={() => {
+          trouble.value = null;
+          armed.value = true;
+        }}
+      >
+        {label}
+      </button>
+      <div class="confirm" role="group" aria-label={`Confirm: ${label}`} hidden={!armed.value}>
+        <p>{children}</p>
+        <button
+          class="act"
+          type="button"
+          ref={confirmButton}
+          disabled={disabled || sending.value}
+          onKeyDown={(event) => event.repeat && event.preventDefault()}
+          onClick={() => void confirm()}
+        >
+          Confirm
+        </button>
+        <button
+          type="button"
+          onClick={() => {
+            armed.value = false;
+            button.current?.focus();
+          }}
+        >
+          Back
+        </button>
+      </div>
+      <p class="trouble" role="alert">
+        {trouble.value && `▲ ${trouble.value}`}
+      </p>
+    </div>
+  );
+}
