@@ -64,6 +64,8 @@ def _check_joint_ranges(robot: Robot, measurements: Measurements) -> None:
 def check_distances(robot: Robot, measurements: Measurements) -> None:
     """:raises InputRefused: naming the reading whose distance cannot belong to its joint angles."""
     for mount in range(len(measurements.mounts)):
+        if mount and measurements.mounts[mount] not in robot.mounts:
+            continue  # where this mount is, is for the identification to find
         own = np.flatnonzero(measurements.mount == mount)
         c = complex(*robot.mounts.get(measurements.mounts[mount], robot.c))
         nominal = np.abs(forward(robot.geometry, measurements.theta[own]) - c - complex(*robot.d))
@@ -73,9 +75,8 @@ def check_distances(robot: Robot, measurements: Measurements) -> None:
             k = int(np.argmax(np.abs(apart)))
             raise InputRefused(
                 f"Reading {measurements.ids[own[k]]}, column scale_mm: the distance is "
-                f"{abs(apart[k]):.0f} mm "
-                "off what its joint angles say, compared with the other readings; check that the row is in "
-                "its place."
+                f"{abs(apart[k]):.0f} mm off what its joint angles say, compared with the other readings; "
+                "check that the row is in its place."
             )
 
 

@@ -7,7 +7,7 @@ its readings.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
@@ -18,30 +18,48 @@ from station.measurements import Measurements, number
 from station.records import Stop
 from station.robot import Robot
 
+ROOM_C = 20.0
 Servo = Literal["exact", "whole pulses", "continuous"]
 """Where servos rest: on the commanded pulse; beside it on a whole pulse (eq. 35); beside it anywhere."""
 
 
 class SimulatedMachine:
-    """A five-bar with errors `truth` (12,), in the order of `station.error_model`, mm and rad."""
+    """A five-bar with errors `truth` (12,), in the order of `station.error_model`, mm and rad.
 
-    def __init__(self, robot: Robot, truth: Real, servo: Servo, seed: int) -> None:
+    `effects` are the emulated machine's own (docs of `drivers.emulated.effects`), each as the table of a
+    rig file; `noise` False silences the head.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        truth: Real,
+        servo: Servo,
+        seed: int,
+        effects: Sequence[dict[str, Any]] = (),
+        *,
+        noise: bool = True,
+    ) -> None:
         self.truth = truth
         dtheta = np.degrees(truth[:2])
         self._rig = VirtualRig(
-            MachineSpec(
-                e_mm=robot.e,
-                L_mm=robot.L,
-                l_mm=robot.l,
-                c_mm=robot.c,
-                d_mm=robot.d,
-                zero_offsets_deg=(dtheta[0], dtheta[1]),
-                e_error_mm=(truth[2], truth[3], truth[4], truth[5]),
-                L_error_mm=(truth[6], truth[7]),
-                l_error_mm=(truth[8], truth[9]),
-                drm_mm=(truth[10], truth[11]),
-                scatter=servo != "exact",
-                whole_pulses=servo != "continuous",
+            MachineSpec.model_validate(
+                dict(
+                    e_mm=robot.e,
+                    L_mm=robot.L,
+                    l_mm=robot.l,
+                    c_mm=robot.c,
+                    d_mm=robot.d,
+                    zero_offsets_deg=(dtheta[0], dtheta[1]),
+                    e_error_mm=(truth[2], truth[3], truth[4], truth[5]),
+                    L_error_mm=(truth[6], truth[7]),
+                    l_error_mm=(truth[8], truth[9]),
+                    drm_mm=(truth[10], truth[11]),
+                    scatter=servo != "exact",
+                    whole_pulses=servo != "continuous",
+                    **({} if noise else {"scale_noise_mm": 0.0}),
+                    effects=list(effects),
+                )
             ),
             seed=seed,
         )
@@ -59,6 +77,7 @@ class SimulatedMachine:
             position=number(places)[0],
             mount=np.zeros(len(taken), dtype=np.intp),
             samples=np.full(len(taken), samples, dtype=np.intp),
+            temperature_c=np.array([ROOM_C + r.temperature_rise_k for r in taken]),
         )
 
     def walk(self, stops: Sequence[Stop], samples: int = 1) -> Measurements:

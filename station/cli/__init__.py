@@ -17,6 +17,7 @@ _MODULES = {
     "backup": "archive",
     "bench": "studies",
     "calibrate": "calibrate",
+    "confusion": "confusion",
     "diagnose": "diagnosis",
     "export": "archive",
     "identify": "numerics",

@@ -25,8 +25,8 @@ SIGNIFICANT = 0.01
 """Family-wise over the catalogue (Holm: the smallest p is held against the whole count)."""
 RIVALS = 40.0
 """A candidate this much worse (chi-square) in the linear scan is not worth a nonlinear fit."""
-HOPEFUL = 3.0
-"""Nor one that leaves so many times what the best leaves; large effects are not quite linear."""
+HOPEFUL = 0.02
+"""Unless it takes all but this share: a large effect is not quite linear."""
 MOST_RIVALS = 6
 ODD_SHARE = 0.03
 ALIAS = 11.0
@@ -132,7 +132,7 @@ def _add(current: Fit, prior: Prior, candidates: list[Candidate]) -> tuple[Findi
         return None
     best = max(refined, key=lambda c: c.reduction)
     unit = _noise_square(current.cost - best.reduction, current.dof - best.size)
-    worst = HOPEFUL * (current.cost - best.reduction) + RIVALS * unit
+    worst = max(current.cost - best.reduction + RIVALS * unit, HOPEFUL * current.cost)
     rivals = [c for c in refined if current.cost - c.reduction < worst]
     fits: list[tuple[float, Candidate, Fit]] = []
     for c in sorted(rivals, key=lambda c: -c.reduction)[:MOST_RIVALS]:

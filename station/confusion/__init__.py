@@ -1,0 +1,1 @@
+"""How often the diagnosis names the right cause, on machines that the emulator makes up."""
