@@ -71,8 +71,9 @@ class Scan:
         S = S / fit.row_sd[:, None]
         flat = S.transpose(1, 0, 2).reshape(len(fit.row_sd), -1)
         inside = (self._q.T @ flat).reshape(-1, *S.shape[::2])
-        whole = np.einsum("vkq,vkp->vqp", S, S, optimize=True)
-        left = whole - np.einsum("jvq,jvp->vqp", inside, inside, optimize=True)
+        whole = S.transpose(0, 2, 1) @ S
+        within = inside.transpose(1, 2, 0)
+        left = whole - within @ within.transpose(0, 2, 1)
         along = (self._residual @ flat).reshape(S.shape[::2])
         reduction, smallest = _explained(left, along)
         # what a constant reading offset takes up is no part of a signature

@@ -142,12 +142,12 @@ def scaled(name: str, value: float, variance: float, factor: float, unit: str) -
 def amplitude_and_phase(
     name: str, unit: str, factor: float, amplitudes: Real, covariance: Real
 ) -> tuple[Quantity, Quantity]:
-    """Of a sin (first) and b cos (second): amplitude sin(x + phase)."""
+    """Of a cos x (first) and b sin x (second) as amplitude sin(x + phase)."""
     a, b = float(amplitudes[0]), float(amplitudes[1])
     size = float(np.hypot(a, b)) or 1e-300
     along = np.array([a, b]) / size
-    across = np.array([-b, a]) / size**2
+    across = np.array([b, -a]) / size**2
     return (
         scaled(name, size, float(along @ covariance @ along), factor, unit),
-        scaled("phase_deg", np.arctan2(b, a), float(across @ covariance @ across), 180.0 / np.pi, "deg"),
+        scaled("phase_deg", np.arctan2(a, b), float(across @ covariance @ across), 180.0 / np.pi, "deg"),
     )

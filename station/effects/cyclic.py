@@ -14,10 +14,18 @@ OVERSAMPLING = 3.0
 """Search steps per independent frequency."""
 
 
-def wave(angle: Real, per_turn: Real) -> Real:
-    """(V, K, 2) sine and cosine of V multiples of an angle (K,)."""
-    phase = np.asarray(per_turn)[:, None] * angle
-    return np.stack([np.sin(phase), np.cos(phase)], axis=-1)
+def wave(angle: Real, per_turn: float) -> Real:
+    """(K, 2) cosine and sine of a multiple of an angle (K,)."""
+    return np.column_stack([np.cos(per_turn * angle), np.sin(per_turn * angle)])
+
+
+def waves(angle: Real, first: float, step: float, count: int) -> Real:
+    """(V, K, 2) the same for the multiples first, first + step, ...: each turned on from the one before."""
+    turning = np.empty((count, len(angle)), dtype=complex)
+    turning[0] = np.exp(1j * first * angle)
+    turning[1:] = np.exp(1j * step * angle)
+    np.multiply.accumulate(turning, axis=0, out=turning)
+    return turning.view(float).reshape(count, len(angle), 2)
 
 
 class EncoderEccentricity(Effect):
@@ -28,7 +36,7 @@ class EncoderEccentricity(Effect):
 
     def variants(self, c: Conditions) -> Variants | None:
         i = (self.joint or 1) - 1
-        return Variants(Acts(joint=i), wave(c.theta[:, i], np.ones(1)), ({"per_rev": 1.0},), 1.0)
+        return Variants(Acts(joint=i), wave(c.theta[:, i], 1.0)[None], ({"per_rev": 1.0},), 1.0)
 
     def quantities(
         self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
@@ -55,11 +63,9 @@ class GearCyclic(Effect):
             return None
         step = 2.0 * np.pi / span / OVERSAMPLING
         n = np.arange(lowest, self.HIGHEST, step)
-        whole = np.arange(np.ceil(lowest), self.HIGHEST + 1)
-        n = np.unique(np.concatenate([n, whole]))
         return Variants(
             Acts(joint=i),
-            wave(c.theta[:, i], n),
+            waves(c.theta[:, i], lowest, step, len(n)),
             tuple({"per_rev": float(v)} for v in n),
             (self.HIGHEST - lowest) * span / (2.0 * np.pi) * 2.0,
         )
@@ -70,7 +76,7 @@ class GearCyclic(Effect):
         return {"per_rev": (n - 2 * step, n + 2 * step)}
 
     def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
-        return np.asarray(wave(c.theta[:, (self.joint or 1) - 1], np.array([hidden["per_rev"]]))[0])
+        return wave(c.theta[:, (self.joint or 1) - 1], hidden["per_rev"])
 
     def quantities(
         self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real

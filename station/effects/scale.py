@@ -15,7 +15,7 @@ from station.effects.base import (
     one,
     scaled,
 )
-from station.effects.cyclic import OVERSAMPLING, wave
+from station.effects.cyclic import OVERSAMPLING, wave, waves
 from station.kinematics import Real
 from station.records import Quantity
 
@@ -79,7 +79,7 @@ class ScaleCyclic(Effect):
         frequency = np.arange(2.0 / span, 1.0 / self.SHORTEST_MM, 1.0 / span / OVERSAMPLING)
         return Variants(
             ON_READING,
-            wave(c.travel, 2.0 * np.pi * frequency),
+            waves(c.travel, 2.0 * np.pi * frequency[0], 2.0 * np.pi / span / OVERSAMPLING, len(frequency)),
             tuple({"period_mm": float(1.0 / f)} for f in frequency),
             2.0 * span / self.SHORTEST_MM,
         )
@@ -89,7 +89,7 @@ class ScaleCyclic(Effect):
         return {"period_mm": (1.0 / (frequency + 2 * step), 1.0 / max(frequency - 2 * step, step))}
 
     def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
-        return np.asarray(wave(c.travel, np.array([2.0 * np.pi / hidden["period_mm"]]))[0])
+        return wave(c.travel, 2.0 * np.pi / hidden["period_mm"])
 
     def quantities(
         self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
@@ -118,4 +118,4 @@ class ScaleHysteresis(Effect):
     def quantities(
         self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
     ) -> tuple[Quantity, ...]:
-        return (scaled("width_mm", amplitudes[0], covariance[0, 0], 2.0, "mm"),)
+        return (scaled("width_mm", amplitudes[0], covariance[0, 0], -2.0, "mm"),)
