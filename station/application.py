@@ -5,6 +5,7 @@ Told from the journal of zeros alone, so that it is right after an abort, a cras
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 from station.errors import NotApplicable
@@ -97,7 +98,7 @@ def _check_not_superseded(calibration_id: int, writes: list[ZeroWrite]) -> None:
             raise NotApplicable(f"The zeros of the drives have been changed since, by run {write.run_id}.")
 
 
-def _reason(store: Store, calibration_id: int, check: Any) -> str | None:
+def _reason(store: Store, calibration_id: int, check: Callable[[Store, int], None]) -> str | None:
     try:
         check(store, calibration_id)
     except NotApplicable as refusal:

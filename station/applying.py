@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Generator
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Literal
 
 from drivers.protocols import DeviceError
 from station.identification import Identification
@@ -133,7 +133,7 @@ def _way_back(source: Source, cause: str) -> _Steps:
 def _result(
     source: Source,
     shift: Angles,
-    verdict: Any,
+    verdict: Literal["pass", "fail"],
     reason: str,
     readings: list[Reading],
     check: Verification | None,

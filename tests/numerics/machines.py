@@ -11,7 +11,7 @@ import pytest
 from station.error_model import perturbed, pose
 from station.kinematics import Complex, Real, inverse
 from station.measurements import Measurements
-from station.records import CalibrationResult, Procedure, Reading
+from station.records import CalibrationResult, Procedure, Reading, Walk
 from station.robot import Robot
 
 DATA = Path(__file__).parents[3] / "shared" / "data"
@@ -67,6 +67,7 @@ def calibrate(
     walk = next(procedure)
     number = 0
     while True:
+        assert isinstance(walk, Walk)
         theta = np.array([stop.theta_deg for stop in walk.stops])
         theta = np.round(theta / PULSE_DEG) * PULSE_DEG
         taken: list[Reading] = []

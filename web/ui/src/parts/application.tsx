@@ -1,12 +1,22 @@
 /** What the drives hold of a run's zero offsets: write them, take them back. */
 import { apply, type Calibration, newKey, rollBack } from "../api";
-import { fixed, signed } from "../format";
+import { signed } from "../format";
 import { connected, station } from "../live";
 import { keepOperator, operator } from "../operator";
 import { ConfirmedButton } from "./confirm";
 import { Link } from "./link";
 import { Badge } from "./verdict";
 
+type State = NonNullable<Calibration["application"]>["state"];
+
+const JOINTS: Record<State, string> = {
+  unwritten: "old zero",
+  applied: "new zero",
+  partly: "partly",
+  "in doubt": "▲ in doubt",
+  "rolled back": "old zero again",
+  superseded: "changed since",
+};
 const ALARMS: Record<string, string> = { partly: "▲", "in doubt": "▲" };
 
 export function Application({ result: { id, application, robot_serial } }: { result: Calibration }) {
@@ -74,8 +84,8 @@ export function Application({ result: { id, application, robot_serial } }: { res
               <th scope="row">{joint.joint}</th>
               <td>{signed(joint.old_offset_deg, 4)}</td>
               <td>{signed(joint.shift_deg, 4)}</td>
-              <td class="main">{fixed(joint.new_offset_deg, 4)}</td>
-              <td class="text">{joint.state}</td>
+              <td class="main">{signed(joint.new_offset_deg, 4)}</td>
+              <td class="text">{JOINTS[joint.state]}</td>
             </tr>
           ))}
         </tbody>
