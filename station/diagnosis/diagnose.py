@@ -13,7 +13,7 @@ from station.diagnosis.conditions import reference_of
 from station.diagnosis.confirm import FEWEST, Confirmation, confirm
 from station.diagnosis.hints import Hint, hints
 from station.diagnosis.model import Fit, Model
-from station.diagnosis.trace import Trace, trace
+from station.diagnosis.trace import Stage, Trace, trace, with_alias
 from station.effects import Effect, catalogue
 from station.errors import InputRefused
 from station.five_bar import FiveBar
@@ -29,6 +29,7 @@ Verdict = Literal["adequate", "explained", "partly_explained", "unexplained"]
 FEWEST_READINGS = 30
 """Thirteen unknowns and an effect leave too little of fewer readings to judge a residual by."""
 FEWEST_REPEATS = 6
+FEWEST_NOISE_DOF = 10
 MOST_LEFT_OUT = 0.05
 USELESS = 0.6
 """Fresh residual over that of the base model from which on an added effect predicts nothing worth having."""
@@ -110,11 +111,11 @@ def diagnose(
         named = {o.reading for o in found.outliers}
         kept = kept.take(np.array([i not in named for i in kept.ids]))
         found = _trace(robot, kept, effects)
-    last = found.stages[-1]
-    noise = float(np.sqrt(np.mean(last.fit.row_sd**2)))
     checks: tuple[Confirmation, ...] = ()
     if fresh is not None:
-        checks = tuple(confirm(s.fit, fresh, max(s.adequacy.pure_dof, 10)) for s in found.stages)
+        found, checks = _confirmed(found, fresh)
+    last = found.stages[-1]
+    noise = float(np.sqrt(np.mean(last.fit.row_sd**2)))
     unexplained = not found.adequate or (bool(checks) and not checks[-1].confirmed)
     rest = found.stages[0] if _hopeless(found, checks) else last
     return Diagnosis(
@@ -126,6 +127,24 @@ def diagnose(
         confirmations=checks,
         hints=hints(rest.fit, noise, repeats_agree=rest.adequacy.quiet) if unexplained else (),
     )
+
+
+def _confirmed(found: Trace, fresh: Measurements) -> tuple[Trace, tuple[Confirmation, ...]]:
+    """Every stage against the fresh readings; they also settle between look-alikes that the walk left open."""
+    checks = tuple(_check(stage, fresh) for stage in found.stages)
+    if not found.findings or not found.adequate or checks[-1].confirmed:
+        return found, checks
+    for alias in found.findings[-1].aliases:
+        mechanism = found.stages[0].fit.model.mechanism
+        other = with_alias(found, alias, tolerance_prior(mechanism), mechanism.row_sd)
+        check = _check(other.stages[-1], fresh)
+        if other.adequate and check.confirmed:
+            return other, (*checks[:-1], check)
+    return found, checks
+
+
+def _check(stage: Stage, fresh: Measurements) -> Confirmation:
+    return confirm(stage.fit, fresh, max(stage.adequacy.pure_dof, FEWEST_NOISE_DOF))
 
 
 def check_enough(measurements: Measurements) -> None:

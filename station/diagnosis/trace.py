@@ -93,6 +93,17 @@ def trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[Effec
     return Trace(tuple(stages), tuple(findings), tuple(candidates), odd)
 
 
+def with_alias(found: Trace, alias: Term, prior: Prior, specified_sd: Real) -> Trace:
+    """The same way with a look-alike of the last finding in its place."""
+    *earlier, last = found.findings
+    model = found.stages[-2].fit.model
+    better = fit(replace(model, terms=(*model.terms, alias)), prior, found.stages[-1].fit.row_sd)
+    others = (last.term, *(t for t in last.aliases if t is not alias))
+    swapped = Finding(alias, last.p_value, others)
+    stage = _settled(better.model, prior, specified_sd, better)
+    return replace(found, stages=(*found.stages[:-1], stage), findings=(*earlier, swapped))
+
+
 def _odd_readings(found: Fit) -> tuple[Outlier, ...]:
     """Single readings off the model; many of them are an effect, not outliers."""
     odd = outliers.off(found.model.mechanism.measurements, found.solution, found.row_sd)
