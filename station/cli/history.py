@@ -26,6 +26,7 @@ _COLUMNS = (
     "created_at",
     "robot_serial",
     "plan",
+    "of",
     "operator",
     "work_order",
     "state",
