@@ -46,7 +46,7 @@ class Plan:
     name: PlanName
     stops: tuple[Stop, ...]
     predicted: dict[str, Any]
-    """{zero_offset_sd_deg: [2], common_sd_deg, position_error_mm: {rms, max}}"""
+    """{zero_offset_sd_deg: [2], common_sd_deg, position_error_mm: {rms, max}, map: [{x_mm, y_mm, sd_mm}]}"""
 
     def as_json(self) -> dict[str, Any]:
         return {
@@ -115,6 +115,14 @@ def predict(robot: Robot, places: Complex) -> dict[str, Any]:
         "zero_offset_sd_deg": [float(sd[0]), float(sd[1])],
         "common_sd_deg": float(np.degrees(np.sqrt(covariance[:2, :2].sum()) / 2.0)),
         "position_error_mm": position_error_summary(np.zeros_like(error), jacobian, covariance),
+        "map": [
+            {"x_mm": float(r.real), "y_mm": float(r.imag), "sd_mm": float(s)}
+            for r, s in zip(
+                robot.workspace_grid(*GRID),
+                np.sqrt(np.einsum("gdi,ij,gdj->g", jacobian, covariance, jacobian)),
+                strict=True,
+            )
+        ],
     }
 
 

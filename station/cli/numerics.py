@@ -11,7 +11,7 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station import measurement_file
+from station import measurement_file, plan_drawing
 from station.identification import Identification, identify
 from station.plans import make_plan
 from station.records import PlanName
@@ -44,9 +44,14 @@ def describe(path: Path, readings: int) -> dict[str, Any]:
 
 
 def write_json(path: Path, content: dict[str, Any]) -> None:
-    """:raises click.ClickException: the file cannot be written."""
+    """Finite numbers only.  :raises click.UsageError: the file cannot be written."""
+    write_text(path, json.dumps(content, indent=1, allow_nan=False) + "\n")
+
+
+def write_text(path: Path, text: str) -> None:
+    """:raises click.UsageError: the file cannot be written."""
     try:
-        path.write_text(json.dumps(content, indent=1, allow_nan=False) + "\n", encoding="utf-8")
+        path.write_text(text, encoding="utf-8")
     except OSError as error:
         raise click.UsageError(f"{path} cannot be written: {error.strerror}.") from error
 
@@ -82,13 +87,18 @@ def _print(fit: Identification, content: dict[str, Any]) -> None:
 @click.option("--plan", "name", type=click.Choice(["paper", "rapid", "full"]), default="paper")
 @click.option("--robot", "robot_file", type=existing, help="Robot file; without it the paper's Table 1.")
 @click.option("--json", "json_file", type=existing, help="Write the plan here.")
-def plan_command(name: PlanName, robot_file: Path | None, json_file: Path | None) -> None:
+@click.option("--html", "html_file", type=existing, help="Write the plan as a page with drawings here.")
+def plan_command(
+    name: PlanName, robot_file: Path | None, json_file: Path | None, html_file: Path | None
+) -> None:
     """The positions of a plan, their order and the accuracy they predict."""
     robot = Robot.from_toml(robot_file) if robot_file else Robot.default()
     plan = make_plan(name, robot)
     content = plan.as_json()
     if json_file:
         write_json(json_file, content)
+    if html_file:
+        write_text(html_file, plan_drawing.page(plan).to_html())
     table = Table("stop", "position", "x mm", "y mm", "theta1 deg", "theta2 deg", "approach")
     for k, stop in enumerate(plan.stops):
         table.add_row(
@@ -100,4 +110,5 @@ def plan_command(name: PlanName, robot_file: Path | None, json_file: Path | None
         )
     console = Console()
     console.print(table)
+    click.echo(plan_drawing.as_text(plan, robot))
     console.print(plan.summary())

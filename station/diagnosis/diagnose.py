@@ -130,7 +130,7 @@ def diagnose(
 
 
 def _confirmed(found: Trace, fresh: Measurements) -> tuple[Trace, tuple[Confirmation, ...]]:
-    """Every stage against the fresh readings; they also settle between look-alikes that the walk left open."""
+    """Every stage against the fresh readings; they also settle between look-alikes left open by the walk."""
     checks = tuple(_check(stage, fresh) for stage in found.stages)
     if not found.findings or not found.adequate or checks[-1].confirmed:
         return found, checks
