@@ -84,7 +84,7 @@ export function Application({ result: { id, application, robot_serial } }: { res
               <th scope="row">{joint.joint}</th>
               <td>{signed(joint.old_offset_deg, 4)}</td>
               <td>{signed(joint.shift_deg, 4)}</td>
-              <td class="main">{signed(joint.new_offset_deg, 4)}</td>
+              <td>{signed(joint.new_offset_deg, 4)}</td>
               <td class="text">{JOINTS[joint.state]}</td>
             </tr>
           ))}
