@@ -24,9 +24,10 @@ def held_out(solution: Solution, block: Index) -> Real:
     J, C = solution.jacobian[:, finite], solution.covariance[np.ix_(finite, finite)]
     r = -solution.residual
     out = np.empty_like(r)
+    count = np.bincount(block)
     order = np.argsort(block, kind="stable")
-    edges = np.flatnonzero(np.diff(block[order])) + 1
-    for own in np.split(order, edges):
-        left = np.eye(len(own)) - J[own] @ C @ J[own].T
-        out[own] = np.linalg.pinv(left, rcond=DETERMINED, hermitian=True) @ r[own]
+    for size in np.unique(count[count > 0]):
+        own = order[count[block[order]] == size].reshape(-1, size)
+        left = np.eye(size) - J[own] @ C @ J[own].swapaxes(1, 2)
+        out[own] = np.squeeze(np.linalg.pinv(left, rcond=DETERMINED, hermitian=True) @ r[own][:, :, None], 2)
     return out

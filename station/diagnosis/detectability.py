@@ -51,17 +51,15 @@ def _one(scan: Scan, effect: Effect, tests: int) -> Detectable:
         text = "invisible in these readings: geometry and zero offsets take up its signature"
         return Detectable(effect.id, effect.joint, None, None, None, text)
     size = variants.basis.shape[2]
-    amplitude = np.sqrt(_noncentrality(scan, variants, size, tests) / information)
-    shown = [
-        effect.quantities(hidden, np.array([a, *[0.0] * (size - 1)]), np.zeros((size, size)))[0]
-        for hidden, a in zip(variants.hidden, amplitude, strict=True)
-    ]
-    # one and the same quantity in every variant compared
-    name = next(q.name for q, seen in zip(shown, visible, strict=True) if seen)
-    sizes = [abs(q.value) for q, seen in zip(shown, visible, strict=True) if seen and q.name == name]
-    unit = next(q.unit for q in shown if q.name == name)
-    text = "" if len(sizes) == 1 else "typical of what was searched"
-    return Detectable(effect.id, effect.joint, name, float(np.median(sizes)), unit, text)
+    # variants compared differ in the values of their hidden parameters only, not in what they act on
+    kind = variants.hidden[int(np.argmax(visible))].keys()
+    alike = [k for k, hidden in enumerate(variants.hidden) if visible[k] and hidden.keys() == kind]
+    typical = sorted(alike, key=lambda k: information[k])[len(alike) // 2]
+    amplitude = np.zeros(size)
+    amplitude[0] = np.sqrt(_noncentrality(scan, variants, size, tests) / information[typical])
+    shown = effect.quantities(variants.hidden[typical], amplitude, np.zeros((size, size)))[0]
+    text = "" if len(alike) == 1 else "typical of what was searched"
+    return Detectable(effect.id, effect.joint, shown.name, abs(shown.value), shown.unit, text)
 
 
 def _noncentrality(scan: Scan, variants: Variants, size: int, tests: int) -> float:

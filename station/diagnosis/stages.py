@@ -116,7 +116,7 @@ def _paper(diagnosis: Diagnosis) -> StageErrors:
         return (at.value - mechanism.measured) / row_sd, at.by_parameter[:, free] / row_sd[:, None]
 
     try:
-        solution = solve(residuals, start[free], Prior(start[free], np.zeros((0, len(free)))))
+        solution = solve(residuals, diagnosis.base.x[free], Prior(start[free], np.zeros((0, len(free)))))
     except NotConvergedError as error:
         raise InputRefused(f"The paper's model did not converge ({error}); check the robot file.") from error
     fresh_mm = None
