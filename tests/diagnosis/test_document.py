@@ -13,6 +13,7 @@ from click.testing import CliRunner
 from pydantic import BaseModel, ConfigDict, Field
 
 from station.cli import main
+from station.effects import catalogue
 from tests.diagnosis.machines import Emulated, to_csv
 
 BACKLASH = {"kind": "backlash", "joint": 1, "width_deg": 0.01}
@@ -223,3 +224,9 @@ def test_page_of_the_unexplained_says_on_what_it_depends(unexplained: Run) -> No
     assert "What the rest depends on" in text
     assert "Effects tried" in text
     assert "something drags on the platform" in text
+
+
+def test_every_effect_is_documented() -> None:
+    text = (Path(__file__).parents[2] / "docs" / "diagnosis.md").read_text(encoding="utf-8")
+    for effect in catalogue():
+        assert f"| `{effect.id}` |" in text
