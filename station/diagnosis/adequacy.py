@@ -18,6 +18,8 @@ from station.kinematics import Real
 ALPHA = 0.003
 """Of each of the three tests: a clean machine is looked at twice in less than one of a hundred runs."""
 FEWEST_REPEATS = 6
+LOUD = 3.0
+"""Repeats that scatter so many times more than specified are a fault by themselves: any model fits in them."""
 
 
 @dataclass(frozen=True)
@@ -31,11 +33,18 @@ class Adequacy:
     pure_factor: float
     """Pure error over the row_sd of the fit; NaN without enough repeats."""
     pure_dof: int
+    loudness: float
+    """Pure error over the specification; NaN without enough repeats."""
 
     @property
     def passed(self) -> bool:
-        """By the two tests that a noisier head alone does not fail."""
-        return min(self.lack_of_fit_p, self.order_in_time_p) >= ALPHA
+        """By the two tests that a somewhat noisier head alone does not fail."""
+        return not self.loud and min(self.lack_of_fit_p, self.order_in_time_p) >= ALPHA
+
+    @property
+    def loud(self) -> bool:
+        """Repeats scatter far more than specified."""
+        return self.loudness > LOUD
 
     @property
     def quiet(self) -> bool:
@@ -60,6 +69,7 @@ def judge(fit: Fit, specified_sd: Real) -> Adequacy:
         repeats_p=float(chdtrc(dof, against_spec)) if known else 1.0,
         pure_factor=float(np.sqrt(pure / dof)) if known else float("nan"),
         pure_dof=dof,
+        loudness=float(np.sqrt(against_spec / dof)) if known else float("nan"),
     )
 
 

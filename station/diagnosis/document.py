@@ -203,6 +203,9 @@ class Findings:
                 text = (
                     "Unexplained: the residual is not noise, and no effect of the catalogue accounts for it"
                 )
+                adequacy = self.diagnosis.trace.stages[-1].adequacy
+                if adequacy.loud:
+                    text += f"; repeats scatter {adequacy.loudness:.0f} times more than specified"
                 return f"{text}." if not names else f"{text}; {names} came nearest."
         after = {
             True: "fresh readings confirm it",

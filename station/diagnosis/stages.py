@@ -118,7 +118,10 @@ def _paper(diagnosis: Diagnosis) -> StageErrors:
     try:
         solution = solve(residuals, diagnosis.base.x[free], Prior(start[free], np.zeros((0, len(free)))))
     except NotConvergedError as error:
-        raise InputRefused(f"The paper's model did not converge ({error}); check the robot file.") from error
+        raise InputRefused(
+            f"Not even the paper's four unknowns converge on these readings ({error}); "
+            "check the robot file and that angles and distances belong together."
+        ) from error
     fresh_mm = None
     if diagnosis.fresh is not None:
         fresh = FiveBar(diagnosis.robot, diagnosis.fresh)

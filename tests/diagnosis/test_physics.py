@@ -145,3 +145,12 @@ def test_dirty_readings_are_named_and_left_out() -> None:
     found = Findings(diagnose(ROBOT, walk, machine.fresh()))
     assert found.passed
     assert {o.reading for o in found.diagnosis.outliers} == {21, 78}
+
+
+def test_repeats_that_disagree_grossly_are_never_adequate() -> None:
+    """Twelve readings off by 5 mm are too many to be left out, and their scatter must not hide them."""
+    walk = Emulated(seed=3).walk()
+    walk.distance[::10] += 5.0
+    found = Findings(diagnose(ROBOT, walk))
+    assert not found.passed
+    assert "times more than specified" in found.sentence
