@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 FORGOTTEN = ("dtheta1", "dtheta2", "rho0")
 WIDENED_PER_ROOT_YEAR = 0.3
 """Share of a parameter's tolerance by which it may have wandered in a year (random walk)."""
-GATE_P = 0.01
+GATE_P = 0.02
 """A right memory is dropped this often; dropping costs accuracy, keeping a wrong one costs truth."""
 INFORMATIVE = 0.3
 """Directions in which the readings say less than this share of what the memory says cannot contradict it."""

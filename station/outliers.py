@@ -21,7 +21,7 @@ from station.measurements import Index, Measurements
 SIGNIFICANCE = 1e-3
 """For the whole set of readings (Bonferroni)."""
 LARGEST_SHARE = 0.1
-FEW = 15
+FEW = 40
 """Below this many readings their own scatter cannot be trusted to be smaller than specified."""
 SUSPICIOUS = 1.5
 """More scatter than specified may be gross readings in hiding."""
