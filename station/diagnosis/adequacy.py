@@ -19,7 +19,7 @@ ALPHA = 0.003
 """Of each of the three tests: a clean machine is looked at twice in less than one of a hundred runs."""
 FEWEST_REPEATS = 6
 LOUD = 3.0
-"""Repeats that scatter so many times more than specified are a fault by themselves: any model fits in them."""
+"""Repeats that scatter so many times more than specified are a fault by themselves: any model fits them."""
 
 
 @dataclass(frozen=True)
