@@ -64,6 +64,10 @@ def test_a_fault_on_the_wire_is_survived_or_named(
             assert (state, calibration["verdict"]) == (State.FAILED, None)
             assert reason in calibration["reason"]
             assert " position P" in calibration["reason"]
+        elif kind == "servo_link_dropped" and state is State.FAILED:
+            # a read is asked again, a move never: which of them the cable meets is a matter of timing
+            assert " position P" in calibration["reason"]
+            assert "axis" in calibration["reason"]
         else:
             assert state is State.SUCCEEDED
 

@@ -26,7 +26,10 @@ def test_stop_without_a_run_still_stops(service: Service) -> None:
 
 
 def test_a_drive_that_is_not_connected_has_not_confirmed(service: Service) -> None:
-    service.rig.script.fail("axis 1 connect", LinkLost("axis 1: nothing answers"))
+    nothing = LinkLost("axis 1: nothing answers")
+    service.rig.script.fail("axis 1 connect", nothing)
+    service.rig.script.fail("axis 1 status", nothing)
+    service.wait_for("axis 1 close")  # before each try to connect, the first one included
     assert service.client.post("/api/v1/stop").status_code == 502
 
 
