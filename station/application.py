@@ -26,6 +26,8 @@ def application(store: Store, calibration: dict[str, Any]) -> dict[str, Any] | N
     """The `application` part of a calibration as REST answers it; None where there is nothing to apply."""
     if calibration["of"] is not None or calibration["verdict"] != "pass":
         return None
+    if calibration["plan"] == "diagnostic":
+        return None
     runs = store.runs_of(calibration["id"])
     writes = _writes(store, calibration)
     joints = [_joint(zero, writes) for zero in calibration["zero_offsets"]]
@@ -83,6 +85,8 @@ def _applicable(store: Store, calibration_id: int) -> dict[str, Any]:
     calibration = store.calibration(calibration_id)
     if calibration["of"] is not None:
         raise NotApplicable(f"Run {calibration_id} is no calibration; it belongs to run {calibration['of']}.")
+    if calibration["plan"] == "diagnostic":
+        raise NotApplicable(f"Run {calibration_id} looked for a cause; calibrate to have offsets to write.")
     if calibration["state"] != "succeeded" or calibration["verdict"] != "pass":
         raise NotApplicable(f"Run {calibration_id} has not passed; only the offsets of a pass are written.")
     return calibration

@@ -84,3 +84,9 @@ def zero_writes(db: Database) -> None:
             from_deg REAL NOT NULL, to_deg REAL, taken INTEGER)"""
     )
     db.execute("CREATE INDEX zero_writes_run ON zero_writes (run_id)")
+
+
+@migrations()
+def diagnoses(db: Database) -> None:
+    """The whole diagnosis document of a run that has one, compressed; read by itself."""
+    db.execute("ALTER TABLE results ADD COLUMN diagnosis BLOB")

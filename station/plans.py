@@ -6,6 +6,8 @@ and could not contradict a wrong memory (docs/decisions/0004-rapid-places.md).
 `full` visits 24 places, chosen for the position error; each is read three times from one side and
 twice from the other, and the order keeps time apart from place so that a drift cannot pass for
 geometry.
+
+`diagnostic` looks for the cause of a residual (`station.diagnostic_walk`).
 """
 
 from __future__ import annotations
@@ -15,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from station import diagnostic_walk
 from station.errors import InputRefused
 from station.exchange import choose
 from station.five_bar import GRID, FiveBar
@@ -87,6 +90,9 @@ def make_plan(name: PlanName, robot: Robot, dtheta: Real | None = None) -> Plan:
     if name == "full":
         places = _choose(robot, _candidates(robot), FULL_PLACES)
         order, approach = _both_sides(places)
+    elif name == "diagnostic":
+        places = diagnostic_walk.grid(robot, INSET_MM)
+        order, approach = diagnostic_walk.visits()
     else:
         n = positions_per_edge(robot)
         places = boundary_positions(robot.workspace_x, robot.workspace_y, n)

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from station.diagnostic_run import diagnostic
 from station.five_bar import FiveBar
 from station.identification import Identification, identify
 from station.measurements import from_readings
@@ -23,10 +24,13 @@ DAYS_PER_YEAR = 365.25
 def start_procedure(plan: PlanName, robot: Robot, memory: Remembered | None = None) -> Procedure:
     """The procedure of a plan, not yet started.
 
-    :param memory: what earlier runs of this robot know; the published method has no use for it.
+    :param memory: what earlier runs of this robot know; the published method has no use for it, and
+        what looks for a cause takes nothing for known.
     :raises InputRefused: the plan cannot be made for this robot.
     """
-    return published(robot) if plan == "paper" else measured_and_verified(plan, robot, memory)
+    if plan == "paper":
+        return published(robot)
+    return diagnostic(robot) if plan == "diagnostic" else measured_and_verified(plan, robot, memory)
 
 
 def published(robot: Robot) -> Procedure:

@@ -28,7 +28,7 @@ class State(StrEnum):
         return self not in (State.QUEUED, State.RUNNING)
 
 
-PlanName = Literal["paper", "rapid", "full"]
+PlanName = Literal["paper", "rapid", "full", "diagnostic"]
 RunKind = Literal[PlanName, "apply", "rollback"]
 """What a run does: calibrate by a plan, or write the zeros of an earlier run, or take them back."""
 
@@ -166,6 +166,10 @@ class CalibrationResult:
     """What earlier runs knew: {used, p_value, text, from_calibration, age_days}; None: nothing was known."""
     lasting: dict[str, Any] | None = None
     """`station.memory.Memory` as JSON: what a pass leaves to the robot's next run."""
+    findings: tuple[dict[str, Any], ...] = ()
+    """Effects that the model lacked, as in the diagnosis document; strongest first."""
+    diagnosis: dict[str, Any] | None = None
+    """The whole document, schema station.diagnosis/1; None when none was asked for."""
 
     def to_json(self) -> dict[str, Any]:
         return asdict(self)

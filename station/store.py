@@ -28,7 +28,9 @@ from station.store_rows import (
     Page,
     calibration_dict,
     compact,
+    document_from,
     millis,
+    pack_document,
     pack_result,
     reading_from_row,
     reading_row,
@@ -248,7 +250,8 @@ class Store:
             ).rowcount
             if ended and result is not None:
                 db.execute(
-                    "INSERT INTO results VALUES (?, ?, ?, ?, ?, ?)", [calibration_id, *pack_result(result)]
+                    "INSERT INTO results VALUES (?, ?, ?, ?, ?, ?, ?)",
+                    [calibration_id, *pack_result(result), pack_document(result.diagnosis)],
                 )
                 if verdict == "pass" and result.lasting is not None:
                     db.execute(
@@ -280,6 +283,17 @@ class Store:
         if row is None:
             raise NotFound(f"There is no calibration {calibration_id}.")
         return calibration_dict(row, full=True)
+
+    def diagnosis(self, calibration_id: int) -> dict[str, Any]:
+        """The diagnosis document of a run.  :raises NotFound: no such run, or it has none."""
+        row = self._readers.one(
+            "SELECT diagnosis FROM results WHERE calibration_id = ? AND diagnosis IS NOT NULL",
+            [calibration_id],
+        )
+        if row is None:
+            self.summary(calibration_id)
+            raise NotFound(f"Run {calibration_id} has no diagnosis.")
+        return document_from(row["diagnosis"])
 
     def summary(self, calibration_id: int) -> dict[str, Any]:
         """One calibration as the list shows it.  :raises NotFound:"""

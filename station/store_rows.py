@@ -112,6 +112,17 @@ def pack_result(
     )
 
 
+def pack_document(document: dict[str, Any] | None) -> bytes | None:
+    """With every digit: joint commands are computed from it."""
+    return None if document is None else _press(compact(document))
+
+
+def document_from(blob: bytes) -> dict[str, Any]:
+    """The document again."""
+    document: dict[str, Any] = json.loads(_expand(blob))
+    return document
+
+
 def _press(text: str) -> bytes:
     pressing = zlib.compressobj(level=9, zdict=_WORDS)
     return pressing.compress(text.encode()) + pressing.flush()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from scipy import stats
@@ -135,12 +136,15 @@ def prediction_fault(check: Verification) -> str:
     )
 
 
-def weak_direction_of(fit: Identification) -> dict[str, object]:
+def weak_direction_of(fit: Identification) -> dict[str, Any]:
     """The least known direction in words, and what would help most."""
-    words = describe(fit)
+    return with_best_remedy(describe(fit))
+
+
+def with_best_remedy(words: dict[str, Any]) -> dict[str, Any]:
+    """The description of a weak direction with `remedy`, what would help most."""
     best = min(words["remedies"], key=lambda remedy: remedy["sd_deg"])
-    words["remedy"] = f"{best['text']} (sd {best['sd_deg']:.3f} deg)"
-    return words
+    return {**words, "remedy": f"{best['text']} (sd {best['sd_deg']:.3f} deg)"}
 
 
 def _fault(fit: Identification, check: Verification) -> str:

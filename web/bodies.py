@@ -45,9 +45,12 @@ class PositionError(Answer):
 
 
 class Accuracy(Answer):
-    """How well the robot positions, before or after compensation."""
+    """How well the robot positions, before or after; of a diagnosis, without its effects or with them."""
 
     reading_rms_mm: float | None = None
+    fresh_reading_rms_mm: float | None = Field(
+        default=None, description="readings that took no part in the fit"
+    )
     predicted_position_error_mm: PositionError | None = None
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import getpass
 from pathlib import Path
+from typing import get_args
 
 import click
 
@@ -16,7 +17,7 @@ from station.runtime import Runtime
 
 
 @click.command("calibrate")
-@click.option("--plan", type=click.Choice(["paper", "rapid", "full"]), default="paper", show_default=True)
+@click.option("--plan", type=click.Choice(get_args(PlanName)), default="paper", show_default=True)
 @click.option("--serial", help="Of the robot; else the robot file's.")
 @click.option("--robot", "robot_file", type=click.Path(path_type=Path), help="Robot file, kept from then on.")
 @click.option("--operator", help="Who is responsible; else the user of this terminal.")

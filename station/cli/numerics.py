@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import click
 from rich.console import Console
@@ -84,7 +84,7 @@ def _print(fit: Identification, content: dict[str, Any]) -> None:
 
 
 @click.command("plan")
-@click.option("--plan", "name", type=click.Choice(["paper", "rapid", "full"]), default="paper")
+@click.option("--plan", "name", type=click.Choice(get_args(PlanName)), default="paper")
 @click.option("--robot", "robot_file", type=existing, help="Robot file; without it the paper's Table 1.")
 @click.option("--json", "json_file", type=existing, help="Write the plan here.")
 @click.option("--html", "html_file", type=existing, help="Write the plan as a page with drawings here.")

@@ -31,7 +31,7 @@ def test_a_snapshot_first_then_numbered_events_to_the_end_of_the_run(service: Se
         snapshot = socket.receive_json()
         assert snapshot["type"] == "snapshot"
         assert snapshot["data"].keys() == service.client.get("/api/v1/station").json().keys()
-        assert snapshot["data"]["station"]["plans"] == ["paper", "rapid", "full"]
+        assert snapshot["data"]["station"]["plans"] == ["paper", "rapid", "full", "diagnostic"]
         service.start()
         events = [m for m in until(socket, "ended") if m["type"] != "beat"]
     first = snapshot["number"] + 1

@@ -276,11 +276,16 @@ export interface components {
     schemas: {
         /**
          * Accuracy
-         * @description How well the robot positions, before or after compensation.
+         * @description How well the robot positions, before or after; of a diagnosis, without its effects or with them.
          */
         Accuracy: {
             /** Reading Rms Mm */
             reading_rms_mm: number | null;
+            /**
+             * Fresh Reading Rms Mm
+             * @description readings that took no part in the fit
+             */
+            fresh_reading_rms_mm: number | null;
             predicted_position_error_mm: components["schemas"]["PositionError"] | null;
         };
         /** Alive */
@@ -428,7 +433,7 @@ export interface components {
              * Plan
              * @enum {string}
              */
-            plan: "paper" | "rapid" | "full";
+            plan: "paper" | "rapid" | "full" | "diagnostic";
             /** Operator */
             operator: string;
             /** Work Order */
@@ -817,10 +822,11 @@ export interface components {
              * @default [
              *       "paper",
              *       "rapid",
-             *       "full"
+             *       "full",
+             *       "diagnostic"
              *     ]
              */
-            plans: ("paper" | "rapid" | "full")[];
+            plans: ("paper" | "rapid" | "full" | "diagnostic")[];
         };
         /**
          * Stopped

@@ -8,7 +8,7 @@ import { dismissOutcome } from "./outcome";
 
 type Plan = CalibrationBody["plan"];
 
-const PLANS: Record<Plan, string> = { paper: "Paper", rapid: "Rapid", full: "Full" };
+const PLANS: Record<Plan, string> = { paper: "Paper", rapid: "Rapid", full: "Full", diagnostic: "Find the cause" };
 
 const serial = signal("");
 const plan = signal<Plan>("paper");
