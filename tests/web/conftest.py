@@ -58,6 +58,11 @@ class Service:
         assert self.runtime.orchestrator.wait(run, LIMIT_S).ended
         return run
 
+    def device(self, name: str) -> dict[str, Any]:
+        """What the station says of one device."""
+        devices: list[dict[str, Any]] = self.client.get("/api/v1/station").json()["devices"]
+        return next(device for device in devices if device["name"] == name)
+
     def wait_for(self, call: str) -> None:
         """Until the worker has made this call to a device."""
         deadline = time.monotonic() + LIMIT_S
