@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import least_squares
 
-from station.bench import peers
+from station.bench import diagnoses, peers
 from station.bench.problems import Problem, four_by_60, thirteen_by_60
 from station.bench.timing import time_ms
 from station.kinematics import Real
@@ -35,7 +35,8 @@ def measure(seconds: float) -> dict[str, Any]:
     """{ours: {figure by name}, agreement: {problem: relative}, peers: {name: {figure by name}}}"""
     problems = {name: make() for name, make in PROBLEMS.items()}
     return {
-        "ours": {f"{name}_ms": time_ms(p.solve, seconds=seconds) for name, p in problems.items()},
+        "ours": {f"{name}_ms": time_ms(p.solve, seconds=seconds) for name, p in problems.items()}
+        | diagnoses.measure(seconds),
         "agreement": {name: agreement(p) for name, p in problems.items()},
         "peers": {
             peer: {f"{name}_ms": time_ms(make(p), seconds=seconds) for name, p in problems.items()}

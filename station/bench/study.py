@@ -20,7 +20,7 @@ TARGETS = {
     "identify_4x60_ms": 0.5,
     "identify_13x60_ms": 2.0,
     "scan_ms": 5.0,
-    "diagnose_ms": None,
+    "diagnose_ms": 100.0,
     "run_http_ms": 20.0,
     "bytes_per_run": 1500.0,
     "history_100k_ms": 10.0,

@@ -1,4 +1,4 @@
-"""Whether a fit is good enough to stop: lack of fit, order in time, and repeats worse than specified.
+"""Whether a fit is good enough to stop: lack of fit, order in time, repeats, tolerances.
 
 Null hypothesis of each test: the residual is noise.  The repeats' own scatter is the yardstick for
 the rest; where something changes with time it scatters too much itself, which is why the other two
@@ -18,6 +18,8 @@ from station.kinematics import Real
 ALPHA = 0.003
 """Of each of the three tests: a clean machine is looked at twice in less than one of a hundred runs."""
 FEWEST_REPEATS = 6
+TENSION = 1e-4
+"""Tolerances are rougher than noise: only a plain contradiction counts."""
 LOUD = 3.0
 """Repeats that scatter so many times more than specified are a fault by themselves: any model fits them."""
 
@@ -35,11 +37,14 @@ class Adequacy:
     pure_dof: int
     loudness: float
     """Pure error over the specification; NaN without enough repeats."""
+    tension_p: float
+    """Of the parameters against their tolerances: a model may fit by bending what is known."""
 
     @property
     def passed(self) -> bool:
-        """By the two tests that a somewhat noisier head alone does not fail."""
-        return not self.loud and min(self.lack_of_fit_p, self.order_in_time_p) >= ALPHA
+        """By the tests that a somewhat noisier head alone does not fail."""
+        fits = min(self.lack_of_fit_p, self.order_in_time_p) >= ALPHA
+        return fits and not self.loud and self.tension_p >= TENSION
 
     @property
     def loud(self) -> bool:
@@ -70,7 +75,14 @@ def judge(fit: Fit, specified_sd: Real) -> Adequacy:
         pure_factor=float(np.sqrt(pure / dof)) if known else float("nan"),
         pure_dof=dof,
         loudness=float(np.sqrt(against_spec / dof)) if known else float("nan"),
+        tension_p=_tension_p(fit),
     )
+
+
+def _tension_p(fit: Fit) -> float:
+    """Chi-square of the parameters under their prior; conservative: the readings hold only some of them."""
+    pull = fit.prior.root @ (fit.x - fit.prior.mean)
+    return float(chdtrc(len(pull), float(pull @ pull)))
 
 
 def _repeat_groups(fit: Fit) -> np.ndarray:
