@@ -13,6 +13,7 @@ geometry.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -48,8 +49,12 @@ class Plan:
 
     name: PlanName
     stops: tuple[Stop, ...]
-    predicted: dict[str, Any]
-    """{zero_offset_sd_deg: [2], common_sd_deg, position_error_mm: {rms, max}, map: [{x_mm, y_mm, sd_mm}]}"""
+    robot: Robot
+
+    @cached_property
+    def predicted(self) -> dict[str, Any]:
+        """{zero_offset_sd_deg, common_sd_deg, position_error_mm: {rms, max}, map: [{x_mm, y_mm, sd_mm}]}"""
+        return predict(self.robot, np.array([complex(*stop.target_mm) for stop in self.stops]))
 
     def as_json(self) -> dict[str, Any]:
         return {
@@ -107,7 +112,7 @@ def make_plan(name: PlanName, robot: Robot, dtheta: Real | None = None) -> Plan:
         )
         for k, a in zip(order, approach, strict=True)
     )
-    return Plan(name, stops, predict(robot, places[order]))
+    return Plan(name, stops, robot)
 
 
 def predict(robot: Robot, places: Complex) -> dict[str, Any]:
