@@ -23,8 +23,8 @@ MISFIT = 5.0
 """Residuals this many standard deviations large come from a model that is wrong."""
 LOOSE = 1e-3
 """Length of the last step then, per standard deviation of misfit."""
-CURVED_EVERY = 3
-"""Steps after which one is made with the full Hessian."""
+CURVED_AFTER = 5
+"""Steps of Gauss-Newton before every other one is made with the full Hessian, if residuals stay large."""
 ROUNDING = 1e-7
 """Share of the cost that double precision may get wrong: distances are known to 1e-13 mm of 600."""
 BLIND = 1e-10
@@ -110,9 +110,11 @@ def _solve(residuals: Residuals, start: Real, prior: Prior) -> Solution:
     damping = 0.0
     for step in range(1, MAX_STEPS + 1):
         gradient = stacked.T @ target
-        # with large residuals Gauss-Newton crawls: its matrix lacks their curvature
-        curved = _hessian(residuals, x, gradient, prior) if step % CURVED_EVERY == 0 else None
-        normal = stacked.T @ stacked if curved is None else curved
+        normal = stacked.T @ stacked
+        if step > CURVED_AFTER and step % 2 and cost > MISFIT**2 * len(r):
+            # with large residuals Gauss-Newton crawls: its matrix lacks their curvature
+            curved = _hessian(residuals, x, gradient, prior)
+            normal = normal if curved is None else curved
         scale = np.sqrt(normal.diagonal())
         scale[scale == 0.0] = 1.0
         normal /= scale
@@ -172,7 +174,7 @@ def _descend(normal: Real, gradient: Real, damping: float) -> Real:
 
 
 def _shape(x: Real, stacked: Real, r: Real, J: Real, cost: float, steps: int) -> Solution:
-    scale = np.sqrt(np.einsum("ij,ij->j", stacked, stacked))
+    scale = np.sqrt((stacked * stacked).sum(axis=0))
     scale[scale == 0.0] = 1.0
     _, sigma, Vt = np.linalg.svd(stacked / scale, full_matrices=False)
     held = sigma > BLIND * sigma[0]
@@ -187,6 +189,8 @@ def _shape(x: Real, stacked: Real, r: Real, J: Real, cost: float, steps: int) ->
 def _stack(residuals: Residuals, x: Real, prior: Prior) -> tuple[Real, Real, Real, Real]:
     """Rows of data above rows of prior: Jacobian (R + H, P), residual (R + H,), and the data's own."""
     r, J = residuals(x)
+    if not len(prior.root):
+        return J, r, r, J
     return (
         np.concatenate([J, prior.root]),
         np.concatenate([r, prior.root @ (x - prior.mean)]),
