@@ -47,10 +47,17 @@ def needed(found: object, what: str) -> None:
 class Station:
     """A `station serve` process on the emulated rig of its home folder."""
 
-    def __init__(self, home: Path, speed: float) -> None:
+    def __init__(self, home: Path, speed: float, rig: Path | None = None) -> None:
         command = [sys.executable, "-m", "station", "--home", str(home), "serve"]
         self.process = subprocess.Popen(
-            [*command, "--port", str(self._port(home)), "--speed", str(speed)],
+            [
+                *command,
+                "--port",
+                str(self._port(home)),
+                "--speed",
+                str(speed),
+                *(["--emulate", str(rig)] if rig else []),
+            ],
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
             text=True,
@@ -103,8 +110,8 @@ def serve(tmp_path: Path) -> Iterator[Serve]:
     needed(*BUILT_PAGE)
     with ExitStack() as opened:
 
-        def serve(home: Path | None = None, speed: float = 200.0) -> Station:
-            station = Station(home or tmp_path, speed)
+        def serve(home: Path | None = None, speed: float = 200.0, rig: Path | None = None) -> Station:
+            station = Station(home or tmp_path, speed, rig)
             opened.callback(station.close)
             return station
 

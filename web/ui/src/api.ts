@@ -15,6 +15,33 @@ export type Calibration = Schemas["Calibration"];
 export type Reading = Schemas["ReadingAnswer"];
 export type CalibrationBody = Schemas["CalibrationBody"];
 
+
+interface Effect {
+  effect: string;
+  joint: number | null;
+}
+
+/** What the page shows of the document `station.diagnosis/1`, which is kept as it was written. */
+export interface Diagnosis {
+  verdict: "adequate" | "explained" | "partly_explained" | "unexplained";
+  findings: (Effect & {
+    parameters: { name: string; value: number; sd: number; unit: string }[];
+    share: number;
+    alias_set: Effect[];
+    remedy: string;
+    separating_experiment: string | null;
+  })[];
+  stages: {
+    model: string;
+    unknowns: number;
+    fit_rms_mm: number;
+    holdout_rms_mm: number | null;
+    confirm_rms_mm: number | null;
+    confirm_max_mm: number | null;
+  }[];
+  hints: { text: string; strength: number }[];
+}
+
 const TIMEOUT_MS = 8000;
 /** Longer than the service itself waits for the drives. */
 const STOP_TIMEOUT_MS = 4000;
@@ -78,6 +105,8 @@ export const stop = () =>
   });
 
 export const calibration = (id: number) => call<Calibration>("GET", `/calibrations/${id}`);
+
+export const diagnosis = (id: number) => call<Diagnosis>("GET", `/calibrations/${id}/diagnosis`);
 
 export const calibrations = (query: URLSearchParams) =>
   call<Schemas["CalibrationList"]>("GET", `/calibrations?${query}`);

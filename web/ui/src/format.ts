@@ -14,6 +14,13 @@ export function signed(value: number | null | undefined, digits: number): string
   return value != null && value > 0 && Number(text) !== 0 ? `+${text}` : text;
 }
 
+/** Value ± U, to two digits of U. */
+export function measured(value: number, u: number): string {
+  if (!(u > 0)) return String(Number(value.toPrecision(6)));
+  const digits = Math.min(Math.max(1 - Math.floor(Math.log10(u)), 0), 9);
+  return `${fixed(value, digits)} ± ${fixed(u, digits)}`;
+}
+
 const pad = (part: number) => String(part).padStart(2, "0");
 
 export function timeOfDay(time: Date): string {

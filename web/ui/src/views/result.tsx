@@ -2,6 +2,8 @@ import { calibration, type Calibration } from "../api";
 import { dateTime, duration, fixed, signed } from "../format";
 import { station } from "../live";
 import { Application } from "../parts/application";
+import { DiagnosisParts } from "../parts/diagnosis";
+import { FindCause } from "../parts/find-cause";
 import { Link } from "../parts/link";
 import { useLoaded } from "../parts/load";
 import { Memory } from "../parts/memory";
@@ -34,6 +36,9 @@ function Result({ id }: { id: number }) {
   const progress = run?.id === id || run?.of === id ? `running ${run.id} ${run.step}` : `ended ${station.value?.last?.id}`;
   const { value: result, trouble } = useLoaded(`${id} ${progress}`, () => calibration(id)).value;
   if (!result) return <Empty text={trouble ?? "Loading …"} />;
+  const diagnosed = result.method === "diagnosis";
+  const passed = result.verdict === "pass";
+  const offer = result.of === null && result.ended_at && result.plan !== "diagnostic" && <FindCause result={result} />;
   return (
     <div class="result">
       <section class="panel summary">
@@ -59,26 +64,34 @@ function Result({ id }: { id: number }) {
           <a class="button" href={`/api/v1/calibrations/${id}/readings.csv`} download>
             Readings (CSV)
           </a>
+          {diagnosed && (
+            <a class="button" href={`/api/v1/calibrations/${id}/report.html`}>
+              Report
+            </a>
+          )}
           <Link class="button" to={`/history?robot_serial=${encodeURIComponent(result.robot_serial)}`}>
             History of this robot
           </Link>
         </p>
       </section>
+      {!passed && offer}
       {result.zero_offsets?.length ? (
         <>
+          {diagnosed && <DiagnosisParts result={result} />}
           <Application result={result} />
           <ZeroOffsets result={result} />
           <BeforeAfter result={result} />
           <WeakDirection result={result} />
-          {result.of === null && <Memory result={result} />}
+          {result.of === null && !diagnosed && <Memory result={result} />}
           <Iterations result={result} />
           <ResidualChart residuals={result.residuals ?? []} />
         </>
       ) : (
         <section class="panel">
-          <p>No zero offsets were identified in this run.</p>
+          <p>{result.ended_at ? "No zero offsets were identified in this run." : "The result follows the last reading."}</p>
         </section>
       )}
+      {passed && offer}
     </div>
   );
 }
@@ -148,9 +161,16 @@ function Against({ value, limit }: { value: number | null; limit: number | null 
   return Math.abs(value) <= limit ? <>within</> : <strong class="alarm warn">◆ outside</strong>;
 }
 
-function BeforeAfter({ result: { before, after } }: { result: Calibration }) {
+function BeforeAfter({ result: { before, after, method } }: { result: Calibration }) {
+  const diagnosed = method === "diagnosis";
   const rows = [
     { text: "Readings, rms", digits: 4, before: before?.reading_rms_mm, after: after?.reading_rms_mm },
+    {
+      text: "Fresh readings, rms",
+      digits: 4,
+      before: before?.fresh_reading_rms_mm,
+      after: after?.fresh_reading_rms_mm,
+    },
     {
       text: "Predicted position error, rms",
       digits: 3,
@@ -171,12 +191,12 @@ function BeforeAfter({ result: { before, after } }: { result: Calibration }) {
         <thead>
           <tr>
             <td />
-            <th scope="col">Before</th>
-            <th scope="col">After</th>
+            <th scope="col">{diagnosed ? "Without the effects" : "Before"}</th>
+            <th scope="col">{diagnosed ? "With them" : "After"}</th>
           </tr>
         </thead>
         <tbody>
-          {rows.map((row) => (
+          {rows.filter(({ before, after }) => before != null || after != null).map((row) => (
             <tr>
               <th scope="row" class="text">
                 {row.text}

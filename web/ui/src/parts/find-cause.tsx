@@ -1,0 +1,40 @@
+/** From any result to the walk that looks for what the model lacks: press, then confirm. */
+import { type Calibration, newKey, start } from "../api";
+import { connected, station } from "../live";
+import { keepOperator, operator } from "../operator";
+import { navigate } from "../router";
+import { ConfirmedButton } from "./confirm";
+
+export function FindCause({ result: { robot_serial, work_order } }: { result: Calibration }) {
+  const idle = connected.value && !station.value?.run && operator.value.trim() !== "";
+  const walk = async () => {
+    keepOperator();
+    const body = { robot_serial, plan: "diagnostic" as const, operator: operator.value.trim(), work_order, metadata: {} };
+    const run = await start(body, newKey());
+    navigate(`/result/${run.id}`);
+  };
+  return (
+    <section class="panel wide find-cause" aria-label="Cause">
+      <h2>Does the model lack something?</h2>
+      <p>
+        A walk of 120 readings there and back shows what the residual depends on and names its cause; 40 fresh readings
+        then judge it.
+      </p>
+      <div class="writes">
+        <p class="field">
+          <label for="cause-operator">Operator</label>
+          <input
+            id="cause-operator"
+            value={operator.value}
+            maxLength={64}
+            spellcheck={false}
+            onInput={(event) => (operator.value = event.currentTarget.value)}
+          />
+        </p>
+        <ConfirmedButton label="Find the cause" disabled={!idle} act={walk}>
+          <strong>Robot {robot_serial} will move</strong> over its whole workspace. Nobody within its reach?
+        </ConfirmedButton>
+      </div>
+    </section>
+  );
+}
