@@ -29,6 +29,8 @@ HOPEFUL = 0.02
 """Unless it takes all but this share: a large effect is not quite linear."""
 MOST_RIVALS = 6
 ODD_SHARE = 0.03
+END_SHARE = 0.12
+"""Of the walk, in which readings off to one side together look like a step and not like slips of the head."""
 ALIAS = 11.0
 """Chi-square by which a look-alike may be worse and still be the cause (true cause kept in 99.9 %)."""
 
@@ -105,9 +107,19 @@ def with_alias(found: Trace, alias: Term, prior: Prior, specified_sd: Real) -> T
 
 
 def _odd_readings(found: Fit) -> tuple[Outlier, ...]:
-    """Single readings off the model; many of them are an effect, not outliers."""
-    odd = outliers.off(found.model.mechanism.measurements, found.solution, found.row_sd)
-    return odd if len(odd) <= max(1, int(ODD_SHARE * len(found.row_sd))) else ()
+    """Single readings off the model; many of them, or a few together at an end, are an effect."""
+    measurements = found.model.mechanism.measurements
+    odd = outliers.off(measurements, found.solution, found.row_sd)
+    n = len(measurements)
+    if len(odd) > max(1, int(ODD_SHARE * n)):
+        return ()
+    if len(odd) > 1 and len({o.residual_mm > 0 for o in odd}) == 1:
+        named = {o.reading for o in odd}
+        rank = np.argsort(np.argsort(measurements.t_s, kind="stable"))
+        at = rank[[i in named for i in measurements.ids]]
+        if at.max() < END_SHARE * n or at.min() >= (1.0 - END_SHARE) * n:
+            return ()
+    return odd
 
 
 def _done(stage: Stage, candidates: list[Candidate], tests: int) -> bool:
@@ -178,6 +190,6 @@ def _score(refit: Fit, c: Candidate) -> float:
 
 
 def _others(effects: Sequence[Effect], terms: tuple[Term, ...]) -> list[Effect]:
-    """Effects not in the model yet."""
+    """Effects not in the model yet, and those that may be in it twice."""
     present = {term.effect for term in terms}
-    return [e for e in effects if e not in present]
+    return [e for e in effects if e.repeats or e not in present]

@@ -90,6 +90,8 @@ class Effect(ABC):
     remedy: ClassVar[str]
     experiment: ClassVar[str]
     """What separates it from its look-alikes."""
+    repeats: ClassVar[bool] = False
+    """Whether one place can have it more than once, with other hidden parameters."""
     by_approach: ClassVar[bool] = False
     """Whether it moves the arm differently with the sense of the joint's last motion."""
 

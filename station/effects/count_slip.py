@@ -10,7 +10,7 @@ from station.effects.base import Acts, Conditions, Effect, Variants, scaled
 from station.kinematics import Real
 from station.records import Quantity
 
-EDGE = 3
+EDGE = 2
 """A step with fewer readings on one side is a matter for the outliers."""
 
 
@@ -24,7 +24,7 @@ class CountSlip(Effect):
         if len(c) < 4 * EDGE:
             return None
         order = np.argsort(c.t_s, kind="stable")
-        moments = c.t_s[order[EDGE:-EDGE]]
+        moments = c.t_s[order[EDGE : len(order) - EDGE + 1]]
         basis = (c.t_s[None, :] >= moments[:, None]).astype(float)[:, :, None]
         return Variants(
             Acts(joint=(self.joint or 1) - 1),

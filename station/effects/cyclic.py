@@ -50,6 +50,7 @@ class GearCyclic(Effect):
     remedy = "Check the reducer stage that turns n times a joint turn, or keep the term in the model."
     experiment = "Read finely over two or three periods of the joint angle."
 
+    repeats = True
     LOWEST, HIGHEST = 4.0, 80.0
 
     def variants(self, c: Conditions) -> Variants | None:

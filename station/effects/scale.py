@@ -70,6 +70,7 @@ class ScaleCyclic(Effect):
     remedy = "Clean and realign the head; check what has this period (graduation, rolling element, screw)."
     experiment = "Read finely over two or three periods of travel, or start at another place of the scale."
 
+    repeats = True
     SHORTEST_MM = 0.4
 
     def variants(self, c: Conditions) -> Variants | None:
