@@ -7,6 +7,7 @@ from pathlib import Path
 import click
 from rich.progress import Progress
 
+from station.cli.numerics import write_text
 from station.confusion.matrix import KINDS, markdown, run
 
 
@@ -21,5 +22,5 @@ def confusion_command(machines: int, seed: int, out: Path | None) -> None:
         rows = run(machines, seed, lambda: progress.advance(task))
     text = "\n".join(markdown(rows)) + "\n"
     if out:
-        out.write_text(text, encoding="utf-8")
+        write_text(out, text)
     click.echo(text)

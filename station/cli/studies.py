@@ -9,7 +9,7 @@ from rich.console import Console
 from rich.table import Table
 
 from station.bench.study import bench
-from station.cli.numerics import write_json
+from station.cli.numerics import write_json, write_text
 from station.reproduce.page import page
 from station.reproduce.study import study
 
@@ -81,11 +81,3 @@ def check_folders(*files: Path | None) -> None:
     for file in files:
         if file and not file.parent.is_dir():
             raise click.UsageError(f"{file} cannot be written: there is no folder {file.parent}.")
-
-
-def write_text(path: Path, text: str) -> None:
-    """:raises click.UsageError: the file cannot be written."""
-    try:
-        path.write_text(text, encoding="utf-8")
-    except OSError as error:
-        raise click.UsageError(f"{path} cannot be written: {error.strerror}.") from error
