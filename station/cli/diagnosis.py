@@ -9,8 +9,7 @@ from rich.console import Console
 from rich.table import Table
 
 from station import measurement_file
-from station.cli.numerics import describe, write_json
-from station.cli.studies import check_folders, write_text
+from station.cli.numerics import check_folders, describe, write_json, write_text
 from station.diagnosis.diagnose import diagnose
 from station.diagnosis.document import Findings
 from station.diagnosis.model_file import read_model

@@ -43,6 +43,13 @@ def describe(path: Path, readings: int) -> dict[str, Any]:
     }
 
 
+def check_folders(*files: Path | None) -> None:
+    """Before minutes of work, not after.  :raises click.UsageError: there is no such folder."""
+    for file in files:
+        if file and not file.parent.is_dir():
+            raise click.UsageError(f"{file} cannot be written: there is no folder {file.parent}.")
+
+
 def write_json(path: Path, content: dict[str, Any]) -> None:
     """Finite numbers only.  :raises click.UsageError: the file cannot be written."""
     write_text(path, json.dumps(content, indent=1, allow_nan=False) + "\n")

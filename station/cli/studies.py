@@ -9,7 +9,7 @@ from rich.console import Console
 from rich.table import Table
 
 from station.bench.study import bench
-from station.cli.numerics import write_json, write_text
+from station.cli.numerics import check_folders, write_json, write_text
 from station.reproduce.page import page
 from station.reproduce.study import study
 
@@ -74,10 +74,3 @@ def _figures(figure: dict[str, float] | None) -> tuple[str, str, str]:
     if figure is None:
         return "not measured", "", ""
     return f"{figure['median']:.4g}", f"{figure['min']:.4g}", str(figure["n"])
-
-
-def check_folders(*files: Path | None) -> None:
-    """Before minutes of work, not after.  :raises click.UsageError: there is no such folder."""
-    for file in files:
-        if file and not file.parent.is_dir():
-            raise click.UsageError(f"{file} cannot be written: there is no folder {file.parent}.")
