@@ -90,6 +90,8 @@ def reason(findings: Findings) -> str:
             return f"nothing is missing: the model fits the readings{predicts}"
         case "explained":
             return share + (f" and predict{s} fresh readings" if d.confirmed else "")
+        case "partly_explained" if d.confirmed is False:
+            return f"not explained: {share}, but fresh readings are not predicted; the residual{depends}"
         case "partly_explained":
             return f"{share}; the rest{depends}"
         case _:

@@ -24,6 +24,7 @@ interface Effect {
 /** What the page shows of the document `station.diagnosis/1`, which is kept as it was written. */
 export interface Diagnosis {
   verdict: "adequate" | "explained" | "partly_explained" | "unexplained";
+  confirmed: boolean | null;
   findings: (Effect & {
     parameters: { name: string; value: number; sd: number; unit: string }[];
     share: number;

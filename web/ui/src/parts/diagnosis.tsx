@@ -27,10 +27,11 @@ export function DiagnosisParts({ result: { id } }: { result: Calibration }) {
 const name = (effect: string, joint: number | null) =>
   effect.replaceAll("_", " ") + (joint === null ? "" : ` of joint ${joint}`);
 
-function Causes({ found: { findings, verdict } }: { found: Diagnosis }) {
+function Causes({ found: { findings, verdict, confirmed } }: { found: Diagnosis }) {
+  const tried = verdict === "unexplained" || (verdict === "partly_explained" && confirmed === false);
   return (
     <section class="panel wide causes" aria-label="Causes">
-      <h2>{verdict === "unexplained" ? "Effects tried, none of them the cause" : "Causes"}</h2>
+      <h2>{tried ? "Effects tried, none of them the cause" : "Causes"}</h2>
       {findings.length === 0 && <p>No effect of the catalogue is in the model.</p>}
       {findings.map((one, rank) => (
         <dl key={rank}>
@@ -59,7 +60,7 @@ function Causes({ found: { findings, verdict } }: { found: Diagnosis }) {
                 .join(", ") || "nothing else in the catalogue"}
             </dd>
           </div>
-          {verdict !== "unexplained" && (
+          {!tried && (
             <div class="remedy">
               <dt>What to do</dt>
               <dd>
