@@ -110,7 +110,7 @@ def _solve(residuals: Residuals, start: Real, prior: Prior) -> Solution:
     damping = 0.0
     for step in range(1, MAX_STEPS + 1):
         gradient = stacked.T @ target
-        normal = stacked.T @ stacked
+        normal: Real = stacked.T @ stacked
         if step > CURVED_AFTER and step % 2 and cost > MISFIT**2 * len(r):
             # with large residuals Gauss-Newton crawls: its matrix lacks their curvature
             curved = _hessian(residuals, x, gradient, prior)
