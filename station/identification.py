@@ -13,7 +13,7 @@ import numpy as np
 
 from station import noise, outliers, weak_direction
 from station.errors import InputRefused
-from station.five_bar import FiveBar
+from station.five_bar import GRID, FiveBar
 from station.kinematics import Real
 from station.least_squares import NotConvergedError, Prior, Solution, solve
 from station.measurements import Measurements
@@ -119,6 +119,21 @@ class Identification:
         mean, jacobian = self.mechanism.position_errors(p)
         return position_error_summary(mean, jacobian, self.covariance)
 
+    def position_error_map(self) -> list[dict[str, float]]:
+        """Predicted position error at each place of the workspace, mm, before and after compensation."""
+        fields = []
+        for compensated in (False, True):
+            p = self.p.copy()
+            if compensated:
+                p[:2] = 0.0
+            mean, jacobian = self.mechanism.position_errors(p)
+            fields.append(position_error_field(mean, jacobian, self.covariance))
+        places = self.mechanism.robot.workspace_grid(*GRID)
+        return [
+            {"x_mm": float(r.real), "y_mm": float(r.imag), "before_mm": float(b), "after_mm": float(a)}
+            for r, b, a in zip(places, *fields, strict=True)
+        ]
+
     def as_json(self) -> dict[str, Any]:
         """What `station identify --json` writes."""
         residual = self.residual_mm
@@ -143,6 +158,7 @@ class Identification:
             },
             "before": {"predicted_position_error_mm": self.position_error(False)},
             "after": {"predicted_position_error_mm": self.position_error(True)},
+            "position_error_map": self.position_error_map(),
             "outliers": [o.as_json() for o in self.outliers],
             "memory": self.memory.as_json() if self.memory else None,
             "convergence": {"steps": self.solution.steps},
@@ -155,12 +171,17 @@ def vars_of(q: Quantity) -> dict[str, Any]:
 
 
 def position_error_summary(mean: Real, jacobian: Real, covariance: Real) -> dict[str, float]:
-    """rms over the grid of sqrt(|mean|^2 + trace(J C J')), and its largest value."""
+    """rms over the grid of the position error field, and its largest value."""
+    field = position_error_field(mean, jacobian, covariance)
+    return {"rms": float(np.sqrt(np.mean(field**2))), "max": float(field.max())}
+
+
+def position_error_field(mean: Real, jacobian: Real, covariance: Real) -> Real:
+    """(G,) sqrt(|mean|^2 + trace(J C J')) at each place of a grid, mm."""
     finite = np.isfinite(np.diag(covariance))
     J, C = jacobian[:, :, finite], covariance[np.ix_(finite, finite)]
     variance = np.einsum("gdi,ij,gdj->g", J, C, J)
-    square = np.sum(mean**2, axis=1) + variance
-    return {"rms": float(np.sqrt(square.mean())), "max": float(np.sqrt(square.max()))}
+    return np.asarray(np.sqrt(np.sum(mean**2, axis=1) + variance))
 
 
 def identify(robot: Robot, measurements: Measurements, memory: Memory | None = None) -> Identification:

@@ -131,6 +131,11 @@ def test_the_result_says_what_is_weak_and_blind() -> None:
     common, differential = content["modes"]
     assert common["sd"] > 5 * differential["sd"]
     assert all(np.isfinite(q["sd"]) and q["sd"] > 0 for q in content["parameters"])
+    field = content["position_error_map"]
+    assert max(p["after_mm"] for p in field) == pytest.approx(
+        content["after"]["predicted_position_error_mm"]["max"]
+    )
+    assert all(p["after_mm"] < p["before_mm"] for p in field)
     json.dumps(content, allow_nan=False)
 
 
