@@ -123,6 +123,10 @@ def _solve(residuals: Residuals, start: Real, prior: Prior) -> Solution:
         while True:
             along = _descend(normal, gradient, damping)
             trial = x - along / scale
+            length = math.sqrt(max(float(along @ gradient), 0.0))
+            if damping == 0.0 and length < TOLERANCE:
+                # nothing that was evaluated at x is different there
+                return _shape(trial, stacked, r, J, cost, step)
             new_stacked, new_target, new_r, new_J = _stack(residuals, trial, prior)
             new_cost = float(new_target @ new_target)
             # rounding of the cost itself must not be mistaken for an uphill step
@@ -131,7 +135,6 @@ def _solve(residuals: Residuals, start: Real, prior: Prior) -> Solution:
             if damping > 1e12:
                 raise NotConvergedError(f"no downhill step was found after {step} steps")
             damping = max(10.0 * damping, 1e-4)
-        length = math.sqrt(max(float(along @ gradient), 0.0))
         x, stacked, target, r, J, cost = trial, new_stacked, new_target, new_r, new_J, new_cost
         if damping == 0.0 and length < _tolerance(cost, len(r)):
             return _shape(x, stacked, r, J, cost, step)
