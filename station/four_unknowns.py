@@ -10,15 +10,7 @@ import numpy as np
 
 from station.error_model import distance_by_joint, pose
 from station.kinematics import Geometry, Real
-from station.mechanism import Observation, Parameter
-
-PARAMETERS = (
-    Parameter("dtheta1", "deg", 0.0, np.inf, 180.0 / np.pi),
-    Parameter("dtheta2", "deg", 0.0, np.inf, 180.0 / np.pi),
-    Parameter("rMx", "mm", 0.0, np.inf),
-    Parameter("rMy", "mm", 0.0, np.inf),
-    Parameter("rho0", "mm", 0.0, np.inf),
-)
+from station.mechanism import Observation
 
 
 def observe(geometry: Geometry, p: Real, theta: Real) -> Observation:

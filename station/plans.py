@@ -29,6 +29,7 @@ from station.positions import positions_per_edge
 from station.published import boundary_positions
 from station.records import PlanName, Stop
 from station.robot import Robot
+from station.weak_direction import common_sd_deg
 
 CANDIDATES = (41, 17)
 INSET_MM = 4.0
@@ -124,7 +125,7 @@ def predict(robot: Robot, places: Complex) -> dict[str, Any]:
     sd = np.degrees(np.sqrt(np.diag(covariance)[:2]))
     return {
         "zero_offset_sd_deg": [float(sd[0]), float(sd[1])],
-        "common_sd_deg": float(np.degrees(np.sqrt(covariance[:2, :2].sum()) / 2.0)),
+        "common_sd_deg": common_sd_deg(covariance),
         "position_error_mm": position_error_summary(np.zeros_like(error), jacobian, covariance),
         "map": [
             {"x_mm": float(r.real), "y_mm": float(r.imag), "sd_mm": float(s)}

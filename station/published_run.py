@@ -16,6 +16,7 @@ from station.measurements import from_readings
 from station.published import KEPT, Identified, compensation_accuracy, identification_matrix, identify
 from station.records import CalibrationResult, Quantity, Reading
 from station.robot import Robot
+from station.weak_direction import common_sd_deg
 
 MU_0_DEG = 0.1
 """Threshold of eq. 32 (section 6.2)."""
@@ -90,7 +91,6 @@ class PublishedRun:
         after, after_jacobian = mechanism.position_errors(compensated)
         matrix = identification_matrix(geometry, measurements.theta + self.total, self.drm)
         sigma = np.linalg.svd(matrix, compute_uv=False)
-        common = float(np.degrees(np.sqrt(covariance[:2, :2].sum()) / 2))
         return CalibrationResult(
             verdict="fail" if reason else "pass",
             reason=reason or f"converged in {len(self._steps)} passes, mu = {self.mu_deg:.4f} deg",
@@ -106,7 +106,7 @@ class PublishedRun:
             weak_direction={
                 "singular_ratio": float(sigma[-1] / sigma[0]),
                 "text": "both arms together with a sideways error of the mechanism",
-                "sd_deg": common,
+                "sd_deg": common_sd_deg(covariance),
                 "remedy": "measure the mechanism's mounting error, or use the plan `full`",
             },
             before={

@@ -54,7 +54,7 @@ def describe(fit: Posterior) -> dict[str, Any]:
     return {
         "singular_ratio": singular_ratio(fit),
         "text": _words(fit),
-        "sd_deg": _common_sd_deg(fit.covariance),
+        "sd_deg": common_sd_deg(fit.covariance),
         "blind": list(BLIND),
         "remedies": remedies(fit),
     }
@@ -72,7 +72,7 @@ def singular_ratio(fit: Posterior) -> float:
     return float(sigma[-1] / sigma[0])
 
 
-def _common_sd_deg(covariance: Real) -> float:
+def common_sd_deg(covariance: Real) -> float:
     """sd of the mode in which both zero offsets move together."""
     return float(np.degrees(np.sqrt(covariance[:2, :2].sum()) / 2.0))
 
@@ -105,11 +105,11 @@ def remedies(fit: Posterior) -> list[dict[str, Any]]:
     return [
         {
             "text": f"measure the mechanism's mounting error to {KNOWN_DRM_SD_MM} mm",
-            "sd_deg": _common_sd_deg(np.linalg.inv(known)),
+            "sd_deg": common_sd_deg(np.linalg.inv(known)),
         },
         {
             "text": f"repeat the walk with the mechanism mounted {SECOND_MOUNT_MM:.0f} mm aside",
-            "sd_deg": _common_sd_deg(_with_second_mount(fit, information)),
+            "sd_deg": common_sd_deg(_with_second_mount(fit, information)),
         },
     ]
 

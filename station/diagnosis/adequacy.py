@@ -47,6 +47,11 @@ class Adequacy:
         return fits and not self.loud and self.tension_p >= TENSION
 
     @property
+    def settled(self) -> bool:
+        """Nothing is left to look for, neither in the fit nor in the repeats."""
+        return self.passed and self.quiet
+
+    @property
     def loud(self) -> bool:
         """Repeats scatter far more than specified."""
         return self.loudness > LOUD

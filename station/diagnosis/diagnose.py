@@ -18,7 +18,6 @@ from station.effects import Effect, catalogue
 from station.errors import InputRefused
 from station.five_bar import FiveBar
 from station.identification import tolerance_prior
-from station.kinematics import Real
 from station.least_squares import NotConvergedError
 from station.measurements import Measurements
 from station.plausibility import check_distances, check_places, check_poses
@@ -196,8 +195,3 @@ def _hopeless(found: Trace, checks: Sequence[Confirmation]) -> bool:
     before = float(np.sum(found.stages[0].fit.residual_mm ** 2))
     after = float(np.sum(found.stages[-1].fit.residual_mm ** 2))
     return not found.adequate and 1.0 - after / before < GOOD_SHARE
-
-
-def sd_of(fit: Fit) -> Real:
-    """(P,) standard deviations of all unknowns."""
-    return np.sqrt(np.diag(fit.solution.covariance))

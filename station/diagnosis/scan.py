@@ -34,8 +34,6 @@ class Candidate:
     p_value: float
     """F test, the price of the search included."""
     visible_share: float
-    weakest: float
-    """Largest information in one amplitude: its sd alone would be 1 / sqrt of this, whitened."""
 
     @property
     def visible(self) -> bool:
@@ -83,7 +81,7 @@ class Scan:
         return reduction, share, smallest
 
     def _best(self, effect: Effect, variants: Variants) -> Candidate:
-        reduction, share, information = self.reductions(variants, variants.basis)
+        reduction, share, _ = self.reductions(variants, variants.basis)
         reduction = np.where(share >= INVISIBLE_SHARE, reduction, 0.0)
         best = int(np.argmax(reduction))
         size = variants.basis.shape[2]
@@ -95,7 +93,6 @@ class Scan:
             size=size,
             p_value=self._p_value(float(reduction[best]), size, variants.trials),
             visible_share=float(share[best]),
-            weakest=float(information[best]),
         )
 
     def _p_value(self, reduction: float, size: int, trials: float) -> float:
@@ -137,7 +134,6 @@ class Scan:
             candidate.size,
             self._p_value(reduction, candidate.size, candidate.variants.trials),
             candidate.visible_share,
-            candidate.weakest,
         )
 
 

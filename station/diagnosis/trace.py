@@ -60,8 +60,6 @@ class Trace:
     stages: tuple[Stage, ...]
     """Base first, then one per effect added."""
     findings: tuple[Finding, ...]
-    last_scan: tuple[Candidate, ...]
-    """What the catalogue says of the last residual (for what could not have been seen)."""
     outliers: tuple[Outlier, ...]
     """Few single readings off the last model: the trace ends there, to be begun again without them."""
 
@@ -78,21 +76,23 @@ def trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[Effec
     stage = _settled(base, prior, specified_sd, None)
     stages = [stage]
     findings: list[Finding] = []
-    candidates = Scan(stage.fit).candidates(effects)
     odd = _odd_readings(stage.fit)
-    while not odd and not _done(stage, candidates, len(effects)) and len(findings) < MOST_EFFECTS:
-        if not _significant(candidates, len(effects)):
+    while not odd and not stage.adequacy.settled and len(findings) < MOST_EFFECTS:
+        scan = Scan(stage.fit)
+        candidates = scan.candidates(_others(effects, stage.fit.model.terms))
+        # where only the repeats are worse than specified, a cause must be plainer
+        level = ALPHA if stage.adequacy.passed else SIGNIFICANT
+        if not _significant(candidates, len(effects), level):
             break
-        chosen = _add(stage.fit, prior, candidates)
+        chosen = _add(scan, prior, candidates)
         if chosen is None:
             break
         finding, better = chosen
         findings.append(finding)
         stage = _settled(better.model, prior, specified_sd, better)
         stages.append(stage)
-        candidates = Scan(stage.fit).candidates(_others(effects, stage.fit.model.terms))
         odd = _odd_readings(stage.fit)
-    return Trace(tuple(stages), tuple(findings), tuple(candidates), odd)
+    return Trace(tuple(stages), tuple(findings), odd)
 
 
 def with_alias(found: Trace, alias: Term, prior: Prior, specified_sd: Real) -> Trace:
@@ -122,14 +122,7 @@ def _odd_readings(found: Fit) -> tuple[Outlier, ...]:
     return odd
 
 
-def _done(stage: Stage, candidates: list[Candidate], tests: int) -> bool:
-    """It fits; and where only the repeats are worse than specified, nothing in the catalogue says why."""
-    if not stage.adequacy.passed:
-        return False
-    return stage.adequacy.quiet or not _significant(candidates, tests, ALPHA)
-
-
-def _significant(candidates: list[Candidate], tests: int, level: float = SIGNIFICANT) -> bool:
+def _significant(candidates: list[Candidate], tests: int, level: float) -> bool:
     return bool(candidates) and candidates[0].p_value * tests < level
 
 
@@ -147,9 +140,9 @@ def _settled(model: Model, prior: Prior, specified_sd: Real, better: Fit | None)
     return Stage(found, judge(found, specified_sd))
 
 
-def _add(current: Fit, prior: Prior, candidates: list[Candidate]) -> tuple[Finding, Fit] | None:
+def _add(scan: Scan, prior: Prior, candidates: list[Candidate]) -> tuple[Finding, Fit] | None:
     """Refit with the best candidates, keep the best, name those that do as well."""
-    scan = Scan(current)
+    current = scan.fit
     refined = [scan.refine(c) for c in candidates[: 2 * MOST_RIVALS] if c.visible]
     if not refined:
         return None

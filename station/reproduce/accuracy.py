@@ -12,7 +12,6 @@ from station.reproduce.trial import FULL, FULL_DRM, PAPER, RAPID_DRM, RAPID_MEMO
 
 TARGETS_MM = {FULL: (0.20, 0.13), RAPID_MEMORY: (0.18, 0.13), FULL_DRM: (0.10, 0.06), RAPID_DRM: (0.10, 0.06)}
 """Of the median, groups 1 to 3 and 4 to 6."""
-WITHIN_BOUND = 1.1
 
 Row = dict[str, Any]
 
