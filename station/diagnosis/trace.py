@@ -10,17 +10,26 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from station import outliers
+from station.diagnosis import long_log
 from station.diagnosis.adequacy import ALPHA, Adequacy, judge
 from station.diagnosis.model import Fit, Model, Term, fit
 from station.diagnosis.scan import Candidate, Scan
 from station.effects import Effect
 from station.kinematics import Real
 from station.least_squares import NotConvergedError, Prior
+from station.measurements import Measurements
 from station.outliers import Outlier
 
 MOST_EFFECTS = 3
+READINGS_AN_EFFECT = 200
+"""A long log may show more than three: one for so many readings,"""
+EFFECTS_A_JOINT = 2
+"""but no more than these."""
+WORTH = 0.03
+"""Of the rest's square, what an effect must take to be worth a place in the model."""
 SIGNIFICANT = 0.01
 """Family-wise over the catalogue (Holm: the smallest p is held against the whole count)."""
 RIVALS = 40.0
@@ -52,6 +61,11 @@ class Stage:
     fit: Fit
     adequacy: Adequacy
 
+    @property
+    def specified_sd(self) -> Real:
+        """(R,) mm"""
+        return self.fit.model.mechanism.row_sd
+
 
 @dataclass(frozen=True)
 class Trace:
@@ -76,13 +90,17 @@ def trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[Effec
     stage = _settled(base, prior, specified_sd, None)
     stages = [stage]
     findings: list[Finding] = []
-    odd = _odd_readings(stage.fit)
-    while not odd and not stage.adequacy.settled and len(findings) < MOST_EFFECTS:
+    long = long_log.is_long(stage.fit)
+    odd = () if long else _odd_readings(stage.fit)
+    most = _most_effects(base.mechanism.measurements)
+    while not odd and not stage.adequacy.settled and len(findings) < most:
         scan = Scan(stage.fit)
         candidates = scan.candidates(_others(effects, stage.fit.model.terms))
         # where only the repeats are worse than specified, a cause must be plainer
         level = ALPHA if stage.adequacy.passed else SIGNIFICANT
         if not _significant(candidates, len(effects), level):
+            break
+        if candidates[0].reduction < WORTH * stage.fit.cost:
             break
         chosen = _add(scan, prior, candidates)
         if chosen is None:
@@ -91,8 +109,24 @@ def trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[Effec
         findings.append(finding)
         stage = _settled(better.model, prior, specified_sd, better)
         stages.append(stage)
-        odd = _odd_readings(stage.fit)
-    return Trace(tuple(stages), tuple(findings), odd)
+        # few gross readings of thousands mislead no scan, and to begin again would take long
+        odd = () if long else _odd_readings(stage.fit)
+    return Trace(tuple(stages), tuple(findings), _odd_readings(stage.fit) if long else odd)
+
+
+def without(found: Trace, kept: NDArray[np.bool_], prior: Prior, specified_sd: Real) -> Trace:
+    """A long log's way, the readings that are not `kept` (K,) taken out of every fit.
+
+    The effects are known by then; only the last model is fitted anew.
+    """
+    *earlier, last = (long_log.without(stage.fit, kept) for stage in found.stages)
+    last = fit(last.model, prior, last.row_sd, last.x)
+    stages = tuple(Stage(each, judge(each, each.model.mechanism.row_sd)) for each in (*earlier, last))
+    return Trace(stages, found.findings, _odd_readings(last))
+
+
+def _most_effects(m: Measurements) -> int:
+    return max(MOST_EFFECTS, min(EFFECTS_A_JOINT * m.joints, len(m) // READINGS_AN_EFFECT))
 
 
 def with_alias(found: Trace, alias: Term, prior: Prior, specified_sd: Real) -> Trace:
@@ -109,7 +143,7 @@ def with_alias(found: Trace, alias: Term, prior: Prior, specified_sd: Real) -> T
 def _odd_readings(found: Fit) -> tuple[Outlier, ...]:
     """Single readings off the model; many of them, or a few together at an end, are an effect."""
     measurements = found.model.mechanism.measurements
-    odd = outliers.off(measurements, found.solution, found.row_sd)
+    odd = outliers.off(found.model.mechanism, found.solution, found.row_sd)
     n = len(measurements)
     if len(odd) > max(1, int(ODD_SHARE * n)):
         return ()
@@ -129,6 +163,8 @@ def _significant(candidates: list[Candidate], tests: int, level: float) -> bool:
 def _settled(model: Model, prior: Prior, specified_sd: Real, better: Fit | None) -> Stage:
     """Fit with the noise that the repeats of this very model show, if they are better than specified."""
     found = fit(model, prior, specified_sd) if better is None else better
+    if long_log.is_long(found):
+        return Stage(found, judge(found, specified_sd))
     for _ in range(2):
         adequacy = judge(found, specified_sd)
         sd = found.row_sd * adequacy.pure_factor
@@ -148,14 +184,18 @@ def _add(scan: Scan, prior: Prior, candidates: list[Candidate]) -> tuple[Finding
         return None
     best = max(refined, key=lambda c: c.reduction)
     unit = _noise_square(current.cost - best.reduction, current.dof - best.size)
-    worst = max(current.cost - best.reduction + RIVALS * unit, HOPEFUL * current.cost)
+    long = long_log.is_long(current)
+    worst = max(current.cost - best.reduction + RIVALS * unit, 0.0 if long else HOPEFUL * current.cost)
     rivals = [c for c in refined if current.cost - c.reduction < worst]
     fits: list[tuple[float, Candidate, Fit]] = []
     for c in sorted(rivals, key=lambda c: -c.reduction)[:MOST_RIVALS]:
-        model = replace(current.model, terms=(*current.model.terms, c.term()))
         try:
-            # from the prior mean: without the effect the base parameters have gone far astray
-            refit = fit(model, prior, current.row_sd)
+            if long:
+                refit = long_log.with_candidate(scan, c, prior)
+            else:
+                model = replace(current.model, terms=(*current.model.terms, c.term()))
+                # not from the current fit: without the effect the base parameters may have gone far astray
+                refit = fit(model, prior, current.row_sd)
         except NotConvergedError:
             continue
         fits.append((_score(refit, c), c, refit))
@@ -166,7 +206,7 @@ def _add(scan: Scan, prior: Prior, candidates: list[Candidate]) -> tuple[Finding
     unit = _noise_square(better.cost, better.dof - winner.size)
     aliases: dict[tuple[str, int | None], Term] = {}
     for _, c, refit in fits[1:]:
-        if (refit.cost - better.cost) / unit < ALIAS + 2.0 * (winner.size - c.size):
+        if (refit.cost - better.cost) / unit < ALIAS + 2.0 * (winner.freedom - c.freedom):
             aliases.setdefault(c.term().key, c.term())
     aliases.pop(winner.term().key, None)
     return Finding(winner.term(), winner.p_value, tuple(aliases.values())), better
@@ -179,10 +219,14 @@ def _noise_square(cost: float, dof: int) -> float:
 def _score(refit: Fit, c: Candidate) -> float:
     """Minus twice the log likelihood with unknown noise, plus the price of freedom and of the search."""
     n = len(refit.row_sd)
-    return n * float(np.log(max(refit.cost, 1e-12))) + 2.0 * c.size + 2.0 * float(np.log(c.variants.trials))
+    return (
+        n * float(np.log(max(refit.cost, 1e-12))) + 2.0 * c.freedom + 2.0 * float(np.log(c.variants.trials))
+    )
 
 
 def _others(effects: Sequence[Effect], terms: tuple[Term, ...]) -> list[Effect]:
     """Effects not in the model yet, and those that may be in it twice."""
     present = {term.effect for term in terms}
-    return [e for e in effects if e.repeats or e not in present]
+    covered = {(name, term.effect.joint) for term in terms for name in term.effect.covers}
+    free = [e for e in effects if (e.id, e.joint) not in covered]
+    return [e for e in free if e.repeats or e not in present]
