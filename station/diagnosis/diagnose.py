@@ -10,11 +10,10 @@ import numpy as np
 
 from station import outliers
 from station.conditions import reference_of
-from station.diagnosis import long_log
 from station.diagnosis.confirm import FEWEST, Confirmation, confirm
 from station.diagnosis.hints import Hint, hints
 from station.diagnosis.model import Fit, Model
-from station.diagnosis.trace import Stage, Trace, trace, with_alias, without
+from station.diagnosis.trace import Stage, Trace, trace, with_alias
 from station.effects import Effect
 from station.errors import InputRefused
 from station.identification import tolerance_prior
@@ -105,17 +104,13 @@ def diagnose(
         fresh = _on_same_mounts(fresh, measurements)
     effects = mechanism.effects() if effects is None else effects
     kept = measurements
-    left_out: tuple[outliers.Outlier, ...] = ()
     found = _trace(mechanism, effects)
+    left_out = found.left_out
     while found.outliers and len(left_out) < MOST_LEFT_OUT * len(measurements):
         left_out = (*left_out, *found.outliers)
         named = {o.reading for o in found.outliers}
-        sound = np.array([i not in named for i in kept.ids])
-        kept = kept.take(sound)
-        if long_log.is_long(found.stages[0].fit):
-            found = without(found, sound, tolerance_prior(mechanism), mechanism.row_sd)
-        else:
-            found = _trace(mechanism.of(kept), effects)
+        kept = kept.take(np.array([i not in named for i in kept.ids]))
+        found = _trace(mechanism.of(kept), effects)
     checks: tuple[Confirmation, ...] = ()
     if fresh is not None:
         found, checks = _confirmed(found, fresh)
@@ -125,7 +120,7 @@ def diagnose(
     rest = found.stages[0] if _hopeless(found, checks) else last
     return Diagnosis(
         robot=robot,
-        measurements=kept,
+        measurements=found.stages[-1].fit.model.mechanism.measurements,
         outliers=left_out,
         trace=found,
         fresh=fresh,

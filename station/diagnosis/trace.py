@@ -10,7 +10,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station import outliers
 from station.diagnosis import long_log
@@ -38,6 +37,7 @@ HOPEFUL = 0.02
 """Unless it takes all but this share: a large effect is not quite linear."""
 MOST_RIVALS = 6
 ODD_SHARE = 0.03
+OUTLIER_ROUNDS = 4
 END_SHARE = 0.12
 """Of the walk, in which readings off to one side together look like a step and not like slips of the head."""
 ALIAS = 11.0
@@ -61,11 +61,6 @@ class Stage:
     fit: Fit
     adequacy: Adequacy
 
-    @property
-    def specified_sd(self) -> Real:
-        """(R,) mm"""
-        return self.fit.model.mechanism.row_sd
-
 
 @dataclass(frozen=True)
 class Trace:
@@ -76,6 +71,8 @@ class Trace:
     findings: tuple[Finding, ...]
     outliers: tuple[Outlier, ...]
     """Few single readings off the last model: the trace ends there, to be begun again without them."""
+    left_out: tuple[Outlier, ...] = ()
+    """Of a long log: readings that were off the last model and are in no fit any more."""
 
     @property
     def adequate(self) -> bool:
@@ -111,18 +108,35 @@ def trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[Effec
         stages.append(stage)
         # few gross readings of thousands mislead no scan, and to begin again would take long
         odd = () if long else _odd_readings(stage.fit)
-    return Trace(tuple(stages), tuple(findings), _odd_readings(stage.fit) if long else odd)
+    left_out = _take_out(stages, prior) if long else ()
+    return Trace(tuple(stages), tuple(findings), odd, left_out)
 
 
-def without(found: Trace, kept: NDArray[np.bool_], prior: Prior, specified_sd: Real) -> Trace:
-    """A long log's way, the readings that are not `kept` (K,) taken out of every fit.
+def _take_out(stages: list[Stage], prior: Prior) -> tuple[Outlier, ...]:
+    """Take the readings that are off a long log's last model out of every fit, one by one in place.
 
-    The effects are known by then; only the last model is fitted anew.
+    The effects are known by then: the fits are changed as linear ones, and only the last one is fitted anew.
     """
-    *earlier, last = (long_log.without(stage.fit, kept) for stage in found.stages)
-    last = fit(last.model, prior, last.row_sd, last.x)
-    stages = tuple(Stage(each, judge(each, each.model.mechanism.row_sd)) for each in (*earlier, last))
-    return Trace(stages, found.findings, _odd_readings(last))
+    last = stages[-1].fit
+    ids = last.model.mechanism.measurements.ids
+    off: tuple[Outlier, ...] = ()
+    for _ in range(OUTLIER_ROUNDS):
+        more = _odd_readings(last)
+        if not more:
+            break
+        off = (*off, *more)
+        named = {o.reading for o in off}
+        last = long_log.without(stages[-1].fit, np.array([i not in named for i in ids]))
+    if not off:
+        return ()
+    kept = np.array([i not in named for i in ids])
+    del last
+    for k, stage in enumerate(stages):
+        found = long_log.without(stage.fit, kept)
+        if k == len(stages) - 1:
+            found = fit(found.model, prior, found.row_sd, found.x)
+        stages[k] = Stage(found, judge(found, found.model.mechanism.row_sd))
+    return off
 
 
 def _most_effects(m: Measurements) -> int:
