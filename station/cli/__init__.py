@@ -29,6 +29,7 @@ _MODULES = {
     "serve": "serve",
     "show": "history",
     "solve": "diagnosis",
+    "transfer": "diagnosis",
 }
 """Where each command is; imported when it is asked for, since the numerics take a second to load."""
 

@@ -20,6 +20,8 @@ DASHES = ("none", "6 3", "2 3", "8 3 2 3", "none", "6 3", "2 3")
 WIDTH, HEIGHT = 560, 320
 LEFT, RIGHT, TOP, BOTTOM = 64, 12, 12, 46
 TICKS = 6
+FEW = 60
+"""Points up to which those of a line are marked."""
 LARGEST_DISC = 11.0
 """Radius, px."""
 
@@ -33,6 +35,8 @@ class Series:
     y: Sequence[float]
     low: Sequence[float] | None = None
     high: Sequence[float] | None = None
+    points_only: bool = False
+    """In a chart of lines: drawn as points."""
 
 
 @dataclass(frozen=True)
@@ -157,6 +161,8 @@ def _chart(
                 "band": band,
                 "colour": COLOURS[i % len(COLOURS)],
                 "dash": DASHES[i % len(DASHES)],
+                "joined": kind == "line" and not s.points_only,
+                "dotted": kind == "scatter" or s.points_only or len(points) <= FEW,
                 "titles": [f"{s.label}: {x:.5g}, {y:.5g}" for x, y in zip(s.x, s.y, strict=True)],
             }
         )
