@@ -23,6 +23,7 @@ _MODULES = {
     "identify": "numerics",
     "memory": "history",
     "plan": "numerics",
+    "real-robot": "real_robot",
     "reproduce": "studies",
     "rollback": "apply",
     "runs": "history",
@@ -53,7 +54,7 @@ class StationGroup(click.Group):
         if cmd_name not in _MODULES:
             return None
         module = import_module(f"{__name__}.{_MODULES[cmd_name]}")
-        command: click.Command = getattr(module, f"{cmd_name}_command")
+        command: click.Command = getattr(module, f"{cmd_name.replace('-', '_')}_command")
         return command
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:

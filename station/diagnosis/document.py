@@ -60,6 +60,12 @@ class Findings:
         """Whether the last model may be relied on: it fits, and fresh readings do not refute it."""
         return self.diagnosis.verdict in ("adequate", "explained") and self.diagnosis.confirmed is not False
 
+    @property
+    def refuted(self) -> bool:
+        """Whether the effects of the last model are no more than a try."""
+        d = self.diagnosis
+        return d.verdict == "unexplained" or (d.verdict == "partly_explained" and d.confirmed is False)
+
     @cached_property
     def trusted(self) -> int:
         """Index of the stage that parameters and commands are taken from.

@@ -23,6 +23,7 @@ UM = "µm"
 MICROMETRES = 1e3
 MOST_POINTS = 600
 MOST_PLACES = 300
+GAP_DEG = 1.0
 
 
 def page(findings: Findings, source: str) -> Page:
@@ -96,7 +97,7 @@ def _causes(findings: Findings) -> Section:
         for found in findings.effects
     ]
     return Section(
-        "Effects added" if findings.passed else "Effects tried",
+        "Effects tried" if findings.refuted else "Effects added",
         [_explanation(found) for found in findings.effects],
         (
             Table(
@@ -124,19 +125,26 @@ def _curves(drawn: Sequence[Curve]) -> Section:
 def curve_chart(curve: Curve) -> Markup:
     """One joint's curve."""
     low, high = (curve.value_deg + sign * 2.0 * curve.sd_deg for sign in (-1.0, 1.0))
+    gaps = np.flatnonzero(np.diff(curve.angle_deg) > GAP_DEG) + 1
+    stretches = [
+        _milli(*(values[part] for values in (curve.angle_deg, curve.value_deg, low, high)))
+        for part in np.split(np.arange(len(curve.angle_deg)), gaps)
+    ]
+    measured = _milli(curve.binned_angle_deg, curve.binned_deg)
     return svg.line(
         [
-            _milli("learned", curve.angle_deg, curve.value_deg, low, high),
-            replace(_milli("measured", curve.binned_angle_deg, curve.binned_deg), points_only=True),
+            replace(stretches[0], label="learned"),
+            replace(measured, label="measured", points_only=True),
+            *(replace(stretch, like=0) for stretch in stretches[1:]),
         ],
         f"theta{curve.joint} deg",
         "error 0.001 deg",
     )
 
 
-def _milli(label: str, angle: Real, value: Real, low: Real | None = None, high: Real | None = None) -> Series:
+def _milli(angle: Real, value: Real, low: Real | None = None, high: Real | None = None) -> Series:
     return Series(
-        label,
+        "",
         angle.tolist(),
         (1e3 * value).tolist(),
         None if low is None else (1e3 * low).tolist(),

@@ -15,7 +15,7 @@ from station.records import Quantity
 
 HIGHEST = 64
 """Cycles a turn."""
-FEWEST_READINGS = 10 * HIGHEST
+FEWEST_READINGS = 3 * HIGHEST
 SPREAD_RAD = 3e-4
 """Where the search for the spread of the amplitudes begins."""
 NAMED = 3
