@@ -1,4 +1,4 @@
-"""What a log did not record and its rows still tell: the way each joint came, and which poses are one place."""
+"""What a log did not record and its rows still tell: how each joint came, and which poses are one place."""
 
 from __future__ import annotations
 

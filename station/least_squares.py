@@ -166,7 +166,7 @@ def _hessian(residuals: Residuals, x: Real, gradient: Real, prior: Prior) -> Rea
 
 
 def _tolerance(cost: float, rows: int, unknowns: int) -> float:
-    """A misfit far beyond the noise need not be pinned down to a fraction of the noise, nor hundreds of unknowns."""
+    """Neither a misfit far beyond the noise nor hundreds of unknowns are pinned down to a fraction of it."""
     misfit = math.sqrt(cost / rows)
     if unknowns >= MANY:
         return LOOSE * max(misfit, 1.0)

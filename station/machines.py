@@ -41,7 +41,7 @@ def robot_of(data: dict[str, Any], *, source: str = "robot") -> AnyRobot:
         return Arm.from_dict(data, source=source)
     if model not in (None, FIVE_BAR_MODEL):
         raise InputRefused(
-            f"{source}: [robot.model] {model!r} is not known; this station knows {FIVE_BAR_MODEL} and {arm.MODEL}."
+            f"{source}: [robot.model] {model!r} is not known; known are {FIVE_BAR_MODEL} and {arm.MODEL}."
         )
     return Robot.from_dict(data, source=source)
 

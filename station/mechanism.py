@@ -63,7 +63,7 @@ class Mechanism(Protocol):
 
     @property
     def needs_repeats(self) -> bool:
-        """Whether a residual is judged by repeats; else the specification is the yardstick where there are none."""
+        """Whether a residual is judged by repeats only; else the specification will do without them."""
         ...
 
     @property
@@ -88,7 +88,7 @@ class Mechanism(Protocol):
 
     @property
     def row_sd(self) -> Real:
-        """(R,) standard deviation by specification, mm: the instrument, and what feedback leaves of the joints."""
+        """(R,) standard deviation by specification, mm: instrument, and what feedback leaves open."""
         ...
 
     def of(self, measurements: Measurements) -> Self:

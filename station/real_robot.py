@@ -1,4 +1,4 @@
-"""What the loop finds on logs of a real arm: errors before and after, causes, curves, what holds elsewhere."""
+"""What the loop finds on logs of a real arm: errors before and after, causes, curves, what holds on."""
 
 from __future__ import annotations
 
@@ -61,8 +61,8 @@ def study(robot: Arm, logs: Sequence[Path]) -> Study:
     found, transfers = [], []
     for path in logs:
         readings = read_readings(robot, path)
-        for measured in ("position", "range") if _has_range(readings) else ("position",):
-            found.append(_found(robot, path, measured))
+        kinds: tuple[Measured, ...] = ("position", "range") if _has_range(readings) else ("position",)
+        found += [_found(robot, path, measured) for measured in kinds]
     first, *others = logs
     if others:
         whole = diagnose(robot, read_readings(robot, first))
@@ -125,8 +125,8 @@ def _page(result: Study) -> Iterator[str]:
     yield "# Figures"
     yield ""
     yield (
-        "Made by `station real-robot`. Every error is of readings that nothing was learned from: a quarter of the "
-        "log, in blocks of forty neighbours. Of positions it is the length of the error in space, RMS in mm."
+        "Made by `station real-robot`. Every error is of readings that nothing was learned from: a quarter "
+        "of the log, in blocks of forty neighbours. Of positions it is the length in space, RMS in mm."
     )
     yield ""
     yield "| log | measured | readings | nominal | six errors a link | with the effects found | verdict | s |"
@@ -148,8 +148,8 @@ def _transfers(transfers: Sequence[tuple[str, str, Transfer]]) -> Iterator[str]:
     yield "## Learned on one log, applied unchanged to another"
     yield ""
     yield (
-        "The mechanism (base, tool, links) is fitted to three quarters of the new log, the effects stay as they were "
-        "learned; errors are of the fourth quarter."
+        "The mechanism (base, tool, links) is fitted to three quarters of the new log, the effects stay as "
+        "they were learned; errors are of the fourth quarter."
     )
     yield ""
     yield "| learned on | applied to | readings | mechanism alone | with the effects | left out by name |"
@@ -162,8 +162,8 @@ def _transfers(transfers: Sequence[tuple[str, str, Transfer]]) -> Iterator[str]:
         )
         if t.beyond:
             yield (
-                f"| | {applied}, the gaps between too | | {t.beyond[0].rms_mm:.4f} | {t.beyond[1].rms_mm:.4f} "
-                "| the same |"
+                f"| | {applied}, the gaps between too | | {t.beyond[0].rms_mm:.4f} "
+                f"| {t.beyond[1].rms_mm:.4f} | the same |"
             )
 
 

@@ -1,8 +1,8 @@
 """Which parameters the readings cannot tell apart, by name, and what ties them.
 
-Each unknown is counted in its own tolerance.  Pivoted QR of the whitened Jacobian picks, one after another, the
-parameter that the readings say most of beside those picked before; the rest are tied by their tolerances, and
-each is named with the parameters that it cannot be told from.
+Each unknown is counted in its own tolerance.  Pivoted QR of the whitened Jacobian picks, one after another,
+the parameter that the readings say most of beside those picked before; the rest are tied by their tolerances,
+and each is named with the parameters that it cannot be told from.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ from station.least_squares import Solution
 from station.mechanism import Mechanism
 
 TIED = 1.0
-"""Information of the readings on a parameter, over that of its tolerance, below which the tolerance decides."""
+"""Information of the readings on a parameter over that of its tolerance, below which the latter decides."""
 FREE = 1e6
 """An unknown without a tolerance may be off by so many of what the readings alone know of it."""
 ALIKE = 0.3
@@ -45,7 +45,7 @@ class Tied:
 def describe(mechanism: Mechanism, solution: Solution, sd_factor: float) -> dict[str, Any]:
     """{singular_ratio, text, sd_deg, blind, remedies}: the contract's `weak_direction`.
 
-    sd_deg is the largest standard uncertainty of a zero offset that is not tied; `blind` are the tied parameters.
+    sd_deg is the largest standard uncertainty of a zero offset that is not tied; `blind` names the tied.
     """
     tied = separate(mechanism, solution)
     names = {t.name for t in tied}

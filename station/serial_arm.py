@@ -65,8 +65,10 @@ class SerialArm:
         zero_sd = np.radians(t.zero_offset_deg)
         out = [Parameter(f"dtheta{i + 1}", "deg", 0.0, zero_sd, DEGREES) for i in range(n)]
         for i in range(n):
-            for name in _OTHERS:
-                out.append(Parameter(f"{name}{i + 1}", *(angle if name in ("alpha", "beta") else length)))
+            out += [
+                Parameter(f"{name}{i + 1}", *(angle if name in ("alpha", "beta") else length))
+                for name in _OTHERS
+            ]
         out += [Parameter(f"tool_{axis}", "mm", 0.0, self.robot.tool_sd_mm) for axis in "xyz"]
         if self.by_range:
             out += [Parameter(f"origin_{axis}", "mm", 0.0, np.inf) for axis in "xyz"]
@@ -215,7 +217,7 @@ class SerialArm:
         return np.asarray(turn.as_matrix())
 
     def _turned(self, turns: Real) -> tuple[Real, list[Real]]:
-        """Base orientation Rx Ry Rz R_0 at turns (3,), rad, and the axes that each of the three turns about."""
+        """Base orientation Rx Ry Rz R_0 at turns (3,), rad, and the axis of each of the three."""
         x, y, z = (Rotation.from_euler(axis, turns[k]).as_matrix() for k, axis in enumerate("xyz"))
         return x @ y @ z @ self._base_frame, [np.eye(3)[0], x[:, 1], (x @ y)[:, 2]]
 

@@ -15,7 +15,7 @@ Stretches = list[tuple[float, float]]
 
 
 def of(theta: Real) -> list[Stretches]:
-    """The stretches of each joint of theta (K, n), rad: neighbouring cells with enough readings, put together."""
+    """The stretches of each joint of theta (K, n), rad: neighbouring cells with enough readings as one."""
     return [_stretches(angle) for angle in theta.T]
 
 

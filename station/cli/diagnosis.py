@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import get_args
 
 import click
 from rich.console import Console
 from rich.table import Table
 
-from station.cli.numerics import check_folders, describe, write_json, write_text
+from station.cli.numerics import check_folders, describe, measured_option, write_json, write_text
 from station.diagnosis import kinds
 from station.diagnosis.cross_validation import without_a_quarter
 from station.diagnosis.diagnose import diagnose
@@ -22,13 +21,6 @@ from station.diagnosis.transfer import transfer
 from station.machines import Measured, read_readings, read_robot, robot_of
 
 _file = click.Path(path_type=Path)
-_measured = click.option(
-    "--measured",
-    type=click.Choice(get_args(Measured)),
-    default="position",
-    show_default=True,
-    help="What counts of an arm's log that has both.",
-)
 
 
 @click.command("diagnose")
@@ -38,7 +30,7 @@ _measured = click.option(
 @click.option(
     "--hold-out", is_flag=True, help="Judge by a quarter of the readings that nothing is learned from."
 )
-@_measured
+@measured_option
 @click.option("--json", "json_file", type=_file, help="Write the whole diagnosis here.")
 @click.option("--html", "html_file", type=_file, help="Write the report page here.")
 @click.pass_context
@@ -98,7 +90,7 @@ def solve_command(targets: Path, model_file: Path, csv_file: Path | None) -> Non
 @click.command("transfer")
 @click.argument("data", type=_file)
 @click.option("--model", "model_file", type=_file, required=True, help="What `diagnose --json` wrote.")
-@_measured
+@measured_option
 @click.option("--json", "json_file", type=_file, help="Write the figures here.")
 def transfer_command(data: Path, model_file: Path, measured: Measured, json_file: Path | None) -> None:
     """Apply the effects learned on one log, unchanged, to another log of the same machine."""

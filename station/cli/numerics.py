@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, get_args
 
@@ -11,27 +12,70 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station import measurement_file, plan_drawing
+from station import plan_drawing
+from station.arm import Arm
+from station.arm_identification import ArmIdentification, identify_arm
 from station.identification import Identification, identify
+from station.machines import Measured, read_readings, read_robot
 from station.plans import make_plan
-from station.records import PlanName
+from station.records import PlanName, Quantity
 from station.robot import Robot
 
 existing = click.Path(path_type=Path)
+measured_option = click.option(
+    "--measured",
+    type=click.Choice(get_args(Measured)),
+    default="position",
+    show_default=True,
+    help="What counts of an arm's log that has both.",
+)
 
 
 @click.command("identify")
 @click.argument("data", type=existing)
 @click.option("--robot", "robot_file", type=existing, help="Robot file; without it the paper's Table 1.")
+@measured_option
 @click.option("--json", "json_file", type=existing, help="Write the whole result here.")
-def identify_command(data: Path, robot_file: Path | None, json_file: Path | None) -> None:
+def identify_command(data: Path, robot_file: Path | None, measured: Measured, json_file: Path | None) -> None:
     """Zero offsets with uncertainty from a measurement file."""
-    robot = Robot.from_toml(robot_file) if robot_file else Robot.default()
-    fit = identify(robot, measurement_file.read(data))
+    robot = read_robot(robot_file)
+    readings = read_readings(robot, data, measured)
+    if isinstance(robot, Arm):
+        _identify_arm(identify_arm(robot, readings), data, json_file)
+        return
+    fit = identify(robot, readings)
     content = {"data": describe(data, len(fit.measurements) + len(fit.outliers)), **fit.as_json()}
     if json_file:
         write_json(json_file, content)
     _print(fit, content)
+
+
+def _identify_arm(found: ArmIdentification, data: Path, json_file: Path | None) -> None:
+    content = found.as_json()
+    kept = len(found.fit.model.mechanism.measurements)
+    if json_file:
+        write_json(json_file, {"data": describe(data, kept + len(found.outliers)), **content})
+    console = Console()
+    console.print(_table(found.parameters, kept))
+    residual, weak = content["residual"], content["weak_direction"]
+    console.print(f"Residual rms {residual['rms_mm']:.4f} mm, largest {residual['max_mm']:.4f} mm.")
+    console.print(f"Weakest: {weak['text']}. Held by tolerances alone: {'; '.join(weak['blind'])}.")
+    for outlier in found.outliers:
+        console.print(f"Left out: reading {outlier.reading}, {outlier.reason}.")
+    if found.sd_factor > 1.0:
+        console.print(
+            f"The model does not fit: the uncertainties were widened by {found.sd_factor:.1f}; "
+            "`station diagnose` looks for the cause."
+        )
+
+
+def _table(quantities: Iterable[Quantity], readings: int) -> Table:
+    table = Table("parameter", "value", "sd", "unit", title=f"{readings} readings")
+    for column in table.columns[1:3]:
+        column.justify = "right"
+    for q in quantities:
+        table.add_row(q.name, f"{q.value:.4f}", f"{q.sd:.4f}", q.unit)
+    return table
 
 
 def describe(path: Path, readings: int) -> dict[str, Any]:
@@ -66,12 +110,7 @@ def write_text(path: Path, text: str) -> None:
 def _print(fit: Identification, content: dict[str, Any]) -> None:
     console = Console()
     k = fit.noise.coverage_factor
-    table = Table("parameter", "value", "sd", "unit", title=f"{len(fit.measurements)} readings")
-    for column in table.columns[1:3]:
-        column.justify = "right"
-    for q in (*fit.quantities(), *fit.modes()):
-        table.add_row(q.name, f"{q.value:.4f}", f"{q.sd:.4f}", q.unit)
-    console.print(table)
+    console.print(_table((*fit.quantities(), *fit.modes()), len(fit.measurements)))
     weak, residual = content["weak_direction"], content["residual"]
     console.print(
         f"95 % interval: value +- {k:.2f} sd. Noise {fit.noise.sigma_mm * 1e3:.2f} um "

@@ -1,4 +1,4 @@
-"""The learned curve of each joint as it can be drawn: with its uncertainty, and with what was measured of it."""
+"""The learned curve of each joint as it can be drawn: with its uncertainty and what was measured of it."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ FEWEST = 4
 
 @dataclass(frozen=True)
 class Curve:
-    """Error of one joint over the angles it has been at; slower than four cycles a turn is left to geometry."""
+    """Error of a joint over the angles it has been at; slower than four cycles a turn is left to geometry."""
 
     label: str
     joint: int

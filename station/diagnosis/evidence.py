@@ -82,7 +82,7 @@ def grown(fit: Fit, term: Term, signature: Real, noise: float) -> tuple[tuple[Te
 
 
 def _bands(terms: tuple[Term, ...], size: int) -> Index:
-    """(size + amplitudes,) a number for each band, the same for effects of one kind: reducers of one arm are alike."""
+    """(size + amplitudes,) a number a band, one for all effects of a kind: reducers of one arm are alike."""
     parts, first = [np.full(size, NONE, dtype=np.intp)], 0
     kinds: dict[type[Effect], int] = {}
     for term in terms:

@@ -17,7 +17,7 @@ from station.diagnosis.scan import Candidate, Scan
 from station.least_squares import Prior, Solution
 
 ROWS = 1000
-"""From so many on a log is long: candidates differ by far more than what their signatures' curvature is worth."""
+"""From so many on a log is long: candidates differ by more than their signatures' curvature is worth."""
 
 
 def is_long(found: Fit) -> bool:
@@ -25,7 +25,7 @@ def is_long(found: Fit) -> bool:
 
 
 def with_candidate(scan: Scan, candidate: Candidate, prior: Prior) -> Fit:
-    """The scanned fit with one effect more; rows scatter by what is left, or by what is specified if that is more.
+    """The scanned fit with one effect more; rows scatter by what is left, or as specified if that is more.
 
     :raises NotConvergedError: no convergence.
     """
@@ -39,7 +39,7 @@ def with_candidate(scan: Scan, candidate: Candidate, prior: Prior) -> Fit:
 
 
 def without(found: Fit, kept: NDArray[np.bool_]) -> Fit:
-    """The fit to the readings `kept` (K,) only: exact where the model is linear, M - J_B'J_B being its matrix then."""
+    """The fit to the readings `kept` (K,) only; exact where the model is linear."""
     mechanism = found.model.mechanism
     row = kept[mechanism.reading_of_row]
     old, C = found.solution, found.solution.covariance

@@ -113,9 +113,9 @@ def _curves(drawn: Sequence[Curve]) -> Section:
     return Section(
         "Curves learned",
         (
-            "Error of the joint, in thousandths of a degree, over the angles it has been at; the band is twice the "
-            "standard uncertainty. Points: means over two degrees of what the readings say of this joint when "
-            "everything else in the model is right. Outside these angles the curve is not known and not used.",
+            "Error of the joint, in thousandths of a degree, over the angles it has been at; the band is "
+            "twice the standard uncertainty. Points: means over two degrees of what the readings say of it "
+            "when everything else in the model is right. Outside these angles the curve is not known.",
         ),
         (),
         tuple(Chart(curve_chart(curve), curve.label) for curve in drawn),

@@ -54,7 +54,7 @@ class Transfer:
     applied: Errors
     """With the effects, the same readings."""
     beyond: tuple[Errors, Errors] | None
-    """The same pair within the outer limits of the learned range, gaps included; None when that is the same."""
+    """The same pair within the outer limits of the learned range, gaps included; None when there are none."""
 
     def as_json(self) -> dict[str, Any]:
         return asdict(self)

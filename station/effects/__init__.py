@@ -39,7 +39,7 @@ def catalogue() -> tuple[Effect, ...]:
 
 
 def arm_catalogue(joints: int, *, by_range: bool) -> tuple[Effect, ...]:
-    """Every effect at every joint of a serial arm; with distances also those of the instrument that measures them."""
+    """Every effect at every joint of a serial arm; with distances also those of the instrument."""
     effects = (*PER_JOINT, GearCurve)
     at_joints = tuple(effect(joint) for effect in effects for joint in range(1, joints + 1))
     return (*at_joints, ThermalLinks(), *((ScaleGain(), Drift(), ThermalGrowth()) if by_range else ()))
