@@ -32,6 +32,7 @@ from station.records import (
     Reading,
     SetZeros,
     State,
+    Submitted,
     Walk,
 )
 from station.robot import Robot
@@ -50,14 +51,6 @@ IDLE_S = 0.5
 SHUTDOWN_LIMIT_S = 10.0
 
 ProcedureFactory = Callable[[PlanName, Robot], Procedure]
-
-
-@dataclass(frozen=True, slots=True)
-class Submitted:
-    """What a request came to; `created` is False when its idempotency key had been used before."""
-
-    id: int
-    created: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +74,7 @@ class Orchestrator:
         self._submitting = Lock()
         self._lock = Lock()
         self._run: Run | None = None
-        self._last = next(iter(store.calibrations(limit=1).items), None)
+        self._last = store.last_on_rig()
         self._closing = False
         self._queue: Queue[Run | None] = Queue()
         self._worker = Thread(target=self._work, name="orchestrator", daemon=True)
@@ -140,10 +133,7 @@ class Orchestrator:
 
     def _robot(self, serial: str) -> Robot:
         """The kept robot file, else the paper's Table 1, checked against the drives' scaling."""
-        try:
-            robot = self._store.robot(serial)
-        except NotFound:
-            robot = Robot.default(serial)
+        robot = self._store.robot_or_nominal(serial)
         for joint, settings in enumerate(self._settings.joints, start=1):
             wanted, has = asdict(robot.scaling(joint)), asdict(settings.scaling)
             differing = [
@@ -330,6 +320,8 @@ class Orchestrator:
         request = run.request
         if request.plan == "apply" or request.plan == "rollback":
             return start_application(self._store, request)
+        if request.plan == "dataset":
+            raise InputRefused("A data set is imported, not run.")
         return self._start_procedure(request.plan, run.robot)
 
     def _set(self, run: Run, zeroing: Zeroing, step: SetZeros) -> tuple[float, float]:

@@ -29,8 +29,9 @@ class State(StrEnum):
 
 
 PlanName = Literal["paper", "rapid", "full", "diagnostic"]
-RunKind = Literal[PlanName, "apply", "rollback"]
-"""What a run does: calibrate by a plan, or write the zeros of an earlier run, or take them back."""
+RunKind = Literal[PlanName, "apply", "rollback", "dataset"]
+"""What a run does: calibrate by a plan, or write the zeros of an earlier run, or take them back; a
+`dataset` was measured elsewhere and came as a file."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,6 +45,14 @@ class CalibrationRequest:
     metadata: dict[str, Any] = field(default_factory=dict)
     of: int | None = None
     """The run whose zero offsets are applied or rolled back; None for a calibration."""
+
+
+@dataclass(frozen=True, slots=True)
+class Submitted:
+    """What a request came to; `created` is False when its idempotency key had been used before."""
+
+    id: int
+    created: bool
 
 
 @dataclass(frozen=True, slots=True)

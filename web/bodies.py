@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, JsonValue, StringConstraints
 
+from station import robot
 from station.records import PlanName, Reading, State
 
 Serial = Annotated[
@@ -31,6 +32,18 @@ class CalibrationBody(BaseModel):
     operator: Name
     work_order: Name | None = None
     metadata: dict[str, JsonValue] = Field(default_factory=dict)
+
+
+class DatasetFields(BaseModel):
+    """Whose readings are imported, and by whom; in the query, or as fields beside the files."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    robot_serial: Serial = Field(
+        default=robot.Robot.default().serial, description="without a file kept here: the paper's robot"
+    )
+    operator: Name = "REST"
+    work_order: Name | None = None
 
 
 class ZeroOffset(Answer):
@@ -101,7 +114,9 @@ class CalibrationSummary(Answer):
 
     id: int
     robot_serial: str
-    plan: str = Field(description="of a calibration; `apply` and `rollback` belong to the run `of`")
+    plan: str = Field(
+        description="of a calibration; `apply` and `rollback` belong to the run `of`, `dataset` is a file"
+    )
     of: int | None = None
     operator: str
     work_order: str | None = None
