@@ -193,6 +193,45 @@ class Calibration(CalibrationSummary):
     findings: list[dict[str, JsonValue]] = Field(default_factory=list)
 
 
+Sense = Literal[-1, 0, 1]
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+MOST_TARGETS = 10_000
+
+
+class Target(BaseModel):
+    """Where P is to go, and what an effect may depend on there."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    x_mm: Finite
+    y_mm: Finite
+    approach1: Sense = Field(default=0, description="sign of the joint's last motion; 0 not known")
+    approach2: Sense = 0
+    temperature_c: Finite | None = Field(default=None, description="null: as at the run's first reading")
+    payload_kg: Finite | None = None
+
+
+class SolveBody(BaseModel):
+    """Targets to be commanded under the identified model."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    targets: list[Target] = Field(min_length=1, max_length=MOST_TARGETS)
+
+
+class JointCommand(Answer):
+    theta1_deg: float
+    theta2_deg: float
+
+
+class Solution(Answer):
+    """Joint commands in the drives' nominal frame, one a target, in their order."""
+
+    commands: list[JointCommand]
+    range: str = Field(description="what the model was learned on")
+    confirmed: bool | None = Field(description="false: fresh readings refuted the model; null: never asked")
+
+
 class MemorySummary(Answer):
     """What the robot's next run will start from."""
 

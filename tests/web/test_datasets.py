@@ -217,7 +217,8 @@ def test_a_form_that_is_none_is_refused(service: Service, worn: tuple[bytes, byt
 def test_a_field_at_fault_is_named(
     service: Service, worn: tuple[bytes, bytes], field: str, value: str
 ) -> None:
-    assert problem_of(send(service, *worn, **{field: value}), 422)["field"] == field
+    data: dict[str, Any] = {field: value}
+    assert problem_of(send(service, *worn, **data), 422)["field"] == field
     answer = service.client.post(
         DATASETS, params={field: value}, content=b"", headers={"Content-Type": "text/csv"}
     )
