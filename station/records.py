@@ -171,6 +171,8 @@ class CalibrationResult:
     """Per pass: {pass, dtheta1_deg, dtheta2_deg, total1_deg, total2_deg, mu_deg}."""
     residuals: tuple[dict[str, Any], ...]
     """Per reading of the fit: {reading, position, residual_mm, limit_mm}."""
+    lack_of_fit: str = ""
+    """What in the readings the model does not account for, in plain words; empty when it fits."""
     memory: dict[str, Any] | None = None
     """What earlier runs knew: {used, p_value, text, from_calibration, age_days}; None: nothing was known."""
     lasting: dict[str, Any] | None = None

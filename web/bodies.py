@@ -186,11 +186,42 @@ class Calibration(CalibrationSummary):
     weak_direction: WeakDirection | None = None
     application: Application | None = Field(default=None, description="null unless the run has passed")
     memory: MemoryUse | None = Field(default=None, description="null when nothing was known")
+    lack_of_fit: str | None = Field(
+        default=None, description="what the model does not account for; null when it fits or none was judged"
+    )
     before: Accuracy | None = None
     after: Accuracy | None = None
     iterations: list[Iteration] | None = None
     residuals: list[Residual] | None = None
     findings: list[dict[str, JsonValue]] = Field(default_factory=list)
+
+
+class ResidualRow(Answer):
+    """One reading that a diagnosis learned from, with all that its residual may be ordered by."""
+
+    reading: int
+    position: str
+    x_mm: float
+    y_mm: float
+    t_s: float
+    theta1_deg: float = Field(description="actual angle, zero offset included")
+    theta2_deg: float
+    approach1: int
+    approach2: int
+    travel_mm: float
+    temperature_rise_k: float | None
+    before_mm: float = Field(description="measured less base model")
+    by_effect_mm: list[float] = Field(description="what each of `effects` accounts for")
+    after_mm: float = Field(description="what the last model leaves")
+    limit_mm: float
+
+
+class ResidualList(Answer):
+    """Residuals before and after; `effects` in the order in which they were added."""
+
+    effects: list[str]
+    items: list[ResidualRow]
+    next: None = None
 
 
 Sense = Literal[-1, 0, 1]

@@ -1,19 +1,24 @@
-"""`/calibrations/{id}/diagnosis`, `/report.html` and `/solve`: the causes that a run found, and their use."""
+"""What a run found, under `/calibrations/{id}`: `/diagnosis`, `/residuals`, `/report.html` and `/solve`."""
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import Any
 
 import numpy as np
 from fastapi import APIRouter
 from fastapi.responses import HTMLResponse
 
+from station.diagnosis.document import Findings
 from station.diagnosis.model_file import model_of
 from station.diagnosis.page import page
+from station.diagnosis.residuals import residuals
 from station.diagnosis.solve import range_text, solve_targets
 from station.diagnosis.targets import targets_of
 from station.diagnostic_run import diagnosed
-from web.bodies import JointCommand, Solution, SolveBody
+from station.records import Reading
+from station.runtime import Runtime
+from web.bodies import JointCommand, ResidualList, ResidualRow, Solution, SolveBody
 from web.problems import documented
 from web.routes.parts import CalibrationId, TheRuntime
 
@@ -32,15 +37,21 @@ def read_diagnosis(calibration_id: CalibrationId, runtime: TheRuntime) -> dict[s
     return runtime.store.diagnosis(calibration_id)
 
 
+@router.get("/residuals", response_model=ResidualList, responses=documented(404))
+def read_residuals(calibration_id: CalibrationId, runtime: TheRuntime) -> ResidualList:
+    """The residual of every reading without and with the effects, computed again from the stored readings."""
+    findings, readings = _again(runtime, calibration_id)
+    found = residuals(findings, {r.reading: r.position for r in readings})
+    return ResidualList(
+        effects=list(found.effects), items=[ResidualRow.model_validate(asdict(row)) for row in found.rows]
+    )
+
+
 @router.get("/report.html", response_class=HTMLResponse, responses=documented(404))
 def read_report(calibration_id: CalibrationId, runtime: TheRuntime) -> HTMLResponse:
     """The diagnosis as a page with drawings, computed again from the stored readings."""
-    store = runtime.store
-    store.diagnosis(calibration_id)
-    robot = store.robot_of(calibration_id)
-    report = page(
-        diagnosed(robot, store.readings(calibration_id)), f"run {calibration_id}, robot {robot.serial}"
-    )
+    findings, _ = _again(runtime, calibration_id)
+    report = page(findings, f"run {calibration_id}, robot {findings.diagnosis.robot.serial}")
     return HTMLResponse(report.to_html(), headers={"Content-Security-Policy": REPORT_POLICY})
 
 
@@ -58,3 +69,11 @@ def solve(calibration_id: CalibrationId, body: SolveBody, runtime: TheRuntime) -
         range=range_text(model),
         confirmed=model.confirmed,
     )
+
+
+def _again(runtime: Runtime, calibration_id: int) -> tuple[Findings, list[Reading]]:
+    """The diagnosis of a run from its readings.  :raises NotFound: no such run, or it has none."""
+    store = runtime.store
+    store.diagnosis(calibration_id)
+    readings = store.readings(calibration_id)
+    return diagnosed(store.robot_of(calibration_id), readings), readings
