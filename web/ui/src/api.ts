@@ -14,7 +14,7 @@ export type Summary = Schemas["CalibrationSummary"];
 export type Calibration = Schemas["Calibration"];
 export type Reading = Schemas["ReadingAnswer"];
 export type CalibrationBody = Schemas["CalibrationBody"];
-
+export type ResidualRow = Schemas["ResidualRow"];
 
 interface Effect {
   effect: string;
@@ -25,6 +25,9 @@ interface Effect {
 export interface Diagnosis {
   verdict: "adequate" | "explained" | "partly_explained" | "unexplained";
   confirmed: boolean | null;
+  sentence: string;
+  noise: { sigma_mm: number; source: "repeats" | "specification"; dof: number };
+  outliers: number[];
   findings: (Effect & {
     parameters: { name: string; value: number; sd: number; unit: string }[];
     share: number;
@@ -41,6 +44,12 @@ export interface Diagnosis {
     confirm_max_mm: number | null;
   }[];
   hints: { text: string; strength: number }[];
+  invisible: (Effect & {
+    parameter: string | null;
+    minimum_detectable: number | null;
+    unit: string | null;
+    text: string;
+  })[];
 }
 
 const TIMEOUT_MS = 8000;
@@ -108,6 +117,8 @@ export const stop = () =>
 export const calibration = (id: number) => call<Calibration>("GET", `/calibrations/${id}`);
 
 export const diagnosis = (id: number) => call<Diagnosis>("GET", `/calibrations/${id}/diagnosis`);
+
+export const residuals = (id: number) => call<Schemas["ResidualList"]>("GET", `/calibrations/${id}/residuals`);
 
 export const calibrations = (query: URLSearchParams) =>
   call<Schemas["CalibrationList"]>("GET", `/calibrations?${query}`);
