@@ -29,6 +29,14 @@ def diagnostic(robot: Robot) -> Generator[Walk, list[Reading], CalibrationResult
     :raises InputRefused: the readings are not enough to judge, or not of this robot.
     """
     readings = yield Walk("Looking for the cause", 1, make_plan("diagnostic", robot).stops)
+    return (yield from judged(robot, readings))
+
+
+def judged(robot: Robot, readings: list[Reading]) -> Generator[Walk, list[Reading], CalibrationResult]:
+    """What readings tell of the cause, judged by fresh ones at other places.
+
+    :raises InputRefused: as `diagnose`.
+    """
     walk = from_readings(readings)
     fit = Findings(diagnose(robot, walk)).fit
     fresh = yield Walk("Confirming at fresh places", 2, fresh_stops(robot, fit.x[:2], _seed(walk)))

@@ -30,6 +30,7 @@ from station.records import (
     PlanName,
     Procedure,
     Reading,
+    RunKind,
     SetZeros,
     State,
     Submitted,
@@ -37,6 +38,7 @@ from station.records import (
 )
 from station.robot import Robot
 from station.run import Run
+from station.separating_run import check_separating, learned, since_start_s, start_separating
 from station.settings import Settings
 from station.store import Store
 from station.store_rows import compact
@@ -49,6 +51,13 @@ log = logging.getLogger(__name__)
 
 IDLE_S = 0.5
 SHUTDOWN_LIMIT_S = 10.0
+
+_CHECKS: dict[RunKind, Callable[[Store, int], None]] = {
+    "apply": check_apply,
+    "rollback": check_roll_back,
+    "separating": check_separating,
+}
+"""Whether the run that another one is about allows it."""
 
 ProcedureFactory = Callable[[PlanName, Robot], Procedure]
 
@@ -102,7 +111,7 @@ class Orchestrator:
                 raise Busy(holder.id)
             robot = self._robot(request.robot_serial)
             if request.of is not None:
-                (check_apply if request.plan == "apply" else check_roll_back)(self._store, request.of)
+                _CHECKS[request.plan](self._store, request.of)
             calibration_id = self._store.create(request, robot, key=idempotency_key, body_hash=body_hash)
             run = Run(calibration_id, request, robot)
             with self._lock:
@@ -130,6 +139,17 @@ class Orchestrator:
             return Submitted(done, created=False)
         serial = self._store.summary(calibration_id)["robot_serial"]
         return self.submit(CalibrationRequest(serial, "rollback", operator, of=calibration_id))
+
+    def separate(
+        self, calibration_id: int, operator: str, *, idempotency_key: str | None = None
+    ) -> Submitted:
+        """Tell the cause that a diagnostic run found from its look-alikes by more readings.
+
+        :raises NotFound: there is no such run, or it has no diagnosis; else as `submit`.
+        """
+        serial = self._store.summary(calibration_id)["robot_serial"]
+        request = CalibrationRequest(serial, "separating", operator, of=calibration_id)
+        return self.submit(request, idempotency_key=idempotency_key)
 
     def _robot(self, serial: str) -> Robot:
         """The kept robot file, else the paper's Table 1, checked against the drives' scaling."""
@@ -304,6 +324,8 @@ class Orchestrator:
         walker.prepare()
         zeroing = Zeroing(run.id, self._machine, walker, self._store)
         zeroing.settle()
+        if run.request.plan == "separating":
+            self._go_on(run, walker)
         procedure = self._procedure(run)
 
         def carry_out(step: Walk | SetZeros) -> Any:
@@ -316,10 +338,21 @@ class Orchestrator:
         self._listeners.publish("residuals", run.add_result(result))
         return result
 
+    def _go_on(self, run: Run, walker: Walker) -> None:
+        """With the readings and the clock of the run before."""
+        of = run.request.of or 0
+        readings = learned(self._store.readings(of))
+        self._store.add_readings(run.id, readings)
+        run.inherit(len(readings))
+        last_s = readings[-1].t_s / self._machine.devices.speed
+        walker.started -= max(since_start_s(self._store, of, run.id), last_s)
+
     def _procedure(self, run: Run) -> Procedure:
         request = run.request
         if request.plan == "apply" or request.plan == "rollback":
             return start_application(self._store, request)
+        if request.plan == "separating":
+            return start_separating(self._store, request)
         if request.plan == "dataset":
             raise InputRefused("A data set is imported, not run.")
         return self._start_procedure(request.plan, run.robot)

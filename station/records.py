@@ -29,9 +29,9 @@ class State(StrEnum):
 
 
 PlanName = Literal["paper", "rapid", "full", "diagnostic"]
-RunKind = Literal[PlanName, "apply", "rollback", "dataset"]
-"""What a run does: calibrate by a plan, or write the zeros of an earlier run, or take them back; a
-`dataset` was measured elsewhere and came as a file."""
+RunKind = Literal[PlanName, "apply", "rollback", "separating", "dataset"]
+"""What a run does: calibrate by a plan, or write the zeros of an earlier run, or take them back; or go on
+from a diagnostic run, to tell look-alikes apart.  A `dataset` was measured elsewhere and came as a file."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,7 +44,7 @@ class CalibrationRequest:
     work_order: str | None = None
     metadata: dict[str, Any] = field(default_factory=dict)
     of: int | None = None
-    """The run whose zero offsets are applied or rolled back; None for a calibration."""
+    """The run whose zero offsets are applied or rolled back, or that is gone on from; else None."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -43,8 +43,11 @@ class Experiment:
 
 
 def experiment(findings: Findings) -> Experiment | None:
-    """The shortest motion that separates all it can; None where there is no set or none is worth it."""
-    rivals = _rivals(findings)
+    """The shortest motion that separates all it can; None where there is no set or none is worth it.
+
+    Nor is there one for effects that are not the cause.
+    """
+    rivals = _rivals(findings) if findings.passed else {}
     best: Experiment | None = None
     for count in COUNTS if rivals else ():
         planned = _planned(findings.diagnosis.last, rivals, count)

@@ -115,7 +115,7 @@ class CalibrationSummary(Answer):
     id: int
     robot_serial: str
     plan: str = Field(
-        description="of a calibration; `apply` and `rollback` belong to the run `of`, `dataset` is a file"
+        description="of a calibration; or `apply`, `rollback`, `separating`, of the run `of`; or `dataset`"
     )
     of: int | None = None
     operator: str
@@ -135,7 +135,7 @@ ApplicationState = Literal["unwritten", "applied", "partly", "in doubt", "rolled
 
 
 class ApplyBody(BaseModel):
-    """Who writes zero offsets to the drives, or takes them back."""
+    """Who writes zero offsets to the drives, takes them back, or goes on from a run."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -194,6 +194,21 @@ class Calibration(CalibrationSummary):
     iterations: list[Iteration] | None = None
     residuals: list[Residual] | None = None
     findings: list[dict[str, JsonValue]] = Field(default_factory=list)
+
+
+class SeparatingStop(Answer):
+    position: str
+    x_mm: float
+    y_mm: float
+
+
+class Separating(Answer):
+    """The motion that tells what a run found from its look-alikes."""
+
+    apart: list[str] = Field(description="look-alikes that it should rule out, or confirm instead")
+    stops: list[SeparatingStop] = Field(description="in measuring order; empty when there is none")
+    duration_s: float | None
+    refused: str | None = Field(description="why there is none, null when it can be run")
 
 
 class ResidualRow(Answer):

@@ -16,7 +16,7 @@ from station.diagnostic_walk import FRESH_PLACES, fresh_stops
 from station.errors import InputRefused, NotApplicable, NotFound
 from station.plans import make_plan
 from station.procedures import start_procedure
-from station.records import CalibrationRequest, CalibrationResult, PlanName, Reading, State, Walk
+from station.records import CalibrationRequest, CalibrationResult, PlanName, Procedure, Reading, State, Walk
 from station.robot import Robot
 from station.simulation import SimulatedMachine
 from station.store import Store
@@ -32,13 +32,19 @@ def machine(*effects: dict[str, Any]) -> SimulatedMachine:
 
 
 def run(machine: SimulatedMachine, plan: PlanName = "diagnostic") -> tuple[list[Reading], CalibrationResult]:
-    """The procedure's walks carried out in virtual time, with the run-ups that approaches ask for."""
-    procedure = start_procedure(plan, ROBOT)
+    """A plan carried out in virtual time."""
+    return carried_out(machine, start_procedure(plan, ROBOT))
+
+
+def carried_out(
+    machine: SimulatedMachine, procedure: Procedure, before: int = 0
+) -> tuple[list[Reading], CalibrationResult]:
+    """The walks in virtual time, with the run-ups that approaches ask for, after so many readings."""
     readings: list[Reading] = []
     try:
         walk = next(procedure)
         while True:
-            taken = measure(machine, walk, len(readings))
+            taken = measure(machine, walk, before + len(readings))
             readings += taken
             walk = procedure.send(taken)
     except StopIteration as end:
@@ -60,7 +66,7 @@ def measure(machine: SimulatedMachine, walk: Any, taken: int) -> list[Reading]:
     return [
         Reading(
             taken + n,
-            float(visited.t_s[k]) + 1000.0 * walk.number,
+            float(visited.t_s[k]),
             tuple(float(v) for v in np.degrees(visited.theta[k])),
             tuple(int(a) for a in visited.approach[k]),
             float(visited.distance[k]),

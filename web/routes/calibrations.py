@@ -129,6 +129,27 @@ def roll_back_calibration(
     return _started(runtime.orchestrator.roll_back(calibration_id, body.operator), runtime, response)
 
 
+@router.post(
+    "/{calibration_id}/separate",
+    status_code=202,
+    response_model=CalibrationSummary,
+    responses={**STARTED, **documented(404)},
+)
+def separate(
+    calibration_id: CalibrationId,
+    body: ApplyBody,
+    runtime: TheRuntime,
+    response: Response,
+    idempotency_key: IdempotencyKey = None,
+) -> dict[str, Any]:
+    """Tell the cause that a diagnostic run found from its look-alikes, by the motion of `/separating`.
+
+    A run of its own, of plan `separating`: it goes on from the readings of that run, and fresh ones judge.
+    """
+    submitted = runtime.orchestrator.separate(calibration_id, body.operator, idempotency_key=idempotency_key)
+    return _started(submitted, runtime, response)
+
+
 def _started(submitted: Submitted, runtime: Runtime, response: Response) -> dict[str, Any]:
     response.headers["Location"] = f"/api/v1/calibrations/{submitted.id}"
     return runtime.store.calibration(submitted.id)

@@ -1,4 +1,4 @@
-"""What a run found, under `/calibrations/{id}`: `/diagnosis`, `/residuals`, `/report.html` and `/solve`."""
+"""What a run found, under `/calibrations/{id}`: diagnosis, residuals, report, separating motion, solve."""
 
 from __future__ import annotations
 
@@ -16,9 +16,19 @@ from station.diagnosis.residuals import residuals
 from station.diagnosis.solve import range_text, solve_targets
 from station.diagnosis.targets import targets_of
 from station.diagnostic_run import diagnosed
+from station.errors import NotApplicable
 from station.records import Reading
 from station.runtime import Runtime
-from web.bodies import JointCommand, ResidualList, ResidualRow, Solution, SolveBody
+from station.separating_run import planned
+from web.bodies import (
+    JointCommand,
+    ResidualList,
+    ResidualRow,
+    Separating,
+    SeparatingStop,
+    Solution,
+    SolveBody,
+)
 from web.problems import documented
 from web.routes.parts import CalibrationId, TheRuntime
 
@@ -44,6 +54,25 @@ def read_residuals(calibration_id: CalibrationId, runtime: TheRuntime) -> Residu
     found = residuals(findings, {r.reading: r.position for r in readings})
     return ResidualList(
         effects=list(found.effects), items=[ResidualRow.model_validate(asdict(row)) for row in found.rows]
+    )
+
+
+@router.get("/separating", response_model=Separating, responses=documented(404))
+def read_separating(calibration_id: CalibrationId, runtime: TheRuntime) -> Separating:
+    """The motion that tells the cause from its look-alikes, or why there is none.
+
+    `POST .../separate` runs it.
+    """
+    try:
+        plan = planned(runtime.store, calibration_id)
+    except NotApplicable as none:
+        return Separating(apart=[], stops=[], duration_s=None, refused=str(none))
+    stops = [
+        SeparatingStop(position=s.position, x_mm=s.target_mm[0], y_mm=s.target_mm[1])
+        for s in plan.experiment.stops
+    ]
+    return Separating(
+        apart=list(plan.experiment.apart), stops=stops, duration_s=plan.duration_s, refused=None
     )
 
 

@@ -15,6 +15,7 @@ export type Calibration = Schemas["Calibration"];
 export type Reading = Schemas["ReadingAnswer"];
 export type CalibrationBody = Schemas["CalibrationBody"];
 export type ResidualRow = Schemas["ResidualRow"];
+export type Separating = Schemas["Separating"];
 
 interface Effect {
   effect: string;
@@ -119,6 +120,14 @@ export const calibration = (id: number) => call<Calibration>("GET", `/calibratio
 export const diagnosis = (id: number) => call<Diagnosis>("GET", `/calibrations/${id}/diagnosis`);
 
 export const residuals = (id: number) => call<Schemas["ResidualList"]>("GET", `/calibrations/${id}/residuals`);
+
+export const separating = (id: number) => call<Separating>("GET", `/calibrations/${id}/separating`);
+
+export const separate = (id: number, operator: string, key: string) =>
+  call<Summary>("POST", `/calibrations/${id}/separate`, {
+    headers: { "Content-Type": "application/json", "Idempotency-Key": key },
+    body: JSON.stringify({ operator }),
+  });
 
 export const calibrations = (query: URLSearchParams) =>
   call<Schemas["CalibrationList"]>("GET", `/calibrations?${query}`);

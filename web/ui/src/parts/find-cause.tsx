@@ -4,6 +4,7 @@ import { connected, station } from "../live";
 import { keepOperator, operator } from "../operator";
 import { navigate } from "../router";
 import { ConfirmedButton } from "./confirm";
+import { OperatorField } from "./operator-field";
 
 export function FindCause({ result: { robot_serial, work_order, lack_of_fit } }: { result: Calibration }) {
   const idle = connected.value && !station.value?.run && operator.value.trim() !== "";
@@ -32,16 +33,7 @@ export function FindCause({ result: { robot_serial, work_order, lack_of_fit } }:
         then judge it.
       </p>
       <div class="writes">
-        <p class="field">
-          <label for="cause-operator">Operator</label>
-          <input
-            id="cause-operator"
-            value={operator.value}
-            maxLength={64}
-            spellcheck={false}
-            onInput={(event) => (operator.value = event.currentTarget.value)}
-          />
-        </p>
+        <OperatorField id="cause-operator" />
         <ConfirmedButton label="Find the cause" prominent={lack_of_fit !== null} disabled={!idle} act={walk}>
           <strong>Robot {robot_serial} will move</strong> over its whole workspace. Nobody within its reach?
         </ConfirmedButton>

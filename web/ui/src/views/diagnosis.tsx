@@ -7,6 +7,7 @@ import { Invisible } from "../parts/invisible";
 import { Link } from "../parts/link";
 import { useLoaded } from "../parts/load";
 import { ResidualOrderings } from "../parts/residual-orderings";
+import { SeparatingOffer } from "../parts/separating";
 import { Stages } from "../parts/stages";
 import { VerdictLine } from "../parts/verdict";
 
@@ -49,6 +50,7 @@ export function DiagnosisView({ id }: { id: number }) {
         </p>
       </section>
       <Causes found={found} />
+      <SeparatingOffer id={id} serial={run.robot_serial} found={found} />
       <Hints found={found} />
       <ResidualOrderings id={id} residuals={left} />
       <Stages found={found} />

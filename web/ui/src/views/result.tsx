@@ -8,6 +8,7 @@ import { FindCause } from "../parts/find-cause";
 import { Link } from "../parts/link";
 import { useLoaded } from "../parts/load";
 import { Memory } from "../parts/memory";
+import { SeparatingOffer } from "../parts/separating";
 import { ResidualChart } from "../parts/residual-chart";
 import { VerdictLine } from "../parts/verdict";
 
@@ -17,7 +18,7 @@ const K = 2;
 /** One run: `id` from the address, else the last one that ended or whose offsets were written. */
 export function ResultView({ id }: { id: number | null }) {
   const last = station.value?.last;
-  const shown = id ?? last?.of ?? last?.id ?? null;
+  const shown = id ?? (last?.plan === "separating" ? last.id : (last?.of ?? last?.id)) ?? null;
   if (shown === null) return <Empty text={station.value ? "No run has ended yet." : "Waiting for the station …"} />;
   return <Result key={shown} id={shown} />;
 }
@@ -83,7 +84,7 @@ function Result({ id }: { id: number }) {
       {misfit && offer}
       {result.zero_offsets?.length ? (
         <>
-          {diagnosed && <Found id={id} />}
+          {diagnosed && <Found id={id} serial={result.robot_serial} />}
           <Application result={result} />
           <ZeroOffsets result={result} />
           <BeforeAfter result={result} />
@@ -103,7 +104,7 @@ function Result({ id }: { id: number }) {
 }
 
 /** What a diagnosis found, in short; its own page has the charts. */
-function Found({ id }: { id: number }) {
+function Found({ id, serial }: { id: number; serial: string }) {
   const { value: found, trouble } = useLoaded(`${id}`, () => diagnosis(id)).value;
   if (!found) {
     return (
@@ -115,6 +116,7 @@ function Found({ id }: { id: number }) {
   return (
     <>
       <Causes found={found} />
+      <SeparatingOffer id={id} serial={serial} found={found} />
       <Hints found={found} />
     </>
   );
