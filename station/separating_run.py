@@ -20,6 +20,10 @@ from station.robot import Robot
 from station.separating import Experiment, experiment
 from station.store import Store
 
+_NOT_GONE_ON_FROM = {
+    "separating": "was the motion that tells apart what motion can; the causes name what else could",
+    "dataset": "was imported from a file, not measured here; no run can go on from it",
+}
 NOTHING = "Motion alone can tell nothing more apart here; the causes name what could."
 
 
@@ -41,9 +45,8 @@ def planned(store: Store, calibration_id: int) -> Planned:
     store.diagnosis(calibration_id)
     run = store.summary(calibration_id)
     if run["plan"] != "diagnostic":
-        raise NotApplicable(
-            f"Run {calibration_id} is no diagnostic run; only such a run can be gone on from."
-        )
+        what = _NOT_GONE_ON_FROM.get(run["plan"], "is no diagnostic run; find the cause first")
+        raise NotApplicable(f"Run {calibration_id} {what}.")
     robot = store.robot_of(calibration_id)
     if robot.to_json() != store.robot(robot.serial).to_json():
         raise NotApplicable(f"The file of robot {robot.serial} has changed since; find the cause again.")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import re
 from dataclasses import dataclass
+from pathlib import Path
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
@@ -169,3 +170,54 @@ def test_stop_ends_the_walk_that_looks_for_a_cause(page: Page, slow_station: Sta
     expect(page.locator(".summary .verdict")).to_contain_text("RUNNING")
     page.get_by_role("button", name="STOP").click()
     expect(page.locator(".summary .verdict")).to_contain_text("ABORTED")
+
+
+def station_with_look_alikes(serve: Serve, tmp_path: Path) -> Station:
+    """After a diagnostic run that leaves a warming and a drift alike, and motion to tell them apart.
+
+    How straight a warming looks depends on how long this computer takes for the walk.
+    """
+    rig = (RIGS / "warm_up.toml").read_text().replace("rise_k = 8.0", "rise_k = 6.0")
+    body = {"robot_serial": "FB-D", "plan": "diagnostic", "operator": "ada"}
+    for tau_s in (15.0, 30.0, 60.0):
+        home = tmp_path / f"tau-{tau_s:.0f}"
+        home.mkdir()
+        (home / "rig.toml").write_text(rig.replace("tau_s = 20.0", f"tau_s = {tau_s}"))
+        station = serve(home, speed=500.0, rig=home / "rig.toml")
+        station.api.post("/calibrations", json=body).raise_for_status()
+        while station.get("/calibrations/1")["state"] in ("queued", "running"):
+            pass
+        if station.get("/calibrations/1/separating")["apart"] == ["drift"]:
+            return station
+        station.close()
+    pytest.fail("every warming was told from a drift by the walk alone")
+
+
+def test_look_alikes_are_told_apart_by_the_motion_that_is_offered(
+    page: Page, serve: Serve, tmp_path: Path
+) -> None:
+    station = station_with_look_alikes(serve, tmp_path)
+    page.goto(f"{station.url}/diagnosis/1")
+    causes = page.get_by_role("region", name="Causes")
+    expect(causes).to_contain_text("drift")
+    offer = page.get_by_role("region", name="Look-alikes")
+    expect(offer).to_contain_text(
+        re.compile(r"\d+ more readings .* decide on drift; 40 fresh .* About \d+ min")
+    )
+    expect(offer.get_by_role("img", name="planned places")).to_be_visible()
+    run = offer.get_by_role("button", name="Run the separating experiment", exact=True)
+    expect(run).to_be_disabled()
+    offer.get_by_label("Operator").fill("ada")
+    assert violations(page) == []
+    run.click()
+    offer.get_by_role("button", name="Confirm").click()
+    expect(page.get_by_role("heading", level=1)).to_have_text("Result of run 2: separating of run 1")
+    expect(causes).to_be_visible(timeout=WALK_LIMIT_MS)
+    expect(page.locator(".summary .verdict")).to_contain_text("thermal growth of the links explains")
+    expect(page.locator(".summary .verdict")).to_contain_text("predicts fresh readings")
+    expect(causes).to_contain_text("nothing else in the catalogue")
+    expect(offer).to_have_count(0)
+    readings = station.get("/calibrations/2/readings")["items"]
+    assert readings[:120] == station.get("/calibrations/1/readings")["items"][:120]
+    times = [reading["t_s"] for reading in readings]
+    assert times == sorted(times)

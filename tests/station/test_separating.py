@@ -93,7 +93,7 @@ def test_why_a_run_cannot_be_gone_on_from(tmp_path: Path) -> None:
     with pytest.raises(NotFound, match="has no diagnosis"):
         planned(store, unapplied)
     imported = kept.keep(*run(machine(FAST_WARMING)), plan="dataset")
-    with pytest.raises(NotApplicable, match="no diagnostic run"):
+    with pytest.raises(NotApplicable, match="imported from a file"):
         planned(store, imported)
     clear = kept.keep(*run(machine(BACKLASH)))
     with pytest.raises(NotApplicable, match="Motion alone"):
