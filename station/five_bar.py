@@ -9,6 +9,9 @@ from functools import cached_property
 
 import numpy as np
 
+from station import conditions, plausibility
+from station.conditions import Conditions, Reference
+from station.effects import Effect, catalogue
 from station.error_model import (
     NAMES,
     SIZE,
@@ -66,15 +69,35 @@ class FiveBar:
             out.append(Parameter("rho0" + suffix, "mm", 0.0, np.inf))
         return tuple(out)
 
+    @property
+    def simplest(self) -> tuple[str, tuple[str, ...]]:
+        """The paper's four unknowns of eq. 28, with the reading offset."""
+        return "paper", tuple(p.name for p in self.parameters if p.name[0] not in "eLl")
+
+    def of(self, measurements: Measurements) -> FiveBar:
+        """The same robot under other readings."""
+        return FiveBar(self.robot, measurements)
+
+    def check(self) -> None:
+        """:raises InputRefused: poses or distances that cannot be of this robot."""
+        plausibility.check_poses(self.robot, self.measurements)
+        plausibility.check_distances(self.robot, self.measurements)
+
+    def effects(self) -> tuple[Effect, ...]:
+        """Every effect at every place of a five-bar with its scale."""
+        return catalogue()
+
     @cached_property
     def row_sd(self) -> Real:
         """(K,) head noise (eq. 34) and the half pulse that feedback cannot tell, through d rho / d theta."""
         joint_sd = np.radians(self.robot.joint_sd_deg)
-        by_joint = distance_by_joint(pose(self._geometry(self._start()), self.theta))
+        by_joint = distance_by_joint(pose(self._geometry(self.start), self.theta))
         head_variance = SCALE_SD_MM**2 / self.measurements.samples
         return np.asarray(np.sqrt(head_variance + joint_sd**2 * np.sum(by_joint**2, axis=1)))
 
-    def _start(self) -> Real:
+    @property
+    def start(self) -> Real:
+        """(P,) the prior mean."""
         return np.array([p.prior_mean for p in self.parameters])
 
     def _geometry(self, p: Real) -> Geometry:
@@ -107,9 +130,31 @@ class FiveBar:
         drm = (own[:, :, None] * by_drm[:, None, :]).reshape(len(by_drm), 2 * mounts)
         return drm, -own.astype(float)
 
-    def positions(self, p: Real) -> Complex:
-        """(K,) where P stood at each reading, by parameters p."""
-        return pose(perturbed(self.nominal, p[:SIZE]), self.theta + p[:2]).r
+    def conditions(self, p: Real, reference: Reference, *, first: bool) -> Conditions:
+        """Under what the readings were taken; `first` when the model is being learned on them."""
+        m = self.measurements
+        theta = m.theta + p[:2]
+        at = pose(perturbed(self.nominal, p[:SIZE]), theta)
+        came_from = conditions.before(m, None if first else reference)
+        return Conditions(
+            t_s=m.t_s,
+            theta=theta,
+            drive_angle=m.theta - np.radians(self.robot.zero_at_deg),
+            approach=m.approach.astype(float),
+            travel=self.observe(p, m.theta).value,
+            slider_direction=conditions.last_motion(m, distance_by_joint(at), came_from),
+            slider_net=conditions.net_travel(m, came_from),
+            temperature_rise=conditions.temperature_rise(m, reference),
+            payload_kg=m.payload_kg,
+            lengths=lengths(self.robot),
+            pull=pull(at.w),
+            load=load(theta),
+        )
+
+    def places(self, p: Real) -> Real:
+        """(K, 2) where P stood at each reading, mm."""
+        r = pose(perturbed(self.nominal, p[:SIZE]), self.theta + p[:2]).r
+        return np.column_stack([r.real, r.imag])
 
     def position_errors(self, p: Real) -> tuple[Real, Real]:
         """Over the workspace grid, commanded by nominal inverse position and zero offsets uncompensated.
@@ -124,3 +169,20 @@ class FiveBar:
         jacobian[:, :, :SIZE] = position_jacobian(geometry, at)
         error = at.r - target
         return np.column_stack([error.real, error.imag]), jacobian
+
+
+def lengths(robot: Robot) -> dict[str, float]:
+    """Nominal lengths by parameter name, mm."""
+    return {"L1": robot.L[0], "L2": robot.L[1], "l1": robot.l[0], "l2": robot.l[1]}
+
+
+def load(theta: Real) -> tuple[Real, ...]:
+    """(K, 1) a joint: gravity's moment on its proximal link, 1 when horizontal."""
+    return tuple(np.cos(theta[:, [i]]) for i in range(theta.shape[1]))
+
+
+def pull(w: Complex) -> Real:
+    """(K, 2) +1 where gravity pulls a distal link, -1 where it pushes: w_1 f_1 + w_2 f_2 = (0, -1)."""
+    both = np.stack([w.real, w.imag], axis=1)
+    down = np.tile([0.0, -1.0], (len(w), 1))
+    return np.asarray(np.sign(np.linalg.solve(both, down[:, :, None])[:, :, 0]))

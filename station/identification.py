@@ -17,6 +17,7 @@ from station.five_bar import GRID, FiveBar
 from station.kinematics import Real
 from station.least_squares import NotConvergedError, Prior, Solution, solve
 from station.measurements import Measurements
+from station.mechanism import Mechanism
 from station.memory import GATE_P, Memory, contradiction_p
 from station.plausibility import check_distances, check_places, check_poses
 from station.records import Quantity
@@ -180,7 +181,7 @@ def position_error_field(mean: Real, jacobian: Real, covariance: Real) -> Real:
     """(G,) sqrt(|mean|^2 + trace(J C J')) at each place of a grid, mm."""
     finite = np.isfinite(np.diag(covariance))
     J, C = jacobian[:, :, finite], covariance[np.ix_(finite, finite)]
-    variance = np.einsum("gdi,ij,gdj->g", J, C, J)
+    variance = np.sum((J @ C) * J, axis=(1, 2))
     return np.asarray(np.sqrt(np.sum(mean**2, axis=1) + variance))
 
 
@@ -238,7 +239,7 @@ def _without_outliers(
 ) -> tuple[Measurements, tuple[outliers.Outlier, ...]]:
     mechanism = FiveBar(robot, measurements)
     prior = tolerance_prior(mechanism)
-    found = outliers.find(measurements, lambda sd: _solve(mechanism, prior, sd), mechanism.row_sd)
+    found = outliers.find(mechanism, lambda sd: _solve(mechanism, prior, sd), mechanism.row_sd)
     outliers.check_share(found, len(measurements))
     if not found:
         return measurements, ()
@@ -248,7 +249,7 @@ def _without_outliers(
     return kept, found
 
 
-def tolerance_prior(mechanism: FiveBar) -> Prior:
+def tolerance_prior(mechanism: Mechanism) -> Prior:
     """The tolerances of the robot file as the prior of every parameter."""
     return Prior.independent(
         np.array([p.prior_mean for p in mechanism.parameters]),

@@ -35,9 +35,11 @@ class Columns:
     """What a mechanism's file must and may hold."""
 
     joints: int = 2
-    distance: str | None = "scale_mm"
-    """Required distance column."""
+    distance: str = "scale_mm"
+    """Distance column; required, unless `either`."""
     tracker: tuple[str, ...] = ("tracker_x_mm", "tracker_y_mm")
+    either: bool = False
+    """Whether the position columns may stand in for the distance."""
     time_ordered: bool = True
     """The station writes rows as it measures: one out of order is a fault.  Other machines' logs may jump."""
 
@@ -51,11 +53,12 @@ class Columns:
 
     @property
     def required(self) -> tuple[str, ...]:
-        return ("reading", "t_s", *self.theta, *([self.distance] if self.distance else []))
+        return ("reading", "t_s", *self.theta, *([] if self.either else [self.distance]))
 
     @property
     def optional(self) -> tuple[str, ...]:
-        return (*self.approach, "position", "temperature_c", "payload_kg", "mount", *self.tracker)
+        often = (*self.approach, "position", "temperature_c", "payload_kg", "mount", *self.tracker)
+        return (*often, self.distance) if self.either else often
 
 
 FIVE_BAR = Columns()
@@ -158,6 +161,8 @@ def _measurements(table: Table, columns: Columns) -> Measurements:
         raise table.refuse(
             int(backwards[0]) + 1, "t_s", "time runs backwards; put the rows in the order they were measured."
         )
+    if backwards.size:
+        log.warning("%s: time runs backwards at row %d.", table.source, table.lines[int(backwards[0]) + 1])
     theta_deg = np.column_stack([table.numbers(name) for name in columns.theta])
     mount, mounts = number(table.text("mount") if table.has("mount") else [""] * len(ids))
     place = table.text("position") if table.has("position") else [""] * len(ids)
@@ -168,7 +173,7 @@ def _measurements(table: Table, columns: Columns) -> Measurements:
         t_s=t_s,
         theta=np.radians(theta_deg),
         approach=np.column_stack([approaches(table, name) for name in columns.approach]).astype(np.int8),
-        distance=table.numbers(columns.distance) if columns.distance else np.full(len(ids), np.nan),
+        distance=_distance(table, columns),
         position=position,
         mount=mount,
         samples=np.ones(len(ids), dtype=np.intp),
@@ -249,6 +254,18 @@ def _ids(table: Table) -> tuple[int | str, ...]:
             raise table.refuse(k, "reading", f"id {cell} was used in row {table.lines[seen[cell]]} already.")
         seen[cell] = k
     return tuple(int(cell) if cell.isascii() and cell.isdigit() else cell for cell in seen)
+
+
+def _distance(table: Table, columns: Columns) -> Real:
+    """(K,) mm; NaN where positions stand in for it.  :raises InputRefused: neither is there."""
+    if not columns.either or table.has(columns.distance):
+        return table.numbers(columns.distance)
+    if not all(table.has(name) for name in columns.tracker):
+        raise InputRefused(
+            f"{table.source}: row 1: nothing measured; columns {', '.join(columns.tracker)} or "
+            f"{columns.distance} are needed."
+        )
+    return np.full(len(table.rows), np.nan)
 
 
 def _tracker(table: Table, columns: Columns) -> Real | None:

@@ -42,6 +42,8 @@ class Measurements:
     payload_kg: Real | None = None
     tracker: Real | None = None
     """(K, 2 or 3) independent position, mm."""
+    guessed: tuple[str, ...] = ()
+    """What was not recorded but worked out from the order of the rows: "approach", "position"."""
     came_from: Real | None = None
     """(K, n + 1) joint angles and distance of the reading before, NaN before the first; filled in when
     left out, and kept by `take`, so that leaving a reading out does not change another's history."""

@@ -1,18 +1,23 @@
 """What identification and diagnosis need to know of a machine, and nothing else.
 
 A mechanism turns joint angles and parameters into what is measured, with derivatives.  Rows are
-single numbers: a distance is one row a reading, a tracker position two or three.
+single numbers: a distance is one row a reading, a tracker position three.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol, Self
 
 import numpy as np
 from numpy.typing import NDArray
 
 from station.kinematics import Real
+from station.measurements import Measurements
+
+if TYPE_CHECKING:
+    from station.conditions import Conditions, Reference
+    from station.effects import Effect
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,8 +47,23 @@ class Mechanism(Protocol):
     """The machine with its measuring mechanism, for one set of readings."""
 
     @property
+    def measurements(self) -> Measurements:
+        """The readings."""
+        ...
+
+    @property
     def parameters(self) -> tuple[Parameter, ...]:
-        """All unknowns, in the order of p."""
+        """All unknowns, in the order of p; the zero offsets of the joints come first."""
+        ...
+
+    @property
+    def start(self) -> Real:
+        """(P,) from where a fit begins."""
+        ...
+
+    @property
+    def simplest(self) -> tuple[str, tuple[str, ...]]:
+        """The simplest model of this machine: what it is called, and the parameters that are free in it."""
         ...
 
     @property
@@ -53,7 +73,7 @@ class Mechanism(Protocol):
 
     @property
     def reading_of_row(self) -> NDArray[np.intp]:
-        """(R,) index of the reading each row belongs to."""
+        """(R,) index of the reading each row belongs to; rows of one reading stand together."""
         ...
 
     @property
@@ -63,13 +83,40 @@ class Mechanism(Protocol):
 
     @property
     def row_sd(self) -> Real:
-        """(R,) standard deviation by specification, mm: head, and what feedback leaves of the joints."""
+        """(R,) standard deviation by specification, mm: the instrument, and what feedback leaves of the joints."""
+        ...
+
+    def of(self, measurements: Measurements) -> Self:
+        """The same machine under other readings."""
+        ...
+
+    def check(self) -> None:
+        """:raises InputRefused: readings that cannot be of this machine, by reading and column."""
         ...
 
     def observe(self, p: Real, theta: Real) -> Observation:
         """Predict all rows at parameters p (P,) and joint angles theta (K, n); NaN where it cannot be."""
         ...
 
-    def position_errors(self, p: Real) -> tuple[Real, Real]:
-        """Over the workspace: position at p less the commanded one (G, dim), and its Jacobian (G, dim, P)."""
+    def conditions(self, p: Real, reference: Reference, *, first: bool) -> Conditions:
+        """Under what the readings were taken, at p; `first` when the model is being learned on them."""
         ...
+
+    def effects(self) -> tuple[Effect, ...]:
+        """The catalogue for this machine: every effect at every place it can act."""
+        ...
+
+    def places(self, p: Real) -> Real:
+        """(K, d) mm, where the end of the machine stood at each reading."""
+        ...
+
+
+def by_reading(mechanism: Mechanism, rows: Real) -> Real:
+    """(K,) size of each reading's error from those of its rows (R,): of several coordinates the length."""
+    return np.sqrt(np.bincount(mechanism.reading_of_row, rows**2))
+
+
+def axis_of_row(mechanism: Mechanism) -> NDArray[np.intp]:
+    """(R,) which coordinate of its reading each row is."""
+    reading = mechanism.reading_of_row
+    return np.asarray(np.arange(len(reading)) - np.searchsorted(reading, reading))

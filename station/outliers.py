@@ -16,7 +16,8 @@ from scipy import stats
 from station.errors import InputRefused
 from station.kinematics import Real
 from station.least_squares import Solution
-from station.measurements import Index, Measurements
+from station.measurements import Index
+from station.mechanism import Mechanism, axis_of_row
 
 SIGNIFICANCE = 1e-3
 """For the whole set of readings (Bonferroni)."""
@@ -47,11 +48,11 @@ class Outlier:
 
 
 Fit = Callable[[Real], Solution]
-"""Row standard deviations (K,) -> fit of all readings whitened with them."""
+"""Row standard deviations (R,) -> fit of all readings whitened with them."""
 
 
-def find(measurements: Measurements, fit: Fit, row_sd: Real) -> tuple[Outlier, ...]:
-    """The outlying readings against a robust fit; `row_sd` (K,) is what the readings should scatter by.
+def find(mechanism: Mechanism, fit: Fit, row_sd: Real) -> tuple[Outlier, ...]:
+    """The outlying readings against a robust fit; `row_sd` (R,) is what the rows should scatter by.
 
     Plain least squares bends towards gross readings until good ones look wrong, so the fit is
     repeated with Cauchy weights until the majority alone decides.
@@ -60,7 +61,7 @@ def find(measurements: Measurements, fit: Fit, row_sd: Real) -> tuple[Outlier, .
     residual = -solution.residual
     t = residual / np.sqrt(_left(solution))
     scale = _scale(t)
-    limit = float(stats.norm.isf(SIGNIFICANCE / (2 * len(measurements))))
+    limit = _limit(t)
     if np.abs(t).max() <= limit * scale and scale < SUSPICIOUS:
         return ()
     for _ in range(ROBUST_STEPS):
@@ -69,33 +70,40 @@ def find(measurements: Measurements, fit: Fit, row_sd: Real) -> tuple[Outlier, .
         residual = -solution.residual * stretch
         t = residual / np.sqrt(_left(solution))
         scale = _scale(t)
-    return _named(measurements, residual, t, scale, row_sd)
+    return _named(mechanism, residual, t, scale, row_sd)
 
 
-def off(measurements: Measurements, solution: Solution, row_sd: Real) -> tuple[Outlier, ...]:
+def off(mechanism: Mechanism, solution: Solution, row_sd: Real) -> tuple[Outlier, ...]:
     """The outlying readings against a fit that the majority already decided."""
     residual = -solution.residual
     t = residual / np.sqrt(_left(solution))
-    return _named(measurements, residual, t, _scale(t), row_sd)
+    return _named(mechanism, residual, t, _scale(t), row_sd)
 
 
-def _named(
-    measurements: Measurements, residual: Real, t: Real, scale: float, row_sd: Real
-) -> tuple[Outlier, ...]:
-    limit = float(stats.norm.isf(SIGNIFICANCE / (2 * len(measurements)))) * scale
+def _limit(t: Real) -> float:
+    return float(stats.norm.isf(SIGNIFICANCE / (2 * len(t))))
+
+
+def _named(mechanism: Mechanism, residual: Real, t: Real, scale: float, row_sd: Real) -> tuple[Outlier, ...]:
+    """Readings with a row beyond the limit, by the row that is furthest off."""
+    limit = _limit(t) * scale
     suspects = np.flatnonzero(np.abs(t) > limit)
+    worst: dict[int, int] = {}
+    for k in suspects[np.argsort(np.abs(t[suspects]))]:
+        if _apart(mechanism, residual, int(k), suspects) > limit:
+            worst[int(mechanism.reading_of_row[k])] = int(k)
+    ids = mechanism.measurements.ids
     return tuple(
-        Outlier(measurements.ids[k], float(residual[k] * row_sd[k]), float(abs(t[k]) / scale))
-        for k in suspects
-        if _apart(measurements, residual, int(k), suspects) > limit
+        Outlier(ids[reading], float(residual[k] * row_sd[k]), float(abs(t[k]) / scale))
+        for reading, k in sorted(worst.items())
     )
 
 
 def _left(solution: Solution) -> Real:
-    """(K,) share of each reading's variance that the fit leaves in its residual."""
+    """(R,) share of each row's variance that the fit leaves in its residual."""
     finite = np.isfinite(np.diag(solution.covariance))
     J, C = solution.jacobian[:, finite], solution.covariance[np.ix_(finite, finite)]
-    left = 1.0 - np.einsum("ki,ij,kj->k", J, C, J)
+    left = 1.0 - np.einsum("ki,ki->k", J @ C, J)
     # a reading that alone determines a parameter cannot be judged
     return np.where(left > 0.05, left, np.inf)
 
@@ -109,9 +117,11 @@ def _scale(t: Real) -> float:
     return max(scale, 1.0) if len(t) < FEW else scale
 
 
-def _apart(measurements: Measurements, residual: Real, k: int, suspects: Index) -> float:
-    """How far reading k is from the others of its place; inf when it is alone there."""
-    companions = np.flatnonzero(measurements.position == measurements.position[k])
+def _apart(mechanism: Mechanism, residual: Real, k: int, suspects: Index) -> float:
+    """How far row k is from the same coordinate of the others of its place; inf when it is alone there."""
+    reading, axis = mechanism.reading_of_row, axis_of_row(mechanism)
+    place = mechanism.measurements.position[reading]
+    companions = np.flatnonzero((place == place[k]) & (axis == axis[k]))
     companions = companions[companions != k]
     if not companions.size:
         return np.inf

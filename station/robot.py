@@ -26,6 +26,7 @@ from station.errors import InputRefused
 from station.kinematics import Complex, Geometry, Unreachable, inverse
 
 Pair = tuple[float, float]
+FIVE_BAR_MODEL = "five-bar"
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,14 +75,7 @@ class Robot:
 
         :raises InputRefused: missing, not TOML, or a value out of place, with the section and key.
         """
-        try:
-            with path.open("rb") as file:
-                data = tomllib.load(file)
-        except OSError as error:
-            raise InputRefused(f"Robot file {path} cannot be read: {error.strerror}.") from error
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-            raise InputRefused(f"Robot file {path} is not valid TOML: {error}.") from error
-        return cls.from_dict(data, source=str(path))
+        return cls.from_dict(read_sections(path), source=str(path))
 
     @classmethod
     def from_dict(cls, data: dict[str, Any], *, source: str = "robot") -> Robot:
@@ -159,6 +153,17 @@ class Robot:
     def with_mechanism(self, drm: Pair, sd: Pair) -> Robot:
         """The same robot with the MAEMM known as given."""
         return replace(self, drm=drm, drm_sd=sd)
+
+
+def read_sections(path: Path) -> dict[str, Any]:
+    """The tables of a robot file.  :raises InputRefused: missing or not TOML."""
+    try:
+        with path.open("rb") as file:
+            return tomllib.load(file)
+    except OSError as error:
+        raise InputRefused(f"Robot file {path} cannot be read: {error.strerror}.") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputRefused(f"Robot file {path} is not valid TOML: {error}.") from error
 
 
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]

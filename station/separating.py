@@ -22,6 +22,7 @@ from station.kinematics import Complex, Real, inverse
 from station.least_squares import NotConvergedError
 from station.measurements import Measurements
 from station.records import Stop
+from station.robot import Robot
 
 COUNTS = (40, 80, 160, 240)
 """Stops; time effects need time to part, so that a longer walk may do what a shorter one cannot."""
@@ -45,12 +46,15 @@ class Experiment:
 def experiment(findings: Findings) -> Experiment | None:
     """The shortest motion that separates all it can; None where there is no set or none is worth it.
 
-    Nor is there one for effects that are not the cause.
+    Nor is there one for effects that are not the cause, nor for a machine that is not the station's to move.
     """
-    rivals = _rivals(findings) if findings.passed else {}
+    robot = findings.diagnosis.robot
+    if not isinstance(robot, Robot) or not findings.passed:
+        return None
+    rivals = _rivals(findings)
     best: Experiment | None = None
     for count in COUNTS if rivals else ():
-        planned = _planned(findings.diagnosis.last, rivals, count)
+        planned = _planned(robot, findings.diagnosis.last, rivals, count)
         if best is None or len(planned.apart) > len(best.apart):
             best = planned
         if len(best.apart) == len(rivals):
@@ -58,10 +62,10 @@ def experiment(findings: Findings) -> Experiment | None:
     return best if best is not None and best.apart else None
 
 
-def _planned(last: Fit, rivals: dict[str, Fit], count: int) -> Experiment:
+def _planned(robot: Robot, last: Fit, rivals: dict[str, Fit], count: int) -> Experiment:
     """The best so many stops, chosen one after another."""
-    places, sides = _candidates(last)
-    asked = _asked(last, places, sides, count)
+    places, sides = _candidates(robot)
+    asked = _asked(robot, last, places, sides, count)
     found = _Prediction.by(last, asked)
     disputes = {label: _Dispute.between(found, _Prediction.by(r, asked)) for label, r in rivals.items()}
     chosen: list[int] = []
@@ -72,7 +76,7 @@ def _planned(last: Fit, rivals: dict[str, Fit], count: int) -> Experiment:
         chosen.append(best)
         disputes = {label: d.after(best) for label, d in disputes.items()}
     apart = tuple(label for label, d in disputes.items() if d.expected >= WORTH)
-    return Experiment(_stops(last, places, sides, _nearest_first(places, chosen)), apart)
+    return Experiment(_stops(robot, last, places, sides, _nearest_first(places, chosen)), apart)
 
 
 def _rivals(findings: Findings) -> dict[str, Fit]:
@@ -90,9 +94,8 @@ def _rivals(findings: Findings) -> dict[str, Fit]:
     return fits
 
 
-def _candidates(last: Fit) -> tuple[Complex, Real]:
+def _candidates(robot: Robot) -> tuple[Complex, Real]:
     """(K,) places of the workspace and (K, 2) senses of approach there."""
-    robot = last.model.mechanism.robot
     (x0, x1), (y0, y1) = robot.workspace_x, robot.workspace_y
     x = np.linspace(x0 + INSET_MM, x1 - INSET_MM, PLACES[0])
     y = np.linspace(y0 + INSET_MM, y1 - INSET_MM, PLACES[1])
@@ -100,10 +103,9 @@ def _candidates(last: Fit) -> tuple[Complex, Real]:
     return np.repeat(grid, len(SIDES)), np.tile(np.array(SIDES, dtype=float), (len(grid), 1))
 
 
-def _asked(last: Fit, places: Complex, sides: Real, stops: int) -> Measurements:
+def _asked(robot: Robot, last: Fit, places: Complex, sides: Real, stops: int) -> Measurements:
     """Readings as they would be taken there, each after a run-up, in the middle of the experiment."""
     learned = last.model.mechanism.measurements
-    robot = last.model.mechanism.robot
     theta = inverse(robot.geometry, places) - last.x[:2]
     before = theta - RUN_UP * sides
     count = len(places)  # of candidates
@@ -143,7 +145,7 @@ class _Prediction:
     @classmethod
     def by(cls, learned: Fit, asked: Measurements) -> Self:
         m = learned.model
-        model = Model(FiveBar(m.mechanism.robot, asked), m.reference, m.terms)
+        model = Model(m.mechanism.of(asked), m.reference, m.terms)
         at = model.observe(learned.x, model.bases(model.conditions(learned.x[: m.base_size], first=False)))
         root = at.by_parameter @ np.linalg.cholesky(learned.solution.covariance)
         ratio = np.mean(learned.row_sd**2) / np.mean(m.mechanism.row_sd**2)
@@ -191,8 +193,7 @@ def _nearest_first(places: Complex, chosen: list[int]) -> list[int]:
     return way
 
 
-def _stops(last: Fit, places: Complex, sides: Real, way: list[int]) -> tuple[Stop, ...]:
-    robot = last.model.mechanism.robot
+def _stops(robot: Robot, last: Fit, places: Complex, sides: Real, way: list[int]) -> tuple[Stop, ...]:
     theta = np.degrees(inverse(robot.geometry, places[way]) - last.x[:2])
     return tuple(
         Stop(

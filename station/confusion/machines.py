@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 
-from station.diagnosis.conditions import reference_of
+from station.conditions import reference_of
 from station.diagnosis.model import Model, fit
 from station.five_bar import FiveBar
 from station.identification import tolerance_prior

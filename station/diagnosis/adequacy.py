@@ -14,6 +14,7 @@ from scipy.special import chdtrc, fdtrc, ndtr
 
 from station.diagnosis.model import Fit
 from station.kinematics import Real
+from station.mechanism import axis_of_row
 
 ALPHA = 0.003
 """Of each of the three tests: a clean machine is looked at twice in less than one of a hundred runs."""
@@ -66,16 +67,17 @@ def judge(fit: Fit, specified_sd: Real) -> Adequacy:
     """Test a fit's residual; specified_sd (K,) mm is what the devices promise at worst."""
     r = fit.residual_mm
     group = _repeat_groups(fit)
+    spec_ratio = float(np.mean((fit.row_sd / specified_sd) ** 2))
     counts = np.bincount(group)
     mean = np.bincount(group, r / fit.row_sd) / counts
     pure = float(np.sum((r / fit.row_sd - mean[group]) ** 2))
     dof = int(np.sum(counts - 1))
     known = dof >= FEWEST_REPEATS and pure > 0.0
-    lack_p = _lack_of_fit_p(fit, pure, dof) if known else float(chdtrc(fit.dof, fit.cost))
-    against_spec = pure * float(np.mean((fit.row_sd / specified_sd) ** 2))
+    lack_p = _lack_of_fit_p(fit, pure, dof) if known else float(chdtrc(fit.dof, fit.cost * spec_ratio))
+    against_spec = pure * spec_ratio
     return Adequacy(
         lack_of_fit_p=lack_p,
-        order_in_time_p=_order_p(r / fit.row_sd, fit.model.mechanism.measurements.t_s),
+        order_in_time_p=_order_p(fit, r / fit.row_sd),
         repeats_p=float(chdtrc(dof, against_spec)) if known else 1.0,
         pure_factor=float(np.sqrt(pure / dof)) if known else float("nan"),
         pure_dof=dof,
@@ -91,9 +93,10 @@ def _tension_p(fit: Fit) -> float:
 
 
 def _repeat_groups(fit: Fit) -> np.ndarray:
-    """Readings alike in place, approach, mount and the slider's sense."""
-    m = fit.model.mechanism.measurements
-    keys = np.column_stack([m.position, m.approach, m.mount, fit.conditions.slider_net])
+    """(R,) rows alike in place, approach, mount, the slider's sense and coordinate."""
+    m, reading = fit.model.mechanism.measurements, fit.model.mechanism.reading_of_row
+    keys = np.column_stack([m.position, m.approach, m.mount, fit.conditions.slider_net])[reading]
+    keys = np.column_stack([keys, axis_of_row(fit.model.mechanism)])
     return np.unique(keys, axis=0, return_inverse=True)[1].reshape(-1)
 
 
@@ -105,13 +108,22 @@ def _lack_of_fit_p(fit: Fit, pure: float, pure_dof: int) -> float:
     return float(fdtrc(lack_dof, pure_dof, (lack / lack_dof) / (pure / pure_dof)))
 
 
-def _order_p(whitened: Real, t_s: Real) -> float:
-    """von Neumann's ratio of successive differences in time order, one-sided (neighbours too alike)."""
-    r = whitened[np.argsort(t_s, kind="stable")]
+def _order_p(fit: Fit, whitened: Real) -> float:
+    """von Neumann's ratio of successive differences in time order, one-sided (neighbours too alike).
+
+    Coordinates of one reading are looked at each by itself and put together after Stouffer.
+    """
+    axis = axis_of_row(fit.model.mechanism)
+    order = np.argsort(fit.model.mechanism.measurements.t_s, kind="stable")
+    scores = [_order_score(whitened[axis == a][order]) for a in range(int(axis.max()) + 1)]
+    return float(ndtr(np.sum(scores) / np.sqrt(len(scores))))
+
+
+def _order_score(r: Real) -> float:
+    """Standard score of the ratio; inf where too little is there to be judged."""
     n = len(r)
     square = float(r @ r)
     if n < 12 or square == 0.0:
-        return 1.0
+        return np.inf
     ratio = float(np.sum(np.diff(r) ** 2)) / square
-    z = (ratio - 2.0) / np.sqrt(4.0 * (n - 2) / (n**2 - 1))
-    return float(ndtr(z))
+    return float((ratio - 2.0) / np.sqrt(4.0 * (n - 2) / (n**2 - 1)))

@@ -8,9 +8,9 @@ import numpy as np
 from scipy.special import fdtrc
 
 from station.diagnosis.model import Fit, Model
-from station.five_bar import FiveBar
 from station.kinematics import Real
 from station.measurements import Measurements
+from station.mechanism import by_reading
 
 REFUSED_P = 0.005
 """A true model is refused this often."""
@@ -25,9 +25,11 @@ class Confirmation:
     """What a frozen model made of fresh readings."""
 
     residual_mm: Real
-    """(K,) measured less predicted."""
+    """(R,) measured less predicted."""
     sd_mm: Real
-    """(K,) of that, by the model's covariance and the noise."""
+    """(R,) of that, by the model's covariance and the noise."""
+    error_mm: Real
+    """(K,) size of each reading's residual."""
     p_value: float
     left_out: tuple[int | str, ...]
     """Ids of few fresh readings far off a model that predicts all others; they took no part in p_value."""
@@ -38,11 +40,11 @@ class Confirmation:
 
     @property
     def rms_mm(self) -> float:
-        return float(np.sqrt(np.mean(self.residual_mm**2)))
+        return float(np.sqrt(np.mean(self.error_mm**2)))
 
     @property
     def max_mm(self) -> float:
-        return float(np.abs(self.residual_mm).max())
+        return float(self.error_mm.max())
 
 
 def confirm(learned: Fit, fresh: Measurements, noise_dof: int) -> Confirmation:
@@ -51,21 +53,29 @@ def confirm(learned: Fit, fresh: Measurements, noise_dof: int) -> Confirmation:
     The statistic is chi-square with the prediction covariance; as the noise itself was estimated
     with `noise_dof` degrees of freedom it is held against F.
     """
-    model = Model(FiveBar(learned.model.mechanism.robot, fresh), learned.model.reference, learned.model.terms)
+    model = Model(learned.model.mechanism.of(fresh), learned.model.reference, learned.model.terms)
     base = learned.x[: model.base_size]
     bases = model.bases(model.conditions(base, first=False))
     at = model.observe(learned.x, bases)
-    residual = fresh.distance - at.value
+    mechanism = model.mechanism
+    residual = mechanism.measured - at.value
     ratio = float(np.sqrt(np.mean(learned.row_sd**2) / np.mean(learned.model.mechanism.row_sd**2)))
-    noise = model.mechanism.row_sd * ratio
+    noise = mechanism.row_sd * ratio
     J, C = at.by_parameter, learned.solution.covariance
-    covariance = J @ C @ J.T + np.diag(noise**2)
-    sd = np.sqrt(np.diag(covariance))
-    kept = np.ones(len(residual), dtype=bool)
-    off = np.abs(residual) > FAR_OFF * sd
-    if 0 < off.sum() <= max(1, int(FEW_OFF * len(residual))):
-        kept = ~off
-    few = residual[kept]
-    square = float(few @ np.linalg.solve(covariance[np.ix_(kept, kept)], few))
-    p_value = float(fdtrc(len(few), max(noise_dof, 1), square / len(few)))
-    return Confirmation(residual, sd, p_value, tuple(np.array(fresh.ids, dtype=object)[~kept]))
+    sd = np.sqrt(np.einsum("ki,ki->k", J @ C, J) + noise**2)
+    off = np.zeros(len(fresh), dtype=bool)
+    off[mechanism.reading_of_row[np.abs(residual) > FAR_OFF * sd]] = True
+    if off.sum() > max(1, int(FEW_OFF * len(fresh))):
+        off[:] = False
+    kept = ~off[mechanism.reading_of_row]
+    square = _chi_square(residual[kept] / noise[kept], J[kept] / noise[kept, None], C)
+    few = int(kept.sum())
+    p_value = float(fdtrc(few, max(noise_dof, 1), square / few))
+    left_out = tuple(np.array(fresh.ids, dtype=object)[off])
+    return Confirmation(residual, sd, by_reading(mechanism, residual), p_value, left_out)
+
+
+def _chi_square(r: Real, J: Real, C: Real) -> float:
+    """r' (1 + J C J')^-1 r, by Woodbury's identity with matrices no larger than C (P, P)."""
+    along = J.T @ r
+    return float(r @ r - along @ np.linalg.solve(np.eye(len(C)) + C @ (J.T @ J), C @ along))

@@ -6,10 +6,44 @@ import numpy as np
 
 from station.kinematics import Real
 from station.least_squares import Solution
-from station.measurements import Index
+from station.measurements import Index, Measurements
+from station.mechanism import Mechanism
 
 DETERMINED = 1e-9
 """A block that alone holds a direction cannot be predicted in it by the others."""
+
+LONG = 1000
+"""Readings from which neighbours in the log are left out together, a quarter of it at a time."""
+FOLDS = 4
+BLOCK = 40
+"""Consecutive readings that stay together then."""
+
+
+def predicted_by_others(solution: Solution, mechanism: Mechanism) -> Real:
+    """(R,) whitened measured less predicted, by a fit without the place, of long logs without the block."""
+    m, reading = mechanism.measurements, mechanism.reading_of_row
+    if len(m) < LONG:
+        return held_out(solution, m.position[reading])
+    return held_out_folds(solution, folds(m)[reading])
+
+
+def folds(m: Measurements) -> Index:
+    """(K,) fold of each reading: blocks of neighbours dealt out in turn, every place in one fold only."""
+    _, first, place = np.unique(m.position, return_index=True, return_inverse=True)
+    return np.asarray(first[place] // BLOCK % FOLDS)
+
+
+def held_out_folds(solution: Solution, fold: Index) -> Real:
+    """(R,) the same for folds larger than the number of unknowns: r_B + J_B (C^-1 - J_B'J_B)^-1 J_B' r_B."""
+    finite = np.isfinite(np.diag(solution.covariance))
+    J, C = solution.jacobian[:, finite], solution.covariance[np.ix_(finite, finite)]
+    out = -solution.residual
+    for f in np.unique(fold):
+        own = fold == f
+        J_B = J[own]
+        moved = np.linalg.solve(np.eye(len(C)) - C @ (J_B.T @ J_B), C @ (J_B.T @ out[own]))
+        out[own] += J_B @ moved
+    return out
 
 
 def held_out(solution: Solution, block: Index) -> Real:

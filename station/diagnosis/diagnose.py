@@ -9,25 +9,27 @@ from typing import Literal
 import numpy as np
 
 from station import outliers
-from station.diagnosis.conditions import reference_of
+from station.conditions import reference_of
 from station.diagnosis.confirm import FEWEST, Confirmation, confirm
 from station.diagnosis.hints import Hint, hints
 from station.diagnosis.model import Fit, Model
 from station.diagnosis.trace import Stage, Trace, trace, with_alias
-from station.effects import Effect, catalogue
+from station.effects import Effect
 from station.errors import InputRefused
-from station.five_bar import FiveBar
 from station.identification import tolerance_prior
 from station.least_squares import NotConvergedError
+from station.machines import AnyMechanism, AnyRobot, mechanism_of
 from station.measurements import Measurements
-from station.plausibility import check_distances, check_places, check_poses
-from station.robot import Robot
+from station.mechanism import Mechanism
+from station.plausibility import check_places
 
 Verdict = Literal["adequate", "explained", "partly_explained", "unexplained"]
 
 FEWEST_READINGS = 30
 """Thirteen unknowns and an effect leave too little of fewer readings to judge a residual by."""
 FEWEST_REPEATS = 6
+PLENTY = 20
+"""So many readings an unknown, and the specification is enough of a yardstick without repeats."""
 FEWEST_NOISE_DOF = 10
 MOST_LEFT_OUT = 0.05
 USELESS = 0.6
@@ -40,7 +42,7 @@ GOOD_SHARE = 0.5
 class Diagnosis:
     """What became of one residual."""
 
-    robot: Robot
+    robot: AnyRobot
     measurements: Measurements
     """The readings that took part."""
     outliers: tuple[outliers.Outlier, ...]
@@ -82,7 +84,7 @@ class Diagnosis:
 
 
 def diagnose(
-    robot: Robot,
+    robot: AnyRobot,
     measurements: Measurements,
     fresh: Measurements | None = None,
     effects: Sequence[Effect] | None = None,
@@ -91,25 +93,24 @@ def diagnose(
 
     :raises InputRefused: the readings are malformed or not enough to judge, with what is missing.
     """
-    check_poses(robot, measurements)
+    mechanism = mechanism_of(robot, measurements)
+    mechanism.check()
     check_places(measurements)
-    check_distances(robot, measurements)
-    check_enough(measurements)
+    check_enough(mechanism)
     if fresh is not None:
-        check_poses(robot, fresh)
-        check_distances(robot, fresh)
+        mechanism.of(fresh).check()
         if len(fresh) < FEWEST:
             raise InputRefused(f"Only {len(fresh)} fresh readings; at least {FEWEST} are needed to confirm.")
         fresh = _on_same_mounts(fresh, measurements)
-    effects = catalogue() if effects is None else effects
+    effects = mechanism.effects() if effects is None else effects
     kept = measurements
-    left_out: tuple[outliers.Outlier, ...] = ()
-    found = _trace(robot, kept, effects)
+    found = _trace(mechanism, effects)
+    left_out = found.left_out
     while found.outliers and len(left_out) < MOST_LEFT_OUT * len(measurements):
         left_out = (*left_out, *found.outliers)
         named = {o.reading for o in found.outliers}
         kept = kept.take(np.array([i not in named for i in kept.ids]))
-        found = _trace(robot, kept, effects)
+        found = _trace(mechanism.of(kept), effects)
     checks: tuple[Confirmation, ...] = ()
     if fresh is not None:
         found, checks = _confirmed(found, fresh)
@@ -119,7 +120,7 @@ def diagnose(
     rest = found.stages[0] if _hopeless(found, checks) else last
     return Diagnosis(
         robot=robot,
-        measurements=kept,
+        measurements=found.stages[-1].fit.model.mechanism.measurements,
         outliers=left_out,
         trace=found,
         fresh=fresh,
@@ -146,14 +147,16 @@ def _check(stage: Stage, fresh: Measurements) -> Confirmation:
     return confirm(stage.fit, fresh, max(stage.adequacy.pure_dof, FEWEST_NOISE_DOF))
 
 
-def check_enough(measurements: Measurements) -> None:
+def check_enough(mechanism: Mechanism) -> None:
     """:raises InputRefused: "not enough data to judge", with what is missing."""
+    measurements, unknowns = mechanism.measurements, len(mechanism.parameters)
     groups = measurements.repeat_group
     repeats = len(groups) - len(np.unique(groups))
+    fewest = max(FEWEST_READINGS, 2 * unknowns)
     missing = []
-    if len(measurements) < FEWEST_READINGS:
-        missing.append(f"{FEWEST_READINGS - len(measurements)} more readings")
-    if repeats < FEWEST_REPEATS:
+    if len(measurements) < fewest:
+        missing.append(f"{fewest - len(measurements)} more readings")
+    if repeats < FEWEST_REPEATS and len(measurements) < PLENTY * unknowns:
         missing.append(
             f"{FEWEST_REPEATS - repeats} more repeats (readings that share `position` and approach)"
         )
@@ -173,11 +176,10 @@ def _on_same_mounts(fresh: Measurements, learned: Measurements) -> Measurements:
     return replace(fresh, mount=renumbered[fresh.mount], mounts=learned.mounts)
 
 
-def _trace(robot: Robot, measurements: Measurements, effects: Sequence[Effect]) -> Trace:
-    mechanism = FiveBar(robot, measurements)
+def _trace(mechanism: AnyMechanism, effects: Sequence[Effect]) -> Trace:
     try:
         return trace(
-            Model(mechanism, reference_of(measurements)),
+            Model(mechanism, reference_of(mechanism.measurements)),
             tolerance_prior(mechanism),
             mechanism.row_sd,
             effects,

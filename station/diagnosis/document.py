@@ -8,34 +8,17 @@ from typing import Any, Literal
 
 import numpy as np
 
-from station import weak_direction
+from station.diagnosis import kinds
 from station.diagnosis.detectability import Detectable, detectable
 from station.diagnosis.diagnose import Diagnosis
-from station.diagnosis.identified import IdentifiedMachine
 from station.diagnosis.model import Fit, Term
 from station.diagnosis.model_file import model_json
 from station.diagnosis.stages import StageErrors, stage_errors
-from station.effects import catalogue
-from station.five_bar import FiveBar
 from station.identification import vars_of
-from station.kinematics import Real
-from station.measurements import Measurements
 from station.noise import Noise
 from station.records import Quantity
 
 SCHEMA = "station.diagnosis/1"
-
-
-@dataclass(frozen=True)
-class BasePosterior:
-    """What the chosen model knows of zero offsets, geometry and mechanism."""
-
-    mechanism: FiveBar
-    measurements: Measurements
-    noise: Noise
-    sd_factor: float
-    dtheta: Real
-    covariance: Real
 
 
 @dataclass(frozen=True)
@@ -163,28 +146,17 @@ class Findings:
 
         Both against the last model as the best that is known of the machine.
         """
-        last = IdentifiedMachine.of(self.diagnosis.last, self._last_sd_factor)
-        return last.position_error(IdentifiedMachine.of(self.diagnosis.base)), last.position_error()
+        return kinds.position_errors(self.diagnosis.base, self.diagnosis.last, self._last_sd_factor)
 
     @cached_property
     def invisible(self) -> tuple[Detectable, ...]:
         """Smallest visible size of everything that was not found."""
-        return detectable(self.diagnosis.last, catalogue())
+        return detectable(self.diagnosis.last, self.diagnosis.last.model.mechanism.effects())
 
     @cached_property
     def weak_direction(self) -> dict[str, Any]:
         """As of an identification, with the effects in the model."""
-        fit, size = self.fit, self.fit.model.base_size
-        return weak_direction.describe(
-            BasePosterior(
-                mechanism=fit.model.mechanism,
-                measurements=self.diagnosis.measurements,
-                noise=self.noise,
-                sd_factor=self.sd_factor,
-                dtheta=fit.x[:2],
-                covariance=fit.solution.covariance[:size, :size] * self.sd_factor**2,
-            )
-        )
+        return kinds.weak_direction(self.fit, self.noise, self.sd_factor)
 
     @property
     def sentence(self) -> str:

@@ -7,13 +7,15 @@ keeps the chance of any false hint at `LEVEL`.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from scipy.spatial import KDTree
 from scipy.special import fdtrc, ndtr
 
 from station.diagnosis.model import Fit
 from station.kinematics import Real
+from station.mechanism import axis_of_row
 
 LEVEL = 0.01
 NEAREST = 6
@@ -38,7 +40,11 @@ def hints(fit: Fit, noise_sd_mm: float, *, repeats_agree: bool) -> tuple[Hint, .
     noise_sd_mm is the scatter of repeats.  Where repeats of one place disagree more than the devices
     are specified for, something changed between them: that is time's, and no place's or angle's.
     """
-    found = sorted(_tests(fit, noise_sd_mm, repeats_agree), key=lambda h: h.p_value)
+    axis = axis_of_row(fit.model.mechanism)
+    each = [
+        list(_tests(fit, fit.residual_mm[axis == a], noise_sd_mm, repeats_agree)) for a in np.unique(axis)
+    ]
+    found = sorted(map(_strongest, zip(*each, strict=True)), key=lambda h: h.p_value)
     kept = []
     for k, hint in enumerate(found):
         if hint.p_value * (len(found) - k) > LEVEL:
@@ -47,10 +53,16 @@ def hints(fit: Fit, noise_sd_mm: float, *, repeats_agree: bool) -> tuple[Hint, .
     return tuple(sorted(kept, key=lambda h: -h.strength))
 
 
-def _tests(fit: Fit, noise_sd_mm: float, repeats_agree: bool) -> Iterator[Hint]:
+def _strongest(coordinates: tuple[Hint, ...]) -> Hint:
+    """One thing looked at in every coordinate: the plainest, with the price of looking that often."""
+    plainest = min(coordinates, key=lambda h: h.p_value)
+    return replace(plainest, p_value=min(1.0, plainest.p_value * len(coordinates)))
+
+
+def _tests(fit: Fit, r: Real, noise_sd_mm: float, repeats_agree: bool) -> Iterator[Hint]:
+    """Of one coordinate's residual r (K,), mm."""
     m = fit.model.mechanism.measurements
     c = fit.conditions
-    r = fit.residual_mm
     if not repeats_agree:
         yield _ordered("time", r, m.t_s, 1.0, "The residual changes with time.")
         if c.temperature_rise is not None:
@@ -122,7 +134,7 @@ def _by_approach(fit: Fit, r: Real, noise_sd_mm: float) -> Iterator[Hint]:
 def _at_a_place(fit: Fit, place: Real, share: float) -> Hint:
     """Moran's I of the mean residual of each place with its nearest neighbours, and where it is largest."""
     m = fit.model.mechanism.measurements
-    at = fit.model.mechanism.positions(fit.x[: fit.model.base_size])
+    at = fit.model.mechanism.places(fit.x[: fit.model.base_size])
     _, first = np.unique(m.position, return_index=True)
     value, where = place[first], at[first]
     n = len(first)
@@ -130,15 +142,14 @@ def _at_a_place(fit: Fit, place: Real, share: float) -> Hint:
     if n < 2 * NEAREST:
         return Hint("place", 0.0, 1.0, text)
     z = value - value.mean()
-    distance = np.abs(where[:, None] - where[None, :])
-    near = np.argsort(distance, axis=1)[:, 1 : NEAREST + 1]
+    near = np.asarray(KDTree(where).query(where, NEAREST + 1)[1])[:, 1:]
     rng = np.random.default_rng(0)
     moran = _moran(z, near)
     shuffled = np.array([_moran(rng.permutation(z), near) for _ in range(400)])
     p_normal = float(1.0 - ndtr((moran - shuffled.mean()) / max(shuffled.std(), 1e-12)))
     peak = int(np.argmax(np.abs(z)))
     gathered = _share_at_peak(z, where, where[peak])
-    x, y = where[peak].real, where[peak].imag
+    peak_at = ", ".join(f"{name} = {v:.0f}" for name, v in zip("xyz", where[peak], strict=False))
     # a dent is an extreme of the few: judged by how far the largest stands out of the middle of all
     middle = 1.4826 * float(np.median(np.abs(z - np.median(z)))) or 1e-12
     extreme = float(min(1.0, 2.0 * n * (1.0 - ndtr(np.abs(z[peak]) / middle))))
@@ -146,7 +157,7 @@ def _at_a_place(fit: Fit, place: Real, share: float) -> Hint:
         "place",
         share * float(max(gathered, np.clip(moran, 0.0, 1.0))),
         max(min(p_normal, extreme) * 2.0, 1e-300),
-        f"{text[:-1]}, most at x = {x:.0f}, y = {y:.0f} mm.",
+        f"{text[:-1]}, most at {peak_at} mm.",
     )
 
 
@@ -155,6 +166,6 @@ def _moran(z: Real, near: np.ndarray) -> float:
     return float(np.sum(z[:, None] * z[near]) / near.shape[1] / square) if square else 0.0
 
 
-def _share_at_peak(z: Real, where: np.ndarray, peak: complex) -> float:
-    inside = np.abs(where - peak) < 60.0
+def _share_at_peak(z: Real, where: Real, peak: Real) -> float:
+    inside = np.linalg.norm(where - peak, axis=1) < 60.0
     return float(z[inside] @ z[inside] / (z @ z))

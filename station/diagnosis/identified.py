@@ -11,11 +11,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from station.diagnosis.conditions import pull
+from station.conditions import Conditions
 from station.diagnosis.model import Fit, Term
-from station.effects import Conditions
 from station.error_model import NAMES, SIZE, perturbed, pose, position_jacobian
-from station.five_bar import GRID
+from station.five_bar import GRID, FiveBar, lengths, load, pull
 from station.identification import position_error_summary
 from station.kinematics import Complex, Geometry, Real, inverse
 from station.robot import Robot
@@ -62,6 +61,8 @@ class IdentifiedMachine:
     def of(cls, fit: Fit, sd_factor: float = 1.0) -> IdentifiedMachine:
         """As fitted, the covariance widened."""
         m = fit.model.mechanism
+        if not isinstance(m, FiveBar):
+            raise TypeError("only a five-bar is commanded by its identified model")
         covariance = fit.solution.covariance * sd_factor**2
         return cls(m.robot, fit.x, covariance, fit.model.terms, float(m.measurements.t_s.max()))
 
@@ -170,8 +171,9 @@ class IdentifiedMachine:
             slider_net=unknown,
             temperature_rise=situation.temperature_rise,
             payload_kg=situation.payload_kg,
-            lengths={"L1": robot.L[0], "L2": robot.L[1], "l1": robot.l[0], "l2": robot.l[1]},
+            lengths=lengths(robot),
             pull=pull(at.w),
+            load=load(theta + self.x[:2]),
         )
 
 

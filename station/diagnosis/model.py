@@ -6,18 +6,19 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.linalg import block_diag
 
-from station.diagnosis.conditions import Reference, conditions
-from station.effects import Conditions, Effect, signature
+from station.conditions import Conditions, Reference
+from station.effects import Effect, signature
 from station.effects.base import Acts
-from station.five_bar import FiveBar
 from station.kinematics import Real
 from station.least_squares import Prior, Solution, solve
-from station.mechanism import Observation
+from station.mechanism import Mechanism, Observation
 
 CONDITION_ROUNDS = 12
 """The basis depends a little on the zero offsets: fitted, evaluated anew, fitted again until it stays."""
 SETTLED_MM = 2e-5
+SETTLED_SDS = 2e-3
 
 
 @dataclass(frozen=True)
@@ -29,6 +30,8 @@ class Term:
     acts: Acts
     size: int
     """Number of amplitudes."""
+    spread: Real | None = None
+    """(q,) prior standard deviation of the amplitudes; None where the readings alone decide."""
 
     @property
     def key(self) -> tuple[str, int | None]:
@@ -39,7 +42,7 @@ class Term:
 class Model:
     """A mechanism with terms; unknowns are its parameters, then the terms' amplitudes."""
 
-    mechanism: FiveBar
+    mechanism: Mechanism
     reference: Reference
     terms: tuple[Term, ...] = ()
 
@@ -55,8 +58,19 @@ class Model:
     def unknowns(self) -> int:
         return self.base_size + sum(term.size for term in self.terms)
 
+    @property
+    def spread(self) -> Real:
+        """(unknowns - base_size,) prior standard deviation of every amplitude, inf for none."""
+        parts = [np.full(t.size, np.inf) if t.spread is None else t.spread for t in self.terms]
+        return np.concatenate([*parts, np.zeros(0)])
+
+    def prior(self, base: Prior) -> Prior:
+        """Of all unknowns, from that of the base parameters."""
+        amplitudes = Prior.independent(np.zeros(len(self.spread)), self.spread)
+        return Prior(np.concatenate([base.mean, amplitudes.mean]), block_diag(base.root, amplitudes.root))
+
     def conditions(self, p: Real, *, first: bool = True) -> Conditions:
-        return conditions(self.mechanism, p, self.reference, first=first)
+        return self.mechanism.conditions(p, self.reference, first=first)
 
     def bases(self, c: Conditions) -> list[Real]:
         """(K, q) of each term under conditions."""
@@ -64,14 +78,8 @@ class Model:
 
     def observe(self, x: Real, bases: list[Real]) -> Observation:
         """Prediction with all derivatives; by_parameter has the terms' columns appended."""
-        theta = self.mechanism.theta
         amplitudes = self._split(x)
-        if any(term.acts.joint is not None for term in self.terms):
-            theta = theta.copy()
-            for term, basis, a in zip(self.terms, bases, amplitudes, strict=True):
-                if term.acts.joint is not None:
-                    theta[:, term.acts.joint] += basis @ a
-        at = self.mechanism.observe(x[: self.base_size], theta)
+        at = self.mechanism.observe(x[: self.base_size], self.turned(x, bases))
         rows = self.mechanism.reading_of_row
         value, columns = at.value, [at.by_parameter]
         for term, basis, a in zip(self.terms, bases, amplitudes, strict=True):
@@ -80,6 +88,16 @@ class Model:
                 value = value + column @ a
             columns.append(column)
         return Observation(value, np.hstack(columns), at.by_joint)
+
+    def turned(self, x: Real, bases: list[Real]) -> Real:
+        """(K, n) joint angles with what the effects on joints add to them, rad."""
+        theta = self.mechanism.theta
+        if any(term.acts.joint is not None for term in self.terms):
+            theta = theta.copy()
+            for term, basis, a in zip(self.terms, bases, self._split(x), strict=True):
+                if term.acts.joint is not None:
+                    theta[:, term.acts.joint] += basis @ a
+        return theta
 
     def _split(self, x: Real) -> list[Real]:
         out, at = [], self.base_size
@@ -98,6 +116,7 @@ class Fit:
     prior: Prior
     row_sd: Real
     at: Observation
+    """Of the mechanism at the fit, joints turned by the effects; without the terms' own columns."""
     conditions: Conditions
 
     @property
@@ -125,17 +144,14 @@ class Fit:
         return self.x[part], self.solution.covariance[part, part]
 
 
-def fit(model: Model, base_prior: Prior, row_sd: Real) -> Fit:
-    """Fit all unknowns of a model, from the prior mean on.
+def fit(model: Model, base_prior: Prior, row_sd: Real, start: Real | None = None) -> Fit:
+    """Fit all unknowns of a model, from `start` on: without one from where the mechanism says, no effects.
 
     :raises NotConvergedError: no convergence.
     """
-    extra = model.unknowns - model.base_size
-    prior = Prior(
-        np.concatenate([base_prior.mean, np.zeros(extra)]),
-        np.hstack([base_prior.root, np.zeros((len(base_prior.root), extra))]),
-    )
-    x = prior.mean
+    prior = model.prior(base_prior)
+    x = model.mechanism.start if start is None else start
+    x = np.concatenate([x, np.zeros(model.unknowns - len(x))])
     measured = model.mechanism.measured
     bases = model.bases(model.conditions(x[: model.base_size]))
     for _ in range(CONDITION_ROUNDS):
@@ -150,7 +166,15 @@ def fit(model: Model, base_prior: Prior, row_sd: Real) -> Fit:
             break
         before = model.observe(x, bases).value
         bases = model.bases(model.conditions(x[: model.base_size]))
-        if np.abs(model.observe(x, bases).value - before).max() < SETTLED_MM:
+        moved = np.abs(model.observe(x, bases).value - before).max()
+        if moved < max(SETTLED_MM, SETTLED_SDS * float(row_sd.min())):
             break
-    c = model.conditions(x[: model.base_size])
-    return Fit(model, solution, prior, row_sd, model.observe(x, bases), c)
+    return fitted(model, solution, prior, row_sd)
+
+
+def fitted(model: Model, solution: Solution, prior: Prior, row_sd: Real) -> Fit:
+    """A fit from its solution, with everything that is evaluated at it."""
+    p = solution.x[: model.base_size]
+    c = model.conditions(p)
+    theta = model.turned(solution.x, model.bases(c))
+    return Fit(model, solution, prior, row_sd, model.mechanism.observe(p, theta), c)

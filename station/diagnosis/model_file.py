@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
@@ -10,11 +11,14 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from station import visited
 from station.diagnosis.diagnose import Diagnosis
 from station.diagnosis.identified import IdentifiedMachine, Situation
 from station.diagnosis.model import Fit, Term
-from station.effects import Acts, catalogue
+from station.effects import Acts, Effect, catalogue
 from station.errors import InputRefused
+from station.kinematics import Real
+from station.machines import robot_of
 from station.robot import Robot
 
 SCHEMA = "station.model/1"
@@ -32,8 +36,8 @@ class TermPart(_Part):
 
     effect: str
     """Label in the catalogue."""
-    on_joint: Literal[1, 2] | None
-    on_lengths: dict[Literal["L1", "L2", "l1", "l2"], Finite] | None
+    on_joint: Annotated[int, Field(ge=1)] | None
+    on_lengths: dict[str, Finite] | None
     """mm per unit of strength; None as well as no joint: it acts on the reading."""
     hidden: dict[str, Finite]
     amplitudes: Annotated[list[Finite], Field(min_length=1)]
@@ -42,8 +46,10 @@ class TermPart(_Part):
 class Ranges(_Part):
     """What the readings learned on covered."""
 
-    joints_deg: tuple[Span, Span]
-    travel_mm: Span
+    joints_deg: Annotated[list[Span], Field(min_length=2)]
+    visited_deg: list[list[Span]]
+    """A joint: the stretches that readings are dense enough in."""
+    travel_mm: Span | None
     time_s: Span
 
 
@@ -72,7 +78,7 @@ class LearnedModel:
     """A model read back."""
 
     machine: IdentifiedMachine
-    joint_range_deg: tuple[Span, Span]
+    joint_range_deg: list[Span]
     temperature_c: float | None
     """Where temperatures are counted from; None when nothing warmed up."""
     confirmed: bool | None
@@ -100,16 +106,29 @@ def model_json(diagnosis: Diagnosis, fit: Fit, sd_factor: float) -> dict[str, An
             for k, term in enumerate(fit.model.terms)
         ],
         "ranges": {
-            "joints_deg": [[float(a.min()), float(a.max())] for a in degrees.T],
-            "travel_mm": [float(m.distance.min()), float(m.distance.max())],
+            "joints_deg": [_span(a) for a in degrees.T],
+            "visited_deg": [visited.as_degrees(stretches) for stretches in visited.of(m.theta)],
+            "travel_mm": _span(m.distance) if np.isfinite(m.distance).all() else None,
             "time_s": [float(m.t_s.min()), float(m.t_s.max())],
         },
         "reference": {"temperature_c": fit.model.reference.temperature_c},
     }
 
 
+def _span(values: Real) -> Span:
+    return float(values.min()), float(values.max())
+
+
 def read_model(path: Path) -> LearnedModel:
-    """From the file of `station diagnose --json`.
+    """A five-bar's, from the file of `station diagnose --json`.
+
+    :raises InputRefused: as `read_part`, or of another machine.
+    """
+    return learned_model(read_part(path), str(path))
+
+
+def read_part(path: Path) -> ModelPart:
+    """The `model` of a diagnosis, of whatever machine.
 
     :raises InputRefused: missing, broken, of another schema, or a value out of place.
     """
@@ -119,11 +138,19 @@ def read_model(path: Path) -> LearnedModel:
         raise InputRefused(f"Model {path} cannot be read: {error.strerror}.") from error
     except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise InputRefused(f"Model {path} is not valid JSON: {error}.") from error
-    return model_of(content, str(path))
+    return part_of(content, str(path))
 
 
 def model_of(content: Any, source: str) -> LearnedModel:
-    """From a diagnosis document; `source` says where it is from.  :raises InputRefused: as `read_model`."""
+    """A five-bar's, from a diagnosis document; `source` says where that is from.
+
+    :raises InputRefused: as `read_model`.
+    """
+    return learned_model(part_of(content, source), source)
+
+
+def part_of(content: Any, source: str) -> ModelPart:
+    """:raises InputRefused: as `read_part`."""
     part = content.get("model") if isinstance(content, dict) else None
     if not isinstance(part, dict):
         raise InputRefused(
@@ -135,7 +162,7 @@ def model_of(content: Any, source: str) -> LearnedModel:
             "diagnose again."
         )
     try:
-        return learned_model(ModelPart.model_validate(part), source)
+        return ModelPart.model_validate(part)
     except ValidationError as error:
         first = error.errors()[0]
         where = ".".join(str(step) for step in first["loc"])
@@ -143,9 +170,14 @@ def model_of(content: Any, source: str) -> LearnedModel:
 
 
 def learned_model(part: ModelPart, source: str) -> LearnedModel:
-    """:raises InputRefused: values that do not belong together."""
-    robot = Robot.from_dict(part.robot, source=f"{source}: [model.robot]")
-    terms = tuple(_term(term, source) for term in part.terms)
+    """A five-bar that can be commanded.  :raises InputRefused: values that do not belong together."""
+    robot = robot_of(part.robot, source=f"{source}: [model.robot]")
+    if not isinstance(robot, Robot):
+        raise InputRefused(
+            f"Model {source} is of a serial arm, whose commands its own controller computes; "
+            "only a five-bar's are solved here. `station transfer` applies the model to other readings."
+        )
+    terms = terms_of(part, catalogue(), source)
     size = len(part.values)
     amplitudes = [a for term in part.terms for a in term.amplitudes]
     covariance = np.array(part.covariance) if {len(row) for row in part.covariance} == {size} else np.empty(0)
@@ -162,10 +194,14 @@ def learned_model(part: ModelPart, source: str) -> LearnedModel:
     return LearnedModel(machine, part.ranges.joints_deg, part.reference.temperature_c, part.confirmed)
 
 
-def _term(part: TermPart, source: str) -> Term:
-    effect = next((e for e in catalogue() if e.label == part.effect), None)
+def terms_of(part: ModelPart, effects: Sequence[Effect], source: str) -> tuple[Term, ...]:
+    """The effects of a model, found again in a catalogue.  :raises InputRefused: one that is not in it."""
+    return tuple(_term(term, effects, source) for term in part.terms)
+
+
+def _term(part: TermPart, effects: Sequence[Effect], source: str) -> Term:
+    effect = next((e for e in effects if e.label == part.effect), None)
     if effect is None:
         raise InputRefused(f"Model {source}: [model.terms] effect {part.effect!r} is not in the catalogue.")
-    lengths = None if part.on_lengths is None else {str(k): mm for k, mm in part.on_lengths.items()}
-    acts = Acts(None if part.on_joint is None else part.on_joint - 1, lengths)
+    acts = Acts(None if part.on_joint is None else part.on_joint - 1, part.on_lengths)
     return Term(effect, part.hidden, acts, len(part.amplitudes))

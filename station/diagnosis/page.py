@@ -148,12 +148,12 @@ def _charts(before: Fit, after: Fit, added: bool) -> Iterator[Chart]:
     for i in range(m.joints):
         if np.any(c.approach[:, i]):
             yield from _by_approach(i, c.approach[:, i], was, left, added)
-    at = before.model.mechanism.positions(before.x[: before.model.base_size])
+    at = before.model.mechanism.places(before.x[: before.model.base_size])
     first = np.unique(m.position, return_index=True)[1]
     for values, name in ((was, "before"), (left, "after")):
         mean = np.bincount(m.position, values) / np.maximum(np.bincount(m.position), 1)
         places = mean[m.position[first]]
-        drawing = svg.place_map(at[first].real.tolist(), at[first].imag.tolist(), places.tolist(), UM)
+        drawing = svg.place_map(at[first, 0].tolist(), at[first, 1].tolist(), places.tolist(), UM)
         yield Chart(drawing, f"{name}, mean of each place")
         if not added:
             break

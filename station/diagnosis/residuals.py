@@ -51,7 +51,7 @@ def residuals(findings: Findings, positions: Mapping[int | str, str]) -> Residua
     """Row by row; `positions` names the place of each reading."""
     d = findings.diagnosis
     base, m = d.base, d.measurements
-    at = base.model.mechanism.positions(base.x[: base.model.base_size])
+    at = base.model.mechanism.places(base.x[: base.model.base_size])
     left = np.array([stage.fit.residual_mm for stage in d.trace.stages])
     taken = left[:-1] - left[1:]
     theta = np.degrees(base.conditions.theta)
@@ -63,8 +63,8 @@ def residuals(findings: Findings, positions: Mapping[int | str, str]) -> Residua
             ResidualRow(
                 reading=m.ids[k],
                 position=positions[m.ids[k]],
-                x_mm=float(at[k].real),
-                y_mm=float(at[k].imag),
+                x_mm=float(at[k, 0]),
+                y_mm=float(at[k, 1]),
                 t_s=float(m.t_s[k]),
                 theta1_deg=float(theta[k, 0]),
                 theta2_deg=float(theta[k, 1]),

@@ -7,14 +7,16 @@ Whatever the base parameters could have taken up is projected out of each signat
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.optimize import minimize_scalar
 from scipy.special import fdtrc
 
+from station.conditions import Conditions
+from station.diagnosis.evidence import learned_spread
 from station.diagnosis.model import Fit, Term
-from station.effects import Conditions, Effect, Variants, signature
+from station.effects import Effect, Variants, signature
 from station.kinematics import Real
 
 INVISIBLE_SHARE = 0.01
@@ -31,6 +33,9 @@ class Candidate:
     reduction: float
     """Of the cost."""
     size: int
+    """Number of amplitudes."""
+    freedom: float
+    """How many of them the readings determine; `size` where there is no prior."""
     p_value: float
     """F test, the price of the search included."""
     visible_share: float
@@ -40,7 +45,7 @@ class Candidate:
         return self.visible_share >= INVISIBLE_SHARE
 
     def term(self) -> Term:
-        return Term(self.effect, self.hidden, self.variants.acts, self.size)
+        return Term(self.effect, self.hidden, self.variants.acts, self.size, self.variants.spread)
 
 
 class Scan:
@@ -48,9 +53,9 @@ class Scan:
 
     def __init__(self, fit: Fit) -> None:
         self.fit = fit
-        stacked = np.concatenate([fit.solution.jacobian, fit.prior.root])
-        norms = np.linalg.norm(stacked, axis=0)
-        self._q = np.linalg.qr(stacked / np.where(norms > 0, norms, 1.0))[0][: len(fit.row_sd)]
+        held = np.isfinite(np.diag(fit.solution.covariance))
+        self._J = fit.solution.jacobian[:, held]
+        self._taken_up = fit.solution.covariance[np.ix_(held, held)]
         self._residual = -fit.solution.residual
 
     def candidates(self, effects: Sequence[Effect]) -> list[Candidate]:
@@ -64,25 +69,39 @@ class Scan:
 
     def reductions(self, variants: Variants, basis: Real) -> tuple[Real, Real, Real]:
         """For basis (V, K, q): cost reduction (V,), visible share (V,), information (V,)."""
-        fit = self.fit
+        left, along, share = self._projected(variants, basis)
+        reduction, largest = _explained(left, along)
+        return reduction, share, largest
+
+    def signature(self, candidate: Candidate) -> Real:
+        """(R, q) of a candidate as it was found, mm per unit of amplitude."""
+        model = self.fit.model
+        basis = candidate.effect.at(candidate.hidden, self.fit.conditions)
+        rows = model.mechanism.reading_of_row
+        return signature(candidate.variants.acts, basis, self.fit.at, model.names, rows)
+
+    def _projected(self, variants: Variants, basis: Real) -> tuple[Real, Real, Real]:
+        """What is left of signatures: information (V, q, q), gradient (V, q), and their share (V,) in RMS."""
+        fit, rows = self.fit, len(self.fit.row_sd)
         S = signature(variants.acts, basis, fit.at, fit.model.names, fit.model.mechanism.reading_of_row)
         S = S / fit.row_sd[:, None]
-        flat = S.transpose(1, 0, 2).reshape(len(fit.row_sd), -1)
-        inside = (self._q.T @ flat).reshape(-1, *S.shape[::2])
+        flat = S.transpose(1, 0, 2).reshape(rows, -1)
+        # what the parameters in the model would take up of each: S' J (J'J + W'W)^-1 J' S
+        inside = (self._J.T @ flat).reshape(-1, *S.shape[::2]).transpose(1, 0, 2)
         whole = S.transpose(0, 2, 1) @ S
-        within = inside.transpose(1, 2, 0)
-        left = whole - within @ within.transpose(0, 2, 1)
+        left = whole - inside.transpose(0, 2, 1) @ (self._taken_up @ inside)
         along = (self._residual @ flat).reshape(S.shape[::2])
-        reduction, smallest = _explained(left, along)
         # what a constant reading offset takes up is no part of a signature
         mean = flat.mean(axis=0).reshape(S.shape[::2])
-        total = np.trace(whole, axis1=1, axis2=2) - len(fit.row_sd) * np.sum(mean**2, axis=1)
+        total = np.trace(whole, axis1=1, axis2=2) - rows * np.sum(mean**2, axis=1)
         share = np.sqrt(np.maximum(np.trace(left, axis1=1, axis2=2), 0.0) / np.where(total > 0, total, 1.0))
-        return reduction, share, smallest
+        return left, along, share
 
     def _best(self, effect: Effect, variants: Variants) -> Candidate:
-        reduction, share, _ = self.reductions(variants, variants.basis)
-        reduction = np.where(share >= INVISIBLE_SHARE, reduction, 0.0)
+        left, along, share = self._projected(variants, variants.basis)
+        if variants.spread is not None:
+            return self._with_spread(effect, variants, left[0], along[0], float(share[0]))
+        reduction = np.where(share >= INVISIBLE_SHARE, _explained(left, along)[0], 0.0)
         best = int(np.argmax(reduction))
         size = variants.basis.shape[2]
         return Candidate(
@@ -91,16 +110,39 @@ class Scan:
             variants=variants,
             reduction=float(reduction[best]),
             size=size,
+            freedom=float(size),
             p_value=self._p_value(float(reduction[best]), size, variants.trials),
             visible_share=float(share[best]),
         )
 
-    def _p_value(self, reduction: float, size: int, trials: float) -> float:
-        dof = self.fit.dof - size
+    def _with_spread(
+        self, effect: Effect, variants: Variants, left: Real, along: Real, share: float
+    ) -> Candidate:
+        """Of many amplitudes with a prior only as many count as the readings determine."""
+        assert variants.spread is not None
+        size = len(along)
+        noise = max(self.fit.cost / max(self.fit.dof, 1), 1.0)
+        spread, _ = learned_spread(left / noise, along / noise, variants.spread, effect.bands(size))
+        held = np.linalg.solve(left + np.diag(noise / spread**2), np.column_stack([left, along]))
+        freedom = max(float(np.trace(held[:, :size])), 1.0)
+        reduction = float(along @ held[:, size])
+        return Candidate(
+            effect=effect,
+            hidden=variants.hidden[0],
+            variants=replace(variants, spread=spread),
+            reduction=reduction,
+            size=size,
+            freedom=freedom,
+            p_value=self._p_value(reduction, freedom, variants.trials),
+            visible_share=share,
+        )
+
+    def _p_value(self, reduction: float, freedom: float, trials: float) -> float:
+        dof = self.fit.dof - freedom
         rest = max(self.fit.cost - reduction, 1e-12)
         if dof <= 0:
             return 1.0
-        return float(min(1.0, trials * fdtrc(size, dof, (reduction / size) / (rest / dof))))
+        return float(min(1.0, trials * fdtrc(freedom, dof, (reduction / freedom) / (rest / dof))))
 
     def refine(self, candidate: Candidate) -> Candidate:
         """Settle searched hidden parameters between the grid's points, with their sd."""
@@ -126,14 +168,11 @@ class Scan:
             hidden[f"{name}_sd"] = (
                 float(np.sqrt(2.0 * noise / curvature)) if curvature > 0 else float(high - low)
             )
-        return Candidate(
-            candidate.effect,
-            hidden,
-            candidate.variants,
-            reduction,
-            candidate.size,
-            self._p_value(reduction, candidate.size, candidate.variants.trials),
-            candidate.visible_share,
+        return replace(
+            candidate,
+            hidden=hidden,
+            reduction=reduction,
+            p_value=self._p_value(reduction, candidate.freedom, candidate.variants.trials),
         )
 
 

@@ -8,14 +8,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from station.diagnosis.cross_validation import held_out
+from station.diagnosis.cross_validation import predicted_by_others
 from station.diagnosis.diagnose import Diagnosis
 from station.diagnosis.model import Term
 from station.errors import InputRefused
-from station.five_bar import FiveBar
 from station.kinematics import Real
 from station.least_squares import NotConvergedError, Prior, Solution, solve
-from station.measurements import Measurements
+from station.mechanism import Mechanism, by_reading
 
 Mask = NDArray[np.bool_]
 
@@ -39,20 +38,20 @@ class StageErrors:
 
 def stage_errors(diagnosis: Diagnosis) -> tuple[StageErrors, ...]:
     """Paper, base, and one more per effect found."""
-    stages = [_paper(diagnosis)]
+    stages = [_simplest(diagnosis)]
     names = ["base", *(finding.term.effect.label for finding in diagnosis.trace.findings)]
     for k, (stage, name) in enumerate(zip(diagnosis.trace.stages, names, strict=True)):
         fit = stage.fit
         fresh = None
         if diagnosis.confirmations:
-            fresh = diagnosis.confirmations[k].residual_mm[kept_fresh(diagnosis)]
+            fresh = diagnosis.confirmations[k].error_mm[kept_fresh(diagnosis)]
         stages.append(
             _errors(
                 name if k == 0 else f"+ {name}",
                 base_unknowns(fit.model.mechanism) + sum(len_of(term) for term in fit.model.terms),
                 fit.solution,
                 fit.row_sd,
-                fit.model.mechanism.measurements,
+                fit.model.mechanism,
                 fresh,
             )
         )
@@ -67,7 +66,7 @@ def kept_fresh(diagnosis: Diagnosis) -> Mask:
     return np.array([i not in left_out for i in diagnosis.fresh.ids])
 
 
-def base_unknowns(mechanism: FiveBar) -> int:
+def base_unknowns(mechanism: Mechanism) -> int:
     """Number of parameters of geometry and mechanism."""
     return sum(not p.name.startswith("rho0") for p in mechanism.parameters)
 
@@ -82,28 +81,28 @@ def _errors(
     unknowns: int,
     solution: Solution,
     row_sd: Real,
-    measurements: Measurements,
+    mechanism: Mechanism,
     fresh_mm: Real | None,
 ) -> StageErrors:
-    fit_mm = solution.residual * row_sd
-    out_mm = held_out(solution, measurements.position) * row_sd
+    fit_mm = by_reading(mechanism, solution.residual * row_sd)
+    out_mm = by_reading(mechanism, predicted_by_others(solution, mechanism) * row_sd)
     return StageErrors(
         model,
         unknowns,
         _rms(fit_mm),
         _rms(out_mm),
-        float(np.abs(out_mm).max()),
+        float(out_mm.max()),
         None if fresh_mm is None else _rms(fresh_mm),
-        None if fresh_mm is None else float(np.abs(fresh_mm).max()),
+        None if fresh_mm is None else float(fresh_mm.max()),
     )
 
 
-def _paper(diagnosis: Diagnosis) -> StageErrors:
-    """The four unknowns of eq. 28 and the reading offset: e, L, l stay nominal, nothing is known before."""
-    mechanism = FiveBar(diagnosis.robot, diagnosis.measurements)
-    held = [p.name[0] in "eLl" for p in mechanism.parameters]
-    free = np.flatnonzero(~np.array(held))
-    start = np.array([p.prior_mean for p in mechanism.parameters])
+def _simplest(diagnosis: Diagnosis) -> StageErrors:
+    """The simplest model of the machine: the rest of it stays nominal, nothing is known before."""
+    mechanism = diagnosis.base.model.mechanism
+    name, names = mechanism.simplest
+    free = np.flatnonzero([p.name in names for p in mechanism.parameters])
+    start = mechanism.start
     row_sd = diagnosis.base.row_sd
 
     def full(q: Real) -> Real:
@@ -119,17 +118,17 @@ def _paper(diagnosis: Diagnosis) -> StageErrors:
         solution = solve(residuals, diagnosis.base.x[free], Prior(start[free], np.zeros((0, len(free)))))
     except NotConvergedError as error:
         raise InputRefused(
-            f"Not even the paper's four unknowns converge on these readings ({error}); "
+            f"Not even the {len(names)} unknowns of the {name} model converge on these readings ({error}); "
             "check the robot file and that angles and distances belong together."
         ) from error
     fresh_mm = None
     if diagnosis.fresh is not None:
-        fresh = FiveBar(diagnosis.robot, diagnosis.fresh)
-        fresh_mm = fresh.measured - fresh.observe(full(solution.x), fresh.theta).value
-        fresh_mm = fresh_mm[kept_fresh(diagnosis)]
-    unknowns = base_unknowns(mechanism) - sum(held)
-    return _errors("paper", unknowns, solution, row_sd, diagnosis.measurements, fresh_mm)
+        fresh = mechanism.of(diagnosis.fresh)
+        rows = fresh.measured - fresh.observe(full(solution.x), fresh.theta).value
+        fresh_mm = by_reading(fresh, rows)[kept_fresh(diagnosis)]
+    unknowns = sum(not n.startswith("rho0") for n in names)
+    return _errors(name, unknowns, solution, row_sd, mechanism, fresh_mm)
 
 
-def _rms(values: Real) -> float:
-    return float(np.sqrt(np.mean(values**2)))
+def _rms(errors: Real) -> float:
+    return float(np.sqrt(np.mean(errors**2)))

@@ -12,15 +12,23 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from station import outliers
+from station.diagnosis import long_log
 from station.diagnosis.adequacy import ALPHA, Adequacy, judge
 from station.diagnosis.model import Fit, Model, Term, fit
 from station.diagnosis.scan import Candidate, Scan
 from station.effects import Effect
 from station.kinematics import Real
 from station.least_squares import NotConvergedError, Prior
+from station.measurements import Measurements
 from station.outliers import Outlier
 
 MOST_EFFECTS = 3
+READINGS_AN_EFFECT = 200
+"""A long log may show more than three: one for so many readings,"""
+EFFECTS_A_JOINT = 2
+"""but no more than these."""
+WORTH = 0.03
+"""Of the rest's square, what an effect must take to be worth a place in the model."""
 SIGNIFICANT = 0.01
 """Family-wise over the catalogue (Holm: the smallest p is held against the whole count)."""
 RIVALS = 40.0
@@ -29,6 +37,7 @@ HOPEFUL = 0.02
 """Unless it takes all but this share: a large effect is not quite linear."""
 MOST_RIVALS = 6
 ODD_SHARE = 0.03
+OUTLIER_ROUNDS = 4
 END_SHARE = 0.12
 """Of the walk, in which readings off to one side together look like a step and not like slips of the head."""
 ALIAS = 11.0
@@ -62,6 +71,8 @@ class Trace:
     findings: tuple[Finding, ...]
     outliers: tuple[Outlier, ...]
     """Few single readings off the last model: the trace ends there, to be begun again without them."""
+    left_out: tuple[Outlier, ...] = ()
+    """Of a long log: readings that were off the last model and are in no fit any more."""
 
     @property
     def adequate(self) -> bool:
@@ -76,13 +87,17 @@ def trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[Effec
     stage = _settled(base, prior, specified_sd, None)
     stages = [stage]
     findings: list[Finding] = []
-    odd = _odd_readings(stage.fit)
-    while not odd and not stage.adequacy.settled and len(findings) < MOST_EFFECTS:
+    long = long_log.is_long(stage.fit)
+    odd = () if long else _odd_readings(stage.fit)
+    most = _most_effects(base.mechanism.measurements)
+    while not odd and not stage.adequacy.settled and len(findings) < most:
         scan = Scan(stage.fit)
         candidates = scan.candidates(_others(effects, stage.fit.model.terms))
         # where only the repeats are worse than specified, a cause must be plainer
         level = ALPHA if stage.adequacy.passed else SIGNIFICANT
         if not _significant(candidates, len(effects), level):
+            break
+        if candidates[0].reduction < WORTH * stage.fit.cost:
             break
         chosen = _add(scan, prior, candidates)
         if chosen is None:
@@ -91,8 +106,41 @@ def trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[Effec
         findings.append(finding)
         stage = _settled(better.model, prior, specified_sd, better)
         stages.append(stage)
-        odd = _odd_readings(stage.fit)
-    return Trace(tuple(stages), tuple(findings), odd)
+        # few gross readings of thousands mislead no scan, and to begin again would take long
+        odd = () if long else _odd_readings(stage.fit)
+    left_out = _take_out(stages, prior) if long else ()
+    return Trace(tuple(stages), tuple(findings), odd, left_out)
+
+
+def _take_out(stages: list[Stage], prior: Prior) -> tuple[Outlier, ...]:
+    """Take the readings that are off a long log's last model out of every fit, one by one in place.
+
+    The effects are known by then: the fits are changed as linear ones, and only the last one is fitted anew.
+    """
+    last = stages[-1].fit
+    ids = last.model.mechanism.measurements.ids
+    off: tuple[Outlier, ...] = ()
+    for _ in range(OUTLIER_ROUNDS):
+        more = _odd_readings(last)
+        if not more:
+            break
+        off = (*off, *more)
+        named = {o.reading for o in off}
+        last = long_log.without(stages[-1].fit, np.array([i not in named for i in ids]))
+    if not off:
+        return ()
+    kept = np.array([i not in named for i in ids])
+    del last
+    for k, stage in enumerate(stages):
+        found = long_log.without(stage.fit, kept)
+        if k == len(stages) - 1:
+            found = fit(found.model, prior, found.row_sd, found.x)
+        stages[k] = Stage(found, judge(found, found.model.mechanism.row_sd))
+    return off
+
+
+def _most_effects(m: Measurements) -> int:
+    return max(MOST_EFFECTS, min(EFFECTS_A_JOINT * m.joints, len(m) // READINGS_AN_EFFECT))
 
 
 def with_alias(found: Trace, alias: Term, prior: Prior, specified_sd: Real) -> Trace:
@@ -109,7 +157,7 @@ def with_alias(found: Trace, alias: Term, prior: Prior, specified_sd: Real) -> T
 def _odd_readings(found: Fit) -> tuple[Outlier, ...]:
     """Single readings off the model; many of them, or a few together at an end, are an effect."""
     measurements = found.model.mechanism.measurements
-    odd = outliers.off(measurements, found.solution, found.row_sd)
+    odd = outliers.off(found.model.mechanism, found.solution, found.row_sd)
     n = len(measurements)
     if len(odd) > max(1, int(ODD_SHARE * n)):
         return ()
@@ -129,6 +177,8 @@ def _significant(candidates: list[Candidate], tests: int, level: float) -> bool:
 def _settled(model: Model, prior: Prior, specified_sd: Real, better: Fit | None) -> Stage:
     """Fit with the noise that the repeats of this very model show, if they are better than specified."""
     found = fit(model, prior, specified_sd) if better is None else better
+    if long_log.is_long(found):
+        return Stage(found, judge(found, specified_sd))
     for _ in range(2):
         adequacy = judge(found, specified_sd)
         sd = found.row_sd * adequacy.pure_factor
@@ -148,14 +198,18 @@ def _add(scan: Scan, prior: Prior, candidates: list[Candidate]) -> tuple[Finding
         return None
     best = max(refined, key=lambda c: c.reduction)
     unit = _noise_square(current.cost - best.reduction, current.dof - best.size)
-    worst = max(current.cost - best.reduction + RIVALS * unit, HOPEFUL * current.cost)
+    long = long_log.is_long(current)
+    worst = max(current.cost - best.reduction + RIVALS * unit, 0.0 if long else HOPEFUL * current.cost)
     rivals = [c for c in refined if current.cost - c.reduction < worst]
     fits: list[tuple[float, Candidate, Fit]] = []
     for c in sorted(rivals, key=lambda c: -c.reduction)[:MOST_RIVALS]:
-        model = replace(current.model, terms=(*current.model.terms, c.term()))
         try:
-            # from the prior mean: without the effect the base parameters have gone far astray
-            refit = fit(model, prior, current.row_sd)
+            if long:
+                refit = long_log.with_candidate(scan, c, prior)
+            else:
+                model = replace(current.model, terms=(*current.model.terms, c.term()))
+                # not from the current fit: without the effect the base parameters may have gone far astray
+                refit = fit(model, prior, current.row_sd)
         except NotConvergedError:
             continue
         fits.append((_score(refit, c), c, refit))
@@ -166,7 +220,7 @@ def _add(scan: Scan, prior: Prior, candidates: list[Candidate]) -> tuple[Finding
     unit = _noise_square(better.cost, better.dof - winner.size)
     aliases: dict[tuple[str, int | None], Term] = {}
     for _, c, refit in fits[1:]:
-        if (refit.cost - better.cost) / unit < ALIAS + 2.0 * (winner.size - c.size):
+        if (refit.cost - better.cost) / unit < ALIAS + 2.0 * (winner.freedom - c.freedom):
             aliases.setdefault(c.term().key, c.term())
     aliases.pop(winner.term().key, None)
     return Finding(winner.term(), winner.p_value, tuple(aliases.values())), better
@@ -179,10 +233,14 @@ def _noise_square(cost: float, dof: int) -> float:
 def _score(refit: Fit, c: Candidate) -> float:
     """Minus twice the log likelihood with unknown noise, plus the price of freedom and of the search."""
     n = len(refit.row_sd)
-    return n * float(np.log(max(refit.cost, 1e-12))) + 2.0 * c.size + 2.0 * float(np.log(c.variants.trials))
+    return (
+        n * float(np.log(max(refit.cost, 1e-12))) + 2.0 * c.freedom + 2.0 * float(np.log(c.variants.trials))
+    )
 
 
 def _others(effects: Sequence[Effect], terms: tuple[Term, ...]) -> list[Effect]:
     """Effects not in the model yet, and those that may be in it twice."""
     present = {term.effect for term in terms}
-    return [e for e in effects if e.repeats or e not in present]
+    covered = {(name, term.effect.joint) for term in terms for name in term.effect.covers}
+    free = [e for e in effects if (e.id, e.joint) not in covered]
+    return [e for e in free if e.repeats or e not in present]

@@ -1,28 +1,29 @@
 """The catalogue: one small unit an effect (method.md section 3).
 
-Adding an effect is one new file and one line in `catalogue`.
+Adding an effect is one new file and one line in the catalogue of each machine that can have it.
 """
 
 from __future__ import annotations
 
 from station.effects.backlash import Backlash
-from station.effects.base import Acts, Conditions, Effect, Variants, signature
+from station.effects.base import Acts, Effect, Variants, signature
 from station.effects.compliance import Compliance
 from station.effects.count_slip import CountSlip
 from station.effects.cyclic import EncoderEccentricity, GearCyclic
+from station.effects.gear_curve import GearCurve
 from station.effects.lengths import JointClearance, LinkLength
 from station.effects.scale import ScaleBow, ScaleCyclic, ScaleGain, ScaleHysteresis
 from station.effects.time import Drift, ThermalGrowth, ThermalLinks
 from station.effects.transmission_gain import TransmissionGain
 
-__all__ = ["Acts", "Conditions", "Effect", "Variants", "catalogue", "signature"]
+__all__ = ["Acts", "Effect", "Variants", "arm_catalogue", "catalogue", "signature"]
 
 PER_JOINT = (Backlash, GearCyclic, EncoderEccentricity, TransmissionGain, Compliance, CountSlip)
 
 
-def catalogue(joints: int = 2) -> tuple[Effect, ...]:
+def catalogue() -> tuple[Effect, ...]:
     """Every effect at every place of a five-bar with its scale."""
-    numbers = range(1, joints + 1)
+    numbers = (1, 2)
     return (
         *(effect(joint) for effect in PER_JOINT for joint in numbers),
         *(LinkLength(joint, f"{kind}{joint}") for kind in "Ll" for joint in numbers),
@@ -35,3 +36,10 @@ def catalogue(joints: int = 2) -> tuple[Effect, ...]:
         ThermalGrowth(),
         ThermalLinks(),
     )
+
+
+def arm_catalogue(joints: int, *, by_range: bool) -> tuple[Effect, ...]:
+    """Every effect at every joint of a serial arm; with distances also those of the instrument that measures them."""
+    effects = (*PER_JOINT, GearCurve)
+    at_joints = tuple(effect(joint) for effect in effects for joint in range(1, joints + 1))
+    return (*at_joints, ThermalLinks(), *((ScaleGain(), Drift(), ThermalGrowth()) if by_range else ()))

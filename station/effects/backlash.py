@@ -6,7 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from station.effects.base import Acts, Conditions, Effect, Variants, one, scaled
+from station.conditions import Conditions
+from station.effects.base import Acts, Effect, Variants, one, scaled
 from station.kinematics import Real
 from station.records import Quantity
 

@@ -14,41 +14,11 @@ from typing import ClassVar
 
 import numpy as np
 
+from station.conditions import Conditions
 from station.kinematics import Real
 from station.measurements import Index
 from station.mechanism import Observation
 from station.records import Quantity
-
-
-@dataclass(frozen=True)
-class Conditions:
-    """Under what K readings were taken, n joints."""
-
-    t_s: Real
-    """(K,)"""
-    theta: Real
-    """(K, n) joint angles, rad, zero offsets included."""
-    drive_angle: Real
-    """(K, n) joint angles counted from each drive's zero, rad."""
-    approach: Real
-    """(K, n) sign of each joint's last motion, 0 unknown."""
-    travel: Real
-    """(K,) where the slider stands on the scale, mm: what a perfect scale would read."""
-    slider_direction: Real
-    """(K,) sign of the slider's last motion, 0 unknown."""
-    slider_net: Real
-    """(K,) sign of the change of reading since the reading before, 0 unknown: what counts where the slider
-    follows late or the way between is not known."""
-    temperature_rise: Real | None
-    """(K,) since the first reading, K; None where nothing was recorded or nothing changed."""
-    payload_kg: Real | None
-    lengths: Mapping[str, float]
-    """Nominal lengths by parameter name, mm."""
-    pull: Real
-    """(K, n) sign of the load along each distal link: +1 pulled."""
-
-    def __len__(self) -> int:
-        return len(self.t_s)
 
 
 @dataclass(frozen=True)
@@ -73,6 +43,8 @@ class Variants:
     """(V) hidden parameters of each."""
     trials: float
     """Number of independent ways among them: the price of looking elsewhere."""
+    spread: Real | None = None
+    """(q,) what the amplitudes scatter by, where they are so many that they need a prior; to begin with."""
 
 
 def one(acts: Acts, basis: Real) -> Variants:
@@ -95,6 +67,9 @@ class Effect(ABC):
     by_approach: ClassVar[bool] = False
     """Whether it moves the arm differently with the sense of the joint's last motion."""
 
+    covers: ClassVar[tuple[str, ...]] = ()
+    """Effects of the same joint that are a part of this one."""
+
     def __init__(self, joint: int | None = None) -> None:
         self.joint = joint
         """1, 2, ... or None where the effect belongs to no joint."""
@@ -112,6 +87,10 @@ class Effect(ABC):
         self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
     ) -> tuple[Quantity, ...]:
         """Fitted amplitudes (q,) in the units of the catalogue, with sd."""
+
+    def bands(self, size: int) -> Index:
+        """(q,) amplitudes with the same number are alike in size; only of use with a spread."""
+        return np.zeros(size, dtype=np.intp)
 
     def refined(self, hidden: Mapping[str, float], c: Conditions) -> Mapping[str, tuple[float, float]]:
         """Hidden parameters that may be refined beyond the search grid: name -> (low, high)."""

@@ -6,10 +6,14 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from station.effects.base import Acts, Conditions, Effect, Variants, scaled
+from station.conditions import Conditions
+from station.effects.base import Acts, Effect, Variants, scaled
 from station.errors import InputRefused
 from station.kinematics import Real
 from station.records import Quantity
+
+SPREAD_RAD = 1e-3
+"""Sag under each of several masses, to begin with."""
 
 
 class Compliance(Effect):
@@ -21,20 +25,30 @@ class Compliance(Effect):
     def variants(self, c: Conditions) -> Variants | None:
         i = (self.joint or 1) - 1
         known = {"by_payload": 1.0} if c.payload_kg is not None and np.ptp(c.payload_kg) > 0 else {}
-        return Variants(Acts(joint=i), self.at(known, c)[None], (known,), 1.0)
+        basis = self.at(known, c)
+        if not np.ptp(basis, axis=0).any():
+            return None
+        # several places where mass may sit are nearly alike: only a prior tells them apart
+        spread = None if c.load[i].shape[1] == 1 else np.full(basis.shape[1], SPREAD_RAD)
+        return Variants(Acts(joint=i), basis[None], (known,), 1.0, spread)
 
     def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
-        sag = np.cos(c.theta[:, (self.joint or 1) - 1])
+        sag = c.load[(self.joint or 1) - 1]
         if "by_payload" not in hidden:
-            return np.asarray(sag[:, None])
+            return sag
         if c.payload_kg is None:
             raise InputRefused(f"{self.label} was learned on payloads: a column payload_kg is needed.")
-        return np.column_stack([sag, sag * c.payload_kg])
+        return np.hstack([sag, sag * c.payload_kg[:, None]])
 
     def quantities(
         self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
     ) -> tuple[Quantity, ...]:
-        names = (("deg_at_horizontal", "deg"), ("deg_at_horizontal_per_kg", "deg/kg"))
+        names: tuple[tuple[str, str], ...] = (
+            ("deg_at_horizontal", "deg"),
+            ("deg_at_horizontal_per_kg", "deg/kg"),
+        )
+        if len(amplitudes) > 1 and "by_payload" not in hidden:
+            names = tuple((f"deg_at_moment_{k + 1}", "deg") for k in range(len(amplitudes)))
         return tuple(
             scaled(name, a, covariance[k, k], -180.0 / np.pi, unit)
             for k, (a, (name, unit)) in enumerate(zip(amplitudes, names, strict=False))

@@ -6,12 +6,17 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from station.effects.base import Acts, Conditions, Effect, Variants, scaled
+from station.conditions import Conditions
+from station.effects.base import Acts, Effect, Variants, scaled
 from station.kinematics import Real
 from station.records import Quantity
 
 EDGE = 2
 """A step with fewer readings on one side is a matter for the outliers."""
+
+
+MOST_MOMENTS = 200
+"""Of a long log not every reading is tried: a step's moment is then known to half a percent of it."""
 
 
 class CountSlip(Effect):
@@ -24,7 +29,8 @@ class CountSlip(Effect):
         if len(c) < 4 * EDGE:
             return None
         order = np.argsort(c.t_s, kind="stable")
-        moments = c.t_s[order[EDGE : len(order) - EDGE + 1]]
+        every = max(1, len(order) // MOST_MOMENTS)
+        moments = c.t_s[order[EDGE : len(order) - EDGE + 1 : every]]
         basis = (c.t_s[None, :] >= moments[:, None]).astype(float)[:, :, None]
         return Variants(
             Acts(joint=(self.joint or 1) - 1),

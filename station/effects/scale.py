@@ -6,15 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from station.effects.base import (
-    ON_READING,
-    Conditions,
-    Effect,
-    Variants,
-    amplitude_and_phase,
-    one,
-    scaled,
-)
+from station.conditions import Conditions
+from station.effects.base import ON_READING, Effect, Variants, amplitude_and_phase, one, scaled
 from station.effects.cyclic import OVERSAMPLING, wave, waves
 from station.kinematics import Real
 from station.records import Quantity

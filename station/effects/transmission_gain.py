@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from station.effects.base import Acts, Conditions, Effect, Variants, one, scaled
+from station.conditions import Conditions
+from station.effects.base import Acts, Effect, Variants, one, scaled
 from station.kinematics import Real
 from station.records import Quantity
 

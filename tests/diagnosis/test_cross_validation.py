@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from station.diagnosis.conditions import reference_of
+from station.conditions import reference_of
 from station.diagnosis.cross_validation import held_out
 from station.diagnosis.diagnose import diagnose
 from station.diagnosis.model import Fit, Model, fit

@@ -1,0 +1,93 @@
+"""How large the amplitudes of a curve are: learned from the readings themselves.
+
+A curve of a hundred amplitudes needs a prior, and its width decides between bending too little and following
+the noise.  The width that makes the readings most probable is found by the fixed-point steps of MacKay
+(Bayesian interpolation, Neural Computation 4, 1992): each band of alike amplitudes scatters by the square of
+its posterior means, over the number of them that the readings determine.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from scipy.linalg import cho_factor, cho_solve
+from scipy.linalg.lapack import dpotri
+
+from station.diagnosis.model import Fit, Term
+from station.kinematics import Real
+from station.measurements import Index
+
+MOST_ROUNDS = 8
+SETTLED = 0.05
+"""Relative change of every spread at which the search ends."""
+SMALLEST_RAD = 1e-7
+"""A band whose amplitudes scatter by less is as good as absent."""
+NONE = -1
+"""Band of an unknown whose prior is not learned."""
+
+
+def learned_spread(information: Real, gradient: Real, spread: Real, bands: Index) -> tuple[Real, Real]:
+    """(Q,) spreads of Q unknowns, from `spread` (Q,) on, and their posterior mean (Q,).
+
+    Those in no band keep their spread (inf for none).  information (Q, Q) and gradient (Q,) are what the
+    readings, and priors beside the spreads, say.
+    """
+    spread = spread.copy()
+    learned = bands != NONE
+    band = bands[learned]
+    for _ in range(MOST_ROUNDS):
+        factor = cho_factor(information + np.diag(1.0 / spread**2), lower=True)
+        mean = cho_solve(factor, gradient)
+        if not learned.any():
+            break
+        inverse, _ = dpotri(factor[0], lower=True)
+        free = 1.0 - np.diag(inverse)[learned] / spread[learned] ** 2
+        determined = np.bincount(band, np.maximum(free, 0.0))
+        square = np.bincount(band, mean[learned] ** 2) / np.maximum(determined, 1e-9)
+        better = np.maximum(np.sqrt(square), SMALLEST_RAD)[band]
+        settled = np.abs(np.log(better / spread[learned])).max() < SETTLED
+        spread[learned] = better
+        if settled:
+            break
+    return spread, mean
+
+
+def grown(fit: Fit, term: Term, signature: Real, noise: float) -> tuple[tuple[Term, ...], Real]:
+    """The terms of a fit and one more, every spread as the readings want it, and all unknowns (X,).
+
+    The fit is taken as linear where it stands; signature (R, q) is the new term's, mm per unit of amplitude;
+    `noise` is the square of what a row will scatter by, over that of row_sd.
+    """
+    terms = (*fit.model.terms, term)
+    J = np.hstack([fit.solution.jacobian, signature / fit.row_sd[:, None]])
+    x = np.concatenate([fit.x, np.zeros(term.size)])
+    size = fit.model.base_size
+    base = fit.prior.root[:, :size]
+    information = J.T @ J / noise
+    gradient = information @ x - J.T @ fit.solution.residual / noise
+    information[:size, :size] += base.T @ base
+    gradient[:size] += base.T @ (base @ fit.prior.mean[:size])
+    spread = replace(fit.model, terms=terms).spread
+    learned, mean = learned_spread(
+        information, gradient, np.concatenate([np.full(size, np.inf), spread]), _bands(terms, size)
+    )
+    out, at = [], size
+    for one in terms:
+        own = learned[at : at + one.size]
+        out.append(one if one.spread is None else replace(one, spread=own))
+        at += one.size
+    return tuple(out), mean
+
+
+def _bands(terms: tuple[Term, ...], size: int) -> Index:
+    """(size + amplitudes,) a number for each band of each term."""
+    parts, count = [np.full(size, NONE, dtype=np.intp)], 0
+    for term in terms:
+        if term.spread is None:
+            parts.append(np.full(term.size, NONE, dtype=np.intp))
+            continue
+        own = term.effect.bands(term.size) + count
+        parts.append(own)
+        count = int(own.max()) + 1
+    return np.concatenate(parts)

@@ -1,0 +1,59 @@
+"""What is said differently of each kind of machine: the direction held least, the error of its position."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from station import separability
+from station import weak_direction as five_bar_direction
+from station.diagnosis.identified import IdentifiedMachine
+from station.diagnosis.model import Fit
+from station.five_bar import FiveBar
+from station.identification import position_error_summary
+from station.kinematics import Real
+from station.measurements import Measurements
+from station.noise import Noise
+
+
+@dataclass(frozen=True)
+class BasePosterior:
+    """What the chosen model of a five-bar knows of zero offsets, geometry and mechanism."""
+
+    mechanism: FiveBar
+    measurements: Measurements
+    noise: Noise
+    sd_factor: float
+    dtheta: Real
+    covariance: Real
+
+
+def weak_direction(fit: Fit, noise: Noise, sd_factor: float) -> dict[str, Any]:
+    """The contract's `weak_direction`, with the effects in the model."""
+    mechanism, size = fit.model.mechanism, fit.model.base_size
+    if not isinstance(mechanism, FiveBar):
+        return separability.describe(mechanism, fit.solution, sd_factor)
+    covariance = fit.solution.covariance[:size, :size] * sd_factor**2
+    return five_bar_direction.describe(
+        BasePosterior(mechanism, mechanism.measurements, noise, sd_factor, fit.x[:2], covariance)
+    )
+
+
+def position_errors(base: Fit, last: Fit, sd_factor: float) -> tuple[dict[str, float], dict[str, float]]:
+    """{rms, max} in mm with the commands of the base model and of the last one, the last taken as the truth.
+
+    Of a five-bar over its workspace; of an arm, whose poses are many, over those that were measured.
+    """
+    if isinstance(base.model.mechanism, FiveBar):
+        machine = IdentifiedMachine.of(last, sd_factor)
+        return machine.position_error(IdentifiedMachine.of(base)), machine.position_error()
+    readings, unknowns = len(last.model.mechanism.measurements), len(last.x)
+    apart = (base.residual_mm - last.residual_mm).reshape(readings, -1)
+    jacobian = (last.solution.jacobian * last.row_sd[:, None]).reshape(readings, -1, unknowns)
+    covariance = last.solution.covariance * sd_factor**2
+    return (
+        position_error_summary(apart, jacobian, covariance),
+        position_error_summary(np.zeros_like(apart), jacobian, covariance),
+    )

@@ -1,0 +1,51 @@
+"""The machines that the station knows: their robot files, and the mechanism that identification works on."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from station import arm
+from station.arm import Arm
+from station.errors import InputRefused
+from station.five_bar import FiveBar
+from station.measurement_file import FIVE_BAR, Columns
+from station.measurements import Measurements
+from station.robot import FIVE_BAR_MODEL, Robot, read_sections
+from station.serial_arm import SerialArm
+
+AnyRobot = Robot | Arm
+AnyMechanism = FiveBar | SerialArm
+
+
+def read_robot(path: Path | None) -> AnyRobot:
+    """A robot file of any model; None is the paper's five-bar.
+
+    :raises InputRefused: missing, not TOML, or a value out of place, with the section and key.
+    """
+    if path is None:
+        return Robot.default()
+    return robot_of(read_sections(path), source=str(path))
+
+
+def robot_of(data: dict[str, Any], *, source: str = "robot") -> AnyRobot:
+    """From a robot file's sections.  :raises InputRefused:"""
+    section = data.get("robot")
+    model = section.get("model") if isinstance(section, dict) else None
+    if model == arm.MODEL:
+        return Arm.from_dict(data, source=source)
+    if model not in (None, FIVE_BAR_MODEL):
+        raise InputRefused(
+            f"{source}: [robot.model] {model!r} is not known; this station knows {FIVE_BAR_MODEL} and {arm.MODEL}."
+        )
+    return Robot.from_dict(data, source=source)
+
+
+def columns_of(robot: AnyRobot) -> Columns:
+    """What a measurement file of this robot holds."""
+    return robot.columns if isinstance(robot, Arm) else FIVE_BAR
+
+
+def mechanism_of(robot: AnyRobot, measurements: Measurements) -> AnyMechanism:
+    """The robot under these readings."""
+    return SerialArm(robot, measurements) if isinstance(robot, Arm) else FiveBar(robot, measurements)
