@@ -26,6 +26,8 @@ log = logging.getLogger(__name__)
 
 MINIMUM_READINGS = 5
 """Four unknowns and the reading offset (paper, section 5: K >= 5)."""
+LARGEST_NUMBER = 1e12
+"""Whatever its unit, also of seconds since 1970; its square is still a number."""
 LARGEST_ID = 2**63 - 1
 """The database takes no larger number."""
 
@@ -93,6 +95,8 @@ class Table:
                 raise self.refuse(k, column, what) from None
             if not math.isfinite(values[k]):
                 raise self.refuse(k, column, f"{cell} is not a finite number; remove or repeat the reading.")
+            if abs(values[k]) > LARGEST_NUMBER:
+                raise self.refuse(k, column, f"{cell} is beyond anything that is measured; check the column.")
         return values
 
     def optional_numbers(self, column: str) -> Real | None:

@@ -8,6 +8,7 @@ from pathlib import PureWindowsPath
 from typing import Any
 
 from fastapi import Request
+from python_multipart.multipart import parse_options_header
 from starlette.datastructures import UploadFile
 from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
@@ -71,6 +72,9 @@ async def _form(request: Request, content: bytes, wanted: tuple[str, ...]) -> Up
     async def receive() -> Message:
         return {"type": "http.request", "body": content, "more_body": False}
 
+    boundary = parse_options_header(request.headers["content-type"])[1].get(b"boundary")
+    if boundary and b"--%b--" % boundary not in content:
+        raise HTTPException(400, "The form was cut off; send it again.")
     files: dict[str, Upload] = {}
     fields: dict[str, str] = {}
     # read a second time from memory: the parser itself knows no limit for files

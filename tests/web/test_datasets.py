@@ -142,6 +142,7 @@ MALFORMED = {
     "no CSV at all": (b"\x89PNG\r\n\x1a\n\x00\x00", "not a text file"),
     "column missing": (b"reading,t_s\n1,2\n", "column theta1_deg, theta2_deg, scale_mm is missing"),
     "not finite": (HEADER + b"1,0,0,180,nan\n", "row 2, column scale_mm"),
+    "beyond all measure": (HEADER + b"1,0,0,180,1e300\n", "row 2, column scale_mm"),
     "twice": (HEADER + b"1,0,0,180,1\n1,1,0,180,1\n", "row 3, column reading"),
     "wrong unit": (
         HEADER + b"".join(b"%d,%d,%d,0,1\n" % (k, k, 90 - k) for k in range(40)),
@@ -200,15 +201,39 @@ def test_another_content_type_is_refused(service: Service) -> None:
     nothing_is_stored(service)
 
 
-def test_a_form_that_is_none_is_refused(service: Service, worn: tuple[bytes, bytes]) -> None:
-    post = service.client.post
-    headers = {"Content-Type": "multipart/form-data; boundary=x"}
-    problem_of(post(DATASETS, content=b"--y\r\nnothing", headers=headers), 400)
-    without = problem_of(post(DATASETS, files={"fresh": ("f.csv", worn[1])}), 422)
-    assert "no file `file`" in without["detail"]
-    other = {"file": ("a.csv", worn[0]), "more": ("b.csv", worn[1])}
-    assert "`more` is out of place" in problem_of(post(DATASETS, files=other), 422)["detail"]
+FILE_PART = b'--x\r\nContent-Disposition: form-data; name="file"; filename="a.csv"\r\n\r\nreading\r\n'
+TEXT_PART = b'--x\r\nContent-Disposition: form-data; name="file"\r\n\r\nreading\r\n'
+FORMS = {
+    "no boundary": ("", FILE_PART, 400, "boundary"),
+    "another boundary": ("; boundary=y", FILE_PART + b"--x--\r\n", 400, "cut off"),
+    "cut off": ("; boundary=x", FILE_PART, 400, "cut off"),
+    "empty": ("; boundary=x", b"--x--\r\n", 422, "no file `file`"),
+    "text in place of a file": ("; boundary=x", TEXT_PART + b"--x--\r\n", 422, "`file` is out of place"),
+    "a file twice": ("; boundary=x", 2 * FILE_PART + b"--x--\r\n", 422, "`file` is out of place"),
+}
+
+
+@pytest.mark.parametrize("name", list(FORMS))
+def test_a_form_that_is_none_is_refused(service: Service, name: str) -> None:
+    boundary, body, status, said = FORMS[name]
+    headers = {"Content-Type": f"multipart/form-data{boundary}"}
+    answer = service.client.post(DATASETS, content=body, headers=headers)
+    assert said in problem_of(answer, status)["detail"]
     nothing_is_stored(service)
+
+
+def test_a_file_that_nobody_asked_for_is_refused(service: Service, worn: tuple[bytes, bytes]) -> None:
+    files = {"file": ("a.csv", worn[0]), "more": ("b.csv", worn[1])}
+    answer = service.client.post(DATASETS, files=files)
+    assert "`more` is out of place" in problem_of(answer, 422)["detail"]
+    nothing_is_stored(service)
+
+
+def test_only_the_name_of_a_file_is_kept(service: Service, worn: tuple[bytes, bytes]) -> None:
+    files = {"file": ("C:\\plant\\walk.csv", worn[0]), "fresh": ("../../etc/fresh.csv", worn[1])}
+    where = service.client.post(DATASETS, files=files).headers["location"]
+    metadata = service.client.get(where).json()["metadata"]
+    assert (metadata["file"]["name"], metadata["fresh"]["name"]) == ("walk.csv", "fresh.csv")
 
 
 @pytest.mark.parametrize(
