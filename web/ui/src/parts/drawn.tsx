@@ -1,3 +1,4 @@
+import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 
 interface Props {
@@ -12,19 +13,32 @@ interface Props {
 /** A place for a chart.  What draws it comes when it is needed, not with the page. */
 export function Drawn({ label, on, draw }: Props) {
   const place = useRef<HTMLDivElement>(null);
+  const trouble = useSignal(false);
   useEffect(() => {
     let remove = () => {};
     let gone = false;
     if (place.current) {
-      void draw(place.current).then((taken) => {
-        if (gone) taken();
-        else remove = taken;
-      });
+      draw(place.current).then(
+        (taken) => {
+          trouble.value = false;
+          if (gone) taken();
+          else remove = taken;
+        },
+        // the station went down before it had sent what draws
+        () => (trouble.value = true),
+      );
     }
     return () => {
       gone = true;
       remove();
     };
   }, [on]);
-  return <div ref={place} class="chart" role="img" aria-label={label} />;
+  return (
+    <>
+      <div ref={place} class="chart" role="img" aria-label={label} />
+      <p class="note" role="status" hidden={!trouble.value}>
+        ▲ The chart could not be loaded; load the page again.
+      </p>
+    </>
+  );
 }
