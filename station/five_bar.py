@@ -37,6 +37,8 @@ GRID = (9, 7)
 class FiveBar:
     """Parameters: the twelve of `station.error_model`, (rMx, rMy) of further mounts, rho_0 of each mount."""
 
+    needs_repeats = True
+
     def __init__(self, robot: Robot, measurements: Measurements) -> None:
         self.robot = robot
         self.measurements = measurements

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
-from station import arm
+import numpy as np
+
+from station import arm, measurement_file
 from station.arm import Arm
 from station.errors import InputRefused
 from station.five_bar import FiveBar
+from station.guesses import with_guesses
 from station.measurement_file import FIVE_BAR, Columns
 from station.measurements import Measurements
 from station.robot import FIVE_BAR_MODEL, Robot, read_sections
@@ -16,6 +20,7 @@ from station.serial_arm import SerialArm
 
 AnyRobot = Robot | Arm
 AnyMechanism = FiveBar | SerialArm
+Measured = Literal["position", "range"]
 
 
 def read_robot(path: Path | None) -> AnyRobot:
@@ -44,6 +49,23 @@ def robot_of(data: dict[str, Any], *, source: str = "robot") -> AnyRobot:
 def columns_of(robot: AnyRobot) -> Columns:
     """What a measurement file of this robot holds."""
     return robot.columns if isinstance(robot, Arm) else FIVE_BAR
+
+
+def read_readings(robot: AnyRobot, path: Path, measured: Measured = "position") -> Measurements:
+    """A measurement file of this robot; of an arm's log what it does not record is guessed and marked.
+
+    measured: which of an arm's columns count where a file has both.
+
+    :raises InputRefused: anything malformed, with row, column and what to do.
+    """
+    readings = measurement_file.read(path, columns_of(robot))
+    if not isinstance(robot, Arm):
+        return readings
+    if measured == "range":
+        if np.isnan(readings.distance).any():
+            raise InputRefused(f"{path.name}: row 1: column range_mm is missing; distances were asked for.")
+        readings = replace(readings, tracker=None)
+    return with_guesses(readings)
 
 
 def mechanism_of(robot: AnyRobot, measurements: Measurements) -> AnyMechanism:

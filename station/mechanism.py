@@ -62,6 +62,11 @@ class Mechanism(Protocol):
         ...
 
     @property
+    def needs_repeats(self) -> bool:
+        """Whether a residual is judged by repeats; else the specification is the yardstick where there are none."""
+        ...
+
+    @property
     def simplest(self) -> tuple[str, tuple[str, ...]]:
         """The simplest model of this machine: what it is called, and the parameters that are free in it."""
         ...

@@ -19,11 +19,12 @@ from station.dh import LINK_ERRORS, Reach, reach
 from station.effects import Effect, arm_catalogue
 from station.errors import InputRefused
 from station.kinematics import Real
+from station.least_squares import NotConvergedError, Prior, solve
 from station.measurements import Index, Measurements
 from station.mechanism import Observation, Parameter
 
 DEGREES = 180.0 / np.pi
-MISFIT = 0.2
+MISFIT = 0.03
 """Misfit over the arm's length beyond which angles and positions are not of one machine."""
 PLACED = ("tool", "base", "origin")
 """What the names of parameters begin with that belong to the place of arm and target, not to the arm."""
@@ -37,6 +38,8 @@ class SerialArm:
     With distances only, the pose of the base is the instrument's origin (three numbers): turning the whole
     arm about that origin changes no distance.
     """
+
+    needs_repeats = False
 
     def __init__(self, robot: Arm, measurements: Measurements, frame: Real | None = None) -> None:
         """`frame` (3, 3): orientation of the base that its three turns count from; found when left out."""
@@ -108,15 +111,30 @@ class SerialArm:
                 f"Reading {m.ids[0]}, columns theta1_deg to theta{m.joints}_deg: "
                 "the angles look like radians; give degrees."
             )
-        left = self.observe(self.start, self.theta).value - self.measured
-        size = self._length
-        off = float(np.median(np.abs(left)))
-        if off > MISFIT * size:
+        off, size = self._nominal_misfit(), self._length
+        if not off < MISFIT * size:
             raise InputRefused(
                 f"Angles and readings do not belong together: half of the readings are {off:.0f} mm or more "
-                f"off an arm of {size:.0f} mm; check the robot file (a_mm, d_mm, alpha_deg, offset_deg), the unit "
-                "of the readings, and sign and order of the joints."
+                f"off an arm of {size:.0f} mm; check the robot file (a_mm, d_mm, alpha_deg, offset_deg, "
+                "convention), the unit of the readings, and sign and order of the joints."
             )
+
+    def _nominal_misfit(self) -> float:
+        """Median misfit of the rows, mm, nominal links with the best base and tool."""
+        start = self.start
+        free = np.flatnonzero([p.name in self.simplest[1] for p in self.parameters])
+
+        def residuals(q: Real) -> tuple[Real, Real]:
+            p = start.copy()
+            p[free] = q
+            at = self.observe(p, self.theta)
+            return at.value - self.measured, at.by_parameter[:, free]
+
+        try:
+            left = solve(residuals, start[free], Prior(start[free], np.zeros((0, len(free))))).residual
+        except NotConvergedError:
+            left = residuals(start[free])[0]
+        return float(np.median(np.abs(left)))
 
     def observe(self, p: Real, theta: Real) -> Observation:
         """(R,) positions or distances with derivatives."""

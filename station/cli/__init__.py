@@ -24,12 +24,14 @@ _MODULES = {
     "import": "importing",
     "memory": "history",
     "plan": "numerics",
+    "real-robot": "real_robot",
     "reproduce": "studies",
     "rollback": "apply",
     "runs": "history",
     "serve": "serve",
     "show": "history",
     "solve": "diagnosis",
+    "transfer": "diagnosis",
 }
 """Where each command is; imported when it is asked for, since the numerics take a second to load."""
 
@@ -53,7 +55,7 @@ class StationGroup(click.Group):
         if cmd_name not in _MODULES:
             return None
         module = import_module(f"{__name__}.{_MODULES[cmd_name]}")
-        command: click.Command = getattr(module, f"{cmd_name}_command")
+        command: click.Command = getattr(module, f"{cmd_name.replace('-', '_')}_command")
         return command
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:

@@ -3,28 +3,42 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import get_args
 
 import click
 from rich.console import Console
 from rich.table import Table
 
-from station import measurement_file
 from station.cli.numerics import check_folders, describe, write_json, write_text
+from station.diagnosis import kinds
+from station.diagnosis.cross_validation import without_a_quarter
 from station.diagnosis.diagnose import diagnose
 from station.diagnosis.document import Findings
-from station.diagnosis.model_file import read_model
+from station.diagnosis.model_file import read_model, read_part
 from station.diagnosis.page import page, shown
 from station.diagnosis.solve import range_text, solve_targets
 from station.diagnosis.targets import commands_csv, read_targets
-from station.robot import Robot
+from station.diagnosis.transfer import transfer
+from station.machines import Measured, read_readings, read_robot, robot_of
 
 _file = click.Path(path_type=Path)
+_measured = click.option(
+    "--measured",
+    type=click.Choice(get_args(Measured)),
+    default="position",
+    show_default=True,
+    help="What counts of an arm's log that has both.",
+)
 
 
 @click.command("diagnose")
 @click.argument("data", type=_file)
 @click.option("--confirm", "fresh_file", type=_file, help="Fresh readings to confirm the cause with.")
 @click.option("--robot", "robot_file", type=_file, help="Robot file; without it the paper's Table 1.")
+@click.option(
+    "--hold-out", is_flag=True, help="Judge by a quarter of the readings that nothing is learned from."
+)
+@_measured
 @click.option("--json", "json_file", type=_file, help="Write the whole diagnosis here.")
 @click.option("--html", "html_file", type=_file, help="Write the report page here.")
 @click.pass_context
@@ -33,6 +47,8 @@ def diagnose_command(
     data: Path,
     fresh_file: Path | None,
     robot_file: Path | None,
+    hold_out: bool,
+    measured: Measured,
     json_file: Path | None,
     html_file: Path | None,
 ) -> None:
@@ -40,13 +56,20 @@ def diagnose_command(
 
     Exit status 0: the model fits, as it is or with the effects found; 1: it does not.
     """
+    if hold_out and fresh_file:
+        raise click.UsageError(
+            "--hold-out and --confirm exclude each other: judge by the one or by the other."
+        )
     check_folders(json_file, html_file)
-    robot = Robot.from_toml(robot_file) if robot_file else Robot.default()
-    measurements = measurement_file.read(data)
-    fresh = measurement_file.read(fresh_file) if fresh_file else None
+    robot = read_robot(robot_file)
+    measurements = read_readings(robot, data, measured)
+    described = {**describe(data, len(measurements)), "guessed": list(measurements.guessed)}
+    fresh = read_readings(robot, fresh_file, measured) if fresh_file else None
+    if hold_out:
+        measurements, fresh = without_a_quarter(measurements)
     findings = Findings(diagnose(robot, measurements, fresh))
     if json_file:
-        write_json(json_file, findings.as_json(describe(data, len(measurements))))
+        write_json(json_file, findings.as_json(described))
     if html_file:
         write_text(html_file, page(findings, data.name).to_html())
     _print(findings)
@@ -72,10 +95,40 @@ def solve_command(targets: Path, model_file: Path, csv_file: Path | None) -> Non
         click.echo("Fresh readings refuted this model: expect larger errors than it states.", err=True)
 
 
+@click.command("transfer")
+@click.argument("data", type=_file)
+@click.option("--model", "model_file", type=_file, required=True, help="What `diagnose --json` wrote.")
+@_measured
+@click.option("--json", "json_file", type=_file, help="Write the figures here.")
+def transfer_command(data: Path, model_file: Path, measured: Measured, json_file: Path | None) -> None:
+    """Apply the effects learned on one log, unchanged, to another log of the same machine."""
+    check_folders(json_file)
+    part = read_part(model_file)
+    robot = robot_of(part.robot, source=f"{model_file}: [model.robot]")
+    found = transfer(part, robot, read_readings(robot, data, measured), str(model_file))
+    if json_file:
+        write_json(json_file, {"data": describe(data, found.readings), **found.as_json()})
+    console = Console(highlight=False)
+    console.print(f"{found.inside} of {found.readings} readings stand where the effects were learned.")
+    for outlier in found.outliers:
+        console.print(f"Left out: reading {outlier.reading}, {outlier.reason}.")
+    table = Table("readings left out of the fit, mm", "rms", "median", "largest")
+    rows = [("mechanism alone", found.alone), ("with the effects, unchanged", found.applied)]
+    if found.beyond:
+        rows += [
+            ("alone, gaps of the learned range too", found.beyond[0]),
+            ("with the effects", found.beyond[1]),
+        ]
+    for name, e in rows:
+        table.add_row(name, f"{e.rms_mm:.4f}", f"{e.median_mm:.4f}", f"{e.max_mm:.4f}")
+    console.print(table)
+
+
 def _print(findings: Findings) -> None:
     console = Console(highlight=False)
     console.print(f"[bold]{findings.sentence}[/bold]")
-    for q in findings.parameters[:2]:
+    joints = findings.diagnosis.measurements.joints
+    for q in findings.parameters[:joints]:
         console.print(f"{q.name} = {shown(q)}")
     for found in findings.effects:
         sizes = ", ".join(f"{q.name} {shown(q)}" for q in found.parameters)
@@ -96,8 +149,9 @@ def _print(findings: Findings) -> None:
         table.add_row(s.model, str(s.unknowns), *("" if v is None else f"{v * 1e3:.2f}" for v in sizes_mm))
     console.print(table)
     before, after = findings.position_errors
+    over = kinds.extent(findings.fit)
     console.print(
-        f"Position error over the workspace, predicted: {before['rms']:.4f} mm rms before, "
+        f"Position error over {over}, predicted: {before['rms']:.4f} mm rms before, "
         f"{after['rms']:.4f} mm after; largest {before['max']:.4f} and {after['max']:.4f} mm."
     )
     for hint in findings.diagnosis.hints:

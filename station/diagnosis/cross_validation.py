@@ -33,6 +33,12 @@ def folds(m: Measurements) -> Index:
     return np.asarray(first[place] // BLOCK % FOLDS)
 
 
+def without_a_quarter(m: Measurements) -> tuple[Measurements, Measurements]:
+    """Readings to learn from, and a quarter of them, in blocks of neighbours, to be judged by."""
+    aside = folds(m) == 0
+    return m.take(~aside), m.take(aside)
+
+
 def held_out_folds(solution: Solution, fold: Index) -> Real:
     """(R,) the same for folds larger than the number of unknowns: r_B + J_B (C^-1 - J_B'J_B)^-1 J_B' r_B."""
     finite = np.isfinite(np.diag(solution.covariance))

@@ -28,8 +28,6 @@ Verdict = Literal["adequate", "explained", "partly_explained", "unexplained"]
 FEWEST_READINGS = 30
 """Thirteen unknowns and an effect leave too little of fewer readings to judge a residual by."""
 FEWEST_REPEATS = 6
-PLENTY = 20
-"""So many readings an unknown, and the specification is enough of a yardstick without repeats."""
 FEWEST_NOISE_DOF = 10
 MOST_LEFT_OUT = 0.05
 USELESS = 0.6
@@ -156,7 +154,7 @@ def check_enough(mechanism: Mechanism) -> None:
     missing = []
     if len(measurements) < fewest:
         missing.append(f"{fewest - len(measurements)} more readings")
-    if repeats < FEWEST_REPEATS and len(measurements) < PLENTY * unknowns:
+    if mechanism.needs_repeats and repeats < FEWEST_REPEATS:
         missing.append(
             f"{FEWEST_REPEATS - repeats} more repeats (readings that share `position` and approach)"
         )

@@ -9,6 +9,7 @@ from typing import Any, Literal
 import numpy as np
 
 from station.diagnosis import kinds
+from station.diagnosis.curves import curves
 from station.diagnosis.detectability import Detectable, detectable
 from station.diagnosis.diagnose import Diagnosis
 from station.diagnosis.model import Fit, Term
@@ -58,6 +59,12 @@ class Findings:
     def passed(self) -> bool:
         """Whether the last model may be relied on: it fits, and fresh readings do not refute it."""
         return self.diagnosis.verdict in ("adequate", "explained") and self.diagnosis.confirmed is not False
+
+    @property
+    def refuted(self) -> bool:
+        """Whether the effects of the last model are no more than a try."""
+        d = self.diagnosis
+        return d.verdict == "unexplained" or (d.verdict == "partly_explained" and d.confirmed is False)
 
     @cached_property
     def trusted(self) -> int:
@@ -200,6 +207,7 @@ class Findings:
             "parameters": [vars_of(q) for q in self.parameters],
             "weak_direction": self.weak_direction,
             "findings": [f.as_json() for f in self.effects],
+            "curves": [c.as_json() for c in curves(d.last, self._last_sd_factor)],
             "stages": [s.as_json() for s in self.stages],
             "before": {**self.stages[1].as_json(), "predicted_position_error_mm": before},
             "after": {**self.stages[-1].as_json(), "predicted_position_error_mm": after},

@@ -15,6 +15,7 @@ from scipy.linalg import cho_factor, cho_solve
 from scipy.linalg.lapack import dpotri
 
 from station.diagnosis.model import Fit, Term
+from station.effects import Effect
 from station.kinematics import Real
 from station.measurements import Index
 
@@ -81,13 +82,16 @@ def grown(fit: Fit, term: Term, signature: Real, noise: float) -> tuple[tuple[Te
 
 
 def _bands(terms: tuple[Term, ...], size: int) -> Index:
-    """(size + amplitudes,) a number for each band of each term."""
-    parts, count = [np.full(size, NONE, dtype=np.intp)], 0
+    """(size + amplitudes,) a number for each band, the same for effects of one kind: reducers of one arm are alike."""
+    parts, first = [np.full(size, NONE, dtype=np.intp)], 0
+    kinds: dict[type[Effect], int] = {}
     for term in terms:
         if term.spread is None:
             parts.append(np.full(term.size, NONE, dtype=np.intp))
             continue
-        own = term.effect.bands(term.size) + count
-        parts.append(own)
-        count = int(own.max()) + 1
+        own = term.effect.bands(term.size)
+        if type(term.effect) not in kinds:
+            kinds[type(term.effect)] = first
+            first += int(own.max()) + 1
+        parts.append(own + kinds[type(term.effect)])
     return np.concatenate(parts)

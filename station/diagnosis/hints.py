@@ -76,7 +76,8 @@ def _tests(fit: Fit, r: Real, noise_sd_mm: float, repeats_agree: bool) -> Iterat
     for i in range(m.joints):
         text = f"The residual follows the angle of joint {i + 1}."
         yield _ordered(f"theta{i + 1}", place, c.theta[:, i], share, text)
-    yield _ordered("travel", place, c.travel, share, "The residual follows the travel of the scale.")
+    if np.ptp(c.travel) > 0:
+        yield _ordered("travel", place, c.travel, share, "The residual follows the measured distance.")
 
 
 def _by_group(r: Real, group: np.ndarray) -> tuple[Real, int]:

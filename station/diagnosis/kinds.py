@@ -57,3 +57,8 @@ def position_errors(base: Fit, last: Fit, sd_factor: float) -> tuple[dict[str, f
         position_error_summary(apart, jacobian, covariance),
         position_error_summary(np.zeros_like(apart), jacobian, covariance),
     )
+
+
+def extent(fit: Fit) -> str:
+    """Over what position errors are predicted, in words."""
+    return "the workspace" if isinstance(fit.model.mechanism, FiveBar) else "the measured poses"

@@ -22,6 +22,7 @@ from station.machines import robot_of
 from station.robot import Robot
 
 SCHEMA = "station.model/1"
+MANY = 100
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 Span = tuple[Finite, Finite]
@@ -66,7 +67,8 @@ class ModelPart(_Part):
     robot: dict[str, Any]
     names: list[str]
     values: list[Finite]
-    covariance: list[list[Finite]]
+    covariance: list[list[Finite]] | None
+    """None where there are hundreds of values."""
     terms: list[TermPart]
     ranges: Ranges
     reference: Reference
@@ -94,7 +96,7 @@ def model_json(diagnosis: Diagnosis, fit: Fit, sd_factor: float) -> dict[str, An
         "robot": diagnosis.robot.to_json(),
         "names": [*fit.model.names, *(t.effect.label for t in fit.model.terms for _ in range(t.size))],
         "values": fit.x.tolist(),
-        "covariance": (fit.solution.covariance * sd_factor**2).tolist(),
+        "covariance": (fit.solution.covariance * sd_factor**2).tolist() if len(fit.x) < MANY else None,
         "terms": [
             {
                 "effect": term.effect.label,
@@ -180,7 +182,8 @@ def learned_model(part: ModelPart, source: str) -> LearnedModel:
     terms = terms_of(part, catalogue(), source)
     size = len(part.values)
     amplitudes = [a for term in part.terms for a in term.amplitudes]
-    covariance = np.array(part.covariance) if {len(row) for row in part.covariance} == {size} else np.empty(0)
+    rows = part.covariance or []
+    covariance = np.array(rows) if {len(row) for row in rows} == {size} else np.empty(0)
     if covariance.shape != (size, size) or len(part.names) != size:
         raise InputRefused(f"Model {source}: [model.covariance] does not have a row and column a value.")
     if size < len(amplitudes) + 13 or part.values[size - len(amplitudes) :] != amplitudes:

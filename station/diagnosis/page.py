@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 
 import numpy as np
+from markupsafe import Markup
 
+from station.diagnosis import kinds
+from station.diagnosis.curves import Curve, curves
 from station.diagnosis.document import Findings, FoundEffect
 from station.diagnosis.model import Fit
 from station.kinematics import Real
+from station.mechanism import by_reading
 from station.records import Quantity
 from station.report import svg
 from station.report.page import Chart, Page, Section, Table
@@ -16,6 +21,9 @@ from station.report.svg import Series
 
 UM = "µm"
 MICROMETRES = 1e3
+MOST_POINTS = 600
+MOST_PLACES = 300
+GAP_DEG = 1.0
 
 
 def page(findings: Findings, source: str) -> Page:
@@ -23,6 +31,9 @@ def page(findings: Findings, source: str) -> Page:
     sections = [_errors(findings)]
     if findings.effects:
         sections.append(_causes(findings))
+    drawn = curves(findings.diagnosis.last)
+    if drawn:
+        sections.append(_curves(drawn))
     if findings.diagnosis.hints:
         sections.append(_hints(findings))
     sections += [_residual(findings), _parameters(findings), _invisible(findings)]
@@ -64,7 +75,7 @@ def _errors(findings: Findings) -> Section:
                     ("base model", f"{before['rms']:.3f}", f"{before['max']:.3f}"),
                     ("last model", f"{after['rms']:.3f}", f"{after['max']:.3f}"),
                 ],
-                "Predicted position error over the workspace, mm",
+                f"Predicted position error over {kinds.extent(findings.fit)}, mm",
             ),
         ),
     )
@@ -86,7 +97,7 @@ def _causes(findings: Findings) -> Section:
         for found in findings.effects
     ]
     return Section(
-        "Effects added" if findings.passed else "Effects tried",
+        "Effects tried" if findings.refuted else "Effects added",
         [_explanation(found) for found in findings.effects],
         (
             Table(
@@ -94,6 +105,50 @@ def _causes(findings: Findings) -> Section:
                 rows,
             ),
         ),
+    )
+
+
+def _curves(drawn: Sequence[Curve]) -> Section:
+    """Each joint's curve with twice its sd, and what the readings say of it."""
+    return Section(
+        "Curves learned",
+        (
+            "Error of the joint, in thousandths of a degree, over the angles it has been at; the band is twice the "
+            "standard uncertainty. Points: means over two degrees of what the readings say of this joint when "
+            "everything else in the model is right. Outside these angles the curve is not known and not used.",
+        ),
+        (),
+        tuple(Chart(curve_chart(curve), curve.label) for curve in drawn),
+    )
+
+
+def curve_chart(curve: Curve) -> Markup:
+    """One joint's curve."""
+    low, high = (curve.value_deg + sign * 2.0 * curve.sd_deg for sign in (-1.0, 1.0))
+    gaps = np.flatnonzero(np.diff(curve.angle_deg) > GAP_DEG) + 1
+    stretches = [
+        _milli(*(values[part] for values in (curve.angle_deg, curve.value_deg, low, high)))
+        for part in np.split(np.arange(len(curve.angle_deg)), gaps)
+    ]
+    measured = _milli(curve.binned_angle_deg, curve.binned_deg)
+    return svg.line(
+        [
+            replace(stretches[0], label="learned"),
+            replace(measured, label="measured", points_only=True),
+            *(replace(stretch, like=0) for stretch in stretches[1:]),
+        ],
+        f"theta{curve.joint} deg",
+        "error 0.001 deg",
+    )
+
+
+def _milli(angle: Real, value: Real, low: Real | None = None, high: Real | None = None) -> Series:
+    return Series(
+        "",
+        angle.tolist(),
+        (1e3 * value).tolist(),
+        None if low is None else (1e3 * low).tolist(),
+        None if high is None else (1e3 * high).tolist(),
     )
 
 
@@ -130,13 +185,15 @@ def _residual(findings: Findings) -> Section:
 def _charts(before: Fit, after: Fit, added: bool) -> Iterator[Chart]:
     """Pairs against order, time, angles, travel, approach and place; single ones where nothing was added."""
     m, c = before.model.mechanism.measurements, before.conditions
-    was, left = before.residual_mm * MICROMETRES, after.residual_mm * MICROMETRES
+    mechanism = before.model.mechanism
+    was, left = (_drawn(f) * MICROMETRES for f in (before, after))
     by_number: list[tuple[str, Real]] = [
         ("order", np.arange(1.0, len(was) + 1.0)),
         ("time s", m.t_s),
         *((f"theta{i + 1} deg", np.degrees(c.theta[:, i])) for i in range(m.joints)),
-        ("travel mm", c.travel),
     ]
+    if np.ptp(c.travel) > 0:
+        by_number.append(("travel mm", c.travel))
     if c.temperature_rise is not None:
         by_number.append(("temperature rise K", c.temperature_rise))
     for name, along in by_number:
@@ -148,12 +205,14 @@ def _charts(before: Fit, after: Fit, added: bool) -> Iterator[Chart]:
     for i in range(m.joints):
         if np.any(c.approach[:, i]):
             yield from _by_approach(i, c.approach[:, i], was, left, added)
-    at = before.model.mechanism.places(before.x[: before.model.base_size])
+    at = mechanism.places(before.x[: before.model.base_size])
     first = np.unique(m.position, return_index=True)[1]
     for values, name in ((was, "before"), (left, "after")):
         mean = np.bincount(m.position, values) / np.maximum(np.bincount(m.position), 1)
         places = mean[m.position[first]]
-        drawing = svg.place_map(at[first, 0].tolist(), at[first, 1].tolist(), places.tolist(), UM)
+        every = max(1, len(first) // MOST_PLACES)
+        x, y, value = (v[::every].tolist() for v in (at[first, 0], at[first, 1], places))
+        drawing = svg.place_map(x, y, value, UM)
         yield Chart(drawing, f"{name}, mean of each place")
         if not added:
             break
@@ -173,13 +232,23 @@ def _by_approach(i: int, approach: Real, was: Real, left: Real, added: bool) -> 
         yield Chart(drawing, f"after, by {label}")
 
 
+def _drawn(fit: Fit) -> Real:
+    """(K,) mm: the residual of each reading, of several coordinates its length."""
+    mechanism = fit.model.mechanism
+    if len(fit.residual_mm) == len(mechanism.measurements):
+        return fit.residual_mm
+    return by_reading(mechanism, fit.residual_mm)
+
+
 def _series(along: Real, was: Real, left: Real, added: bool) -> Sequence[Series]:
     measured = _points("measured less base model", along, was)
     return (measured, _points("the effects account for", along, was - left)) if added else (measured,)
 
 
 def _points(label: str, x: Real, y: Real) -> Series:
-    return Series(label, x.tolist(), y.tolist())
+    """Of thousands of points only so many as can be told apart on the page, evenly spread over the log."""
+    every = max(1, len(x) // MOST_POINTS)
+    return Series(label, x[::every].tolist(), y[::every].tolist())
 
 
 def _parameters(findings: Findings) -> Section:

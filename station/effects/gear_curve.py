@@ -15,11 +15,15 @@ from station.records import Quantity
 
 HIGHEST = 64
 """Cycles a turn."""
-FEWEST_READINGS = 10 * HIGHEST
+FEWEST_READINGS = 3 * HIGHEST
 SPREAD_RAD = 3e-4
 """Where the search for the spread of the amplitudes begins."""
 NAMED = 3
-"""Strongest cycles that are named."""
+"""Strongest waves that are named,"""
+SLOWEST = 4
+"""from so many cycles a turn on."""
+KNOWN = 4.0
+"""Variance of a curve over its median beyond which it is a guess across a gap."""
 GRID = 720
 
 
@@ -60,16 +64,23 @@ class GearCurve(Effect):
     def quantities(
         self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
     ) -> tuple[Quantity, ...]:
-        """RMS over the visited range, then amplitude and cycles a turn of the strongest cycles."""
+        """RMS where the curve is known, then amplitude and cycles a turn of its strongest waves."""
         angle = np.radians(np.linspace(hidden["from_deg"], hidden["to_deg"], GRID))
         basis = curve_basis(angle)
-        basis = basis - basis.mean(axis=0)
+        variance = np.einsum("ki,ki->k", basis @ covariance, basis)
+        known = variance <= KNOWN * np.median(variance)
+        angle = angle[known]
+        basis = fast_basis(angle)
         curve = basis @ amplitudes
-        sd = float(np.degrees(np.sqrt(np.mean(np.einsum("ki,ki->k", basis @ covariance, basis)))))
-        out = [Quantity("rms_deg", float(np.degrees(np.sqrt(np.mean(curve**2)))), sd, "deg")]
-        for k, (n, amplitude) in enumerate(strongest_cycles(angle, curve)):
+        sd = np.sqrt(np.mean(np.einsum("ki,ki->k", basis @ covariance, basis)))
+        size = np.sqrt(np.mean(curve**2))
+        out = [Quantity("rms_deg", float(np.degrees(size)), float(np.degrees(sd)), "deg")]
+        for k, (n, along) in enumerate(strongest_waves(angle, curve)):
             number = "" if k == 0 else f"_{k + 1}"
-            out.append(Quantity(f"amplitude{number}_deg", float(np.degrees(amplitude)), sd, "deg"))
+            wave = along @ basis
+            amplitude = float(np.hypot(*(wave @ amplitudes)))
+            spread = float(np.sqrt(np.trace(wave @ covariance @ wave.T) / 2.0))
+            out.append(Quantity(f"amplitude{number}_deg", np.degrees(amplitude), np.degrees(spread), "deg"))
             out.append(Quantity(f"per_rev{number}", n, 0.0, "1/rev"))
         return tuple(out)
 
@@ -79,20 +90,31 @@ def curve_basis(angle: Real) -> Real:
     return np.asarray(waves(angle, 1.0, 1.0, HIGHEST).transpose(1, 0, 2).reshape(len(angle), -1))
 
 
-def strongest_cycles(angle: Real, curve: Real) -> list[tuple[float, float]]:
-    """Cycles a turn and amplitude of the strongest waves in a curve (G,) over angles (G,), one after another.
+def fast_basis(angle: Real) -> Real:
+    """(K, 2 HIGHEST) the same without what waves slower than `SLOWEST` make of it over these angles (K,).
 
-    Least-squares periodogram over the visited range, from one and a half periods in it on.
+    Below four cycles a turn a curve is the arm's geometry as much as its gears.
+    """
+    basis = curve_basis(angle)
+    slow = np.column_stack([basis[:, : 2 * (SLOWEST - 1)], np.ones(len(angle))])
+    return np.asarray(basis - slow @ np.linalg.lstsq(slow, basis, rcond=1e-6)[0])
+
+
+def strongest_waves(angle: Real, curve: Real) -> list[tuple[float, Real]]:
+    """Of a curve (G,) over angles (G,): cycles a turn of its strongest waves, and what gives their size.
+
+    Least-squares periodogram, one wave taken out after another.  The second of each pair (2, G) times a curve
+    is cosine and sine of that wave in it.
     """
     span = float(np.ptp(angle))
-    n = np.arange(max(1.0, 3.0 * np.pi / span), HIGHEST, np.pi / span / 4.0)
+    n = np.arange(float(SLOWEST), HIGHEST, np.pi / span / 4.0)
     both = np.exp(1j * n[:, None] * angle)
-    rest = curve - curve.mean()
+    rest = curve
     found = []
     for _ in range(NAMED):
-        best = int(np.argmax(np.abs(both @ rest)))
-        wave = np.column_stack([both[best].real, both[best].imag, np.ones(len(angle))])
-        fitted = np.linalg.lstsq(wave, rest, rcond=None)[0]
-        rest = rest - wave @ fitted
-        found.append((float(n[best]), float(np.hypot(*fitted[:2]))))
+        k = int(np.argmax(np.abs(both @ rest)))
+        wave = np.column_stack([both[k].real, both[k].imag])
+        along = np.linalg.pinv(wave)
+        rest = rest - wave @ (along @ rest)
+        found.append((float(n[k]), along))
     return found

@@ -20,6 +20,8 @@ DASHES = ("none", "6 3", "2 3", "8 3 2 3", "none", "6 3", "2 3")
 WIDTH, HEIGHT = 560, 320
 LEFT, RIGHT, TOP, BOTTOM = 64, 12, 12, 46
 TICKS = 6
+FEW = 60
+"""Points up to which those of a line are marked."""
 LARGEST_DISC = 11.0
 """Radius, px."""
 
@@ -33,6 +35,10 @@ class Series:
     y: Sequence[float]
     low: Sequence[float] | None = None
     high: Sequence[float] | None = None
+    points_only: bool = False
+    """In a chart of lines: drawn as points."""
+    like: int | None = None
+    """Number of the series whose colour and dash it shares; it is a part of that one."""
 
 
 @dataclass(frozen=True)
@@ -103,6 +109,20 @@ def place_map(x: Sequence[float], y: Sequence[float], value: Sequence[float], un
     )  # fmt: skip
 
 
+def standalone(drawing: Markup) -> str:
+    """A chart as a file of its own, with the styles that a page would give it."""
+    head = (
+        '<svg xmlns="http://www.w3.org/2000/svg" '
+        'style="font: 12px sans-serif; background: white; fill: #222; color: #222" '
+    )
+    style = (
+        "<style>.grid { stroke: #8888; stroke-width: 0.5 } .axis { fill: none; stroke: #222 } "
+        ".whisker { fill: none; stroke: #222 }</style>"
+    )
+    first, rest = str(drawing).strip().split(">", 1)
+    return f"{first.replace('<svg ', head, 1)}>{style}{rest}\n"
+
+
 def bar(categories: Sequence[str], series: Sequence[Series], y_label: str) -> Markup:
     """One group of bars a category; the x of the series is ignored."""
     highest = max(max(s.high or s.y) for s in series)
@@ -155,8 +175,10 @@ def _chart(
             {
                 "points": points,
                 "band": band,
-                "colour": COLOURS[i % len(COLOURS)],
-                "dash": DASHES[i % len(DASHES)],
+                "colour": COLOURS[(i if s.like is None else s.like) % len(COLOURS)],
+                "dash": DASHES[(i if s.like is None else s.like) % len(DASHES)],
+                "joined": kind == "line" and not s.points_only,
+                "dotted": kind == "scatter" or s.points_only or len(points) <= FEW,
                 "titles": [f"{s.label}: {x:.5g}, {y:.5g}" for x, y in zip(s.x, s.y, strict=True)],
             }
         )

@@ -1,0 +1,32 @@
+"""`station real-robot`: the figures of docs/real-robot.md from the logs of a real arm."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from station.arm import Arm
+from station.machines import read_robot
+from station.real_robot import study, write
+
+_file = click.Path(path_type=Path)
+
+
+@click.command("real-robot")
+@click.argument("logs", type=_file, nargs=-1, required=True)
+@click.option("--robot", "robot_file", type=_file, required=True, help="Robot file of the arm.")
+@click.option(
+    "--folder", type=click.Path(path_type=Path, file_okay=False, exists=True), required=True, help="Where to."
+)
+def real_robot_command(logs: tuple[Path, ...], robot_file: Path, folder: Path) -> None:
+    """The loop on logs of a real arm; effects of the first are applied to the others."""
+    robot = read_robot(robot_file)
+    if not isinstance(robot, Arm):
+        raise click.UsageError(f'{robot_file} is not of a serial arm; give one with model = "serial-dh".')
+    result = study(robot, logs)
+    try:
+        page = write(result, folder)
+    except OSError as error:
+        raise click.UsageError(f"{folder} cannot be written to: {error.strerror}.") from error
+    click.echo(page.read_text(encoding="utf-8"))
