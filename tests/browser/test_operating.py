@@ -112,8 +112,8 @@ def test_what_is_typed_into_a_filter_outlives_what_the_station_tells(
     page.goto(f"{slow_station.url}/history")
     page.get_by_label("Robot serial").fill("FB-4")
     run = slow_station.api.post("/calibrations", json=body).raise_for_status().json()["id"]
-    expect(page.locator("tbody")).to_contain_text("RUNNING")
+    expect(page.locator("tbody")).to_contain_text("FB-450")
     expect(page.get_by_label("Robot serial")).to_have_value("FB-4")
     slow_station.api.post(f"/calibrations/{run}/abort").raise_for_status()
-    expect(page.locator("tbody")).not_to_contain_text("RUNNING")
+    expect(page.locator("tbody")).to_contain_text("ABORTED")
     expect(page.get_by_label("Robot serial")).to_have_value("FB-4")
