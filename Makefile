@@ -4,7 +4,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 PAGE := $(shell find web/ui -path web/ui/node_modules -prune -o -type f -print) hatch_build.py
 
-.PHONY: run test lint format bench lock clean
+.PHONY: run test record lint format bench lock clean
 
 run: $(VENV)/installed  ## install and start the service on the emulated rig; prints the address
 	$(BIN)/station serve
@@ -12,6 +12,11 @@ run: $(VENV)/installed  ## install and start the service on the emulated rig; pr
 test: $(VENV)/installed-for-tests  ## everything that can be checked
 	deploy/debian-packages chromium mbpoll
 	$(BIN)/pytest
+
+record: $(VENV)/installed-for-tests  ## the closed loop in the browser, recorded; prints the folder
+	deploy/debian-packages chromium
+	folder=$$(mktemp -d) && STATION_RECORD=$$folder $(BIN)/pytest tests/browser/test_diagnosing.py && \
+	echo "Recorded in $$folder; watch one with: $(BIN)/playwright show-trace FILE.zip"
 
 lint: $(VENV)/installed-for-tests  ## style, types, import layers
 	$(BIN)/ruff check .

@@ -21,12 +21,14 @@ _TEXTS = {
     "rolled back": "Rolled back: the drives hold the old zero offsets again.",
 }
 
+_NO_CALIBRATION = {"diagnostic": "looked for a cause", "dataset": "was imported from a file"}
+
 
 def application(store: Store, calibration: dict[str, Any]) -> dict[str, Any] | None:
     """The `application` part of a calibration as REST answers it; None where there is nothing to apply."""
     if calibration["of"] is not None or calibration["verdict"] != "pass":
         return None
-    if calibration["plan"] == "diagnostic":
+    if calibration["plan"] in _NO_CALIBRATION:
         return None
     runs = store.runs_of(calibration["id"])
     writes = _writes(store, calibration)
@@ -85,8 +87,9 @@ def _applicable(store: Store, calibration_id: int) -> dict[str, Any]:
     calibration = store.calibration(calibration_id)
     if calibration["of"] is not None:
         raise NotApplicable(f"Run {calibration_id} is no calibration; it belongs to run {calibration['of']}.")
-    if calibration["plan"] == "diagnostic":
-        raise NotApplicable(f"Run {calibration_id} looked for a cause; calibrate to have offsets to write.")
+    if calibration["plan"] in _NO_CALIBRATION:
+        what = _NO_CALIBRATION[calibration["plan"]]
+        raise NotApplicable(f"Run {calibration_id} {what}; calibrate to have offsets to write.")
     if calibration["state"] != "succeeded" or calibration["verdict"] != "pass":
         raise NotApplicable(f"Run {calibration_id} has not passed; only the offsets of a pass are written.")
     return calibration

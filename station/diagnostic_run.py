@@ -20,6 +20,7 @@ from station.robot import Robot
 from station.verified_run import LIMIT_SDS, with_best_remedy
 
 METHOD = "diagnosis"
+UNCONFIRMED = "; no fresh readings confirm it"
 
 
 def diagnostic(robot: Robot) -> Generator[Walk, list[Reading], CalibrationResult]:
@@ -28,10 +29,18 @@ def diagnostic(robot: Robot) -> Generator[Walk, list[Reading], CalibrationResult
     :raises InputRefused: the readings are not enough to judge, or not of this robot.
     """
     readings = yield Walk("Looking for the cause", 1, make_plan("diagnostic", robot).stops)
+    return (yield from judged(robot, readings))
+
+
+def judged(robot: Robot, readings: list[Reading]) -> Generator[Walk, list[Reading], CalibrationResult]:
+    """What readings tell of the cause, judged by fresh ones at other places.
+
+    :raises InputRefused: as `diagnose`.
+    """
     walk = from_readings(readings)
     fit = Findings(diagnose(robot, walk)).fit
     fresh = yield Walk("Confirming at fresh places", 2, fresh_stops(robot, fit.x[:2], _seed(walk)))
-    return result_of(diagnosed(robot, [*readings, *fresh]), readings)
+    return result_of(diagnosed(robot, [*readings, *fresh]), readings, _described(readings))
 
 
 def diagnosed(robot: Robot, readings: list[Reading]) -> Findings:
@@ -44,15 +53,16 @@ def diagnosed(robot: Robot, readings: list[Reading]) -> Findings:
     return Findings(diagnose(robot, from_readings(learned), from_readings(fresh) if fresh else None))
 
 
-def result_of(findings: Findings, readings: list[Reading]) -> CalibrationResult:
-    """What the run ends with; `readings` are those that were learned from."""
-    text = measurement_file.to_csv(readings).encode()
-    data = {"file": "first walk", "readings": len(readings), "sha256": hashlib.sha256(text).hexdigest()}
+def result_of(findings: Findings, readings: list[Reading], data: dict[str, Any]) -> CalibrationResult:
+    """What the run ends with; `readings` are those that were learned from, `data` says where from.
+
+    Only what fresh readings confirm is a pass.
+    """
     document = findings.as_json(data)
     last = findings.diagnosis.last
     position = {r.reading: r.position for r in readings}
     return CalibrationResult(
-        verdict="pass" if findings.passed else "fail",
+        verdict="pass" if findings.passed and findings.diagnosis.confirmed else "fail",
         reason=reason(findings),
         method=METHOD,
         zero_offsets=findings.parameters[:2],
@@ -86,16 +96,22 @@ def reason(findings: Findings) -> str:
     share = f"{names} explain{s} {100.0 * d.explained_share:.1f} % of the residual"
     match d.verdict:
         case "adequate":
-            predicts = " and predicts fresh ones" if d.confirmed else ""
+            predicts = " and predicts fresh ones" if d.confirmed else UNCONFIRMED
             return f"nothing is missing: the model fits the readings{predicts}"
         case "explained":
-            return share + (f" and predict{s} fresh readings" if d.confirmed else "")
+            return share + (f" and predict{s} fresh readings" if d.confirmed else UNCONFIRMED)
         case "partly_explained" if d.confirmed is False:
             return f"not explained: {share}, but fresh readings are not predicted; the residual{depends}"
         case "partly_explained":
             return f"{share}; the rest{depends}"
         case _:
             return f"unexplained: the residual{depends}"
+
+
+def _described(readings: list[Reading]) -> dict[str, Any]:
+    """What a document was made from, as its `data` says."""
+    text = measurement_file.to_csv(readings).encode()
+    return {"file": "first walk", "readings": len(readings), "sha256": hashlib.sha256(text).hexdigest()}
 
 
 def _errors(stage: dict[str, Any]) -> dict[str, Any]:

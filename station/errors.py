@@ -5,6 +5,14 @@ class InputRefused(Exception):
     """What was given cannot be used: one sentence that says what, where and what to do."""
 
 
+class FieldRefused(InputRefused):
+    """The same of one field of a request, `targets.3.approach1` for instance."""
+
+    def __init__(self, field: str, text: str) -> None:
+        super().__init__(text)
+        self.field = field
+
+
 class NotFound(Exception):
     """Nothing is kept under this number or serial."""
 

@@ -12,6 +12,7 @@ import logging
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -25,6 +26,10 @@ log = logging.getLogger(__name__)
 
 MINIMUM_READINGS = 5
 """Four unknowns and the reading offset (paper, section 5: K >= 5)."""
+LARGEST_NUMBER = 1e12
+"""Whatever its unit, also of seconds since 1970; its square is still a number."""
+LARGEST_ID = 2**63 - 1
+"""The database takes no larger number."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,6 +95,8 @@ class Table:
                 raise self.refuse(k, column, what) from None
             if not math.isfinite(values[k]):
                 raise self.refuse(k, column, f"{cell} is not a finite number; remove or repeat the reading.")
+            if abs(values[k]) > LARGEST_NUMBER:
+                raise self.refuse(k, column, f"{cell} is beyond anything that is measured; check the column.")
         return values
 
     def optional_numbers(self, column: str) -> Real | None:
@@ -113,7 +120,44 @@ def read(path: Path, columns: Columns = FIVE_BAR) -> Measurements:
 
 def parse(content: bytes, columns: Columns = FIVE_BAR, *, source: str = "measurement file") -> Measurements:
     """The same from the file's bytes (an upload).  :raises InputRefused:"""
-    table = read_table(content, columns.required, columns.optional, source)
+    return _measurements(read_table(content, columns.required, columns.optional, source), columns)
+
+
+def parse_readings(
+    content: bytes, *, walk: int = 1, after: int = 0, source: str = "measurement file"
+) -> list[Reading]:
+    """The file's rows as records of a walk, as the store keeps them.
+
+    Ids that are whole numbers rising from beyond `after` stay; else rows are numbered from there.
+
+    :raises InputRefused: as `parse`.
+    """
+    table = read_table(content, FIVE_BAR.required, FIVE_BAR.optional, source)
+    m = _measurements(table, FIVE_BAR)
+    own = [i for i in m.ids if isinstance(i, int)]
+    rising = len(own) == len(m) and all(a < b for a, b in pairwise((after, *own))) and own[-1] <= LARGEST_ID
+    ids = own if rising else range(after + 1, after + len(m) + 1)
+    places = table.text("position") if table.has("position") else [""] * len(m)
+    degrees = np.degrees(m.theta)
+    return [
+        Reading(
+            reading=ids[k],
+            t_s=float(m.t_s[k]),
+            theta_deg=(float(degrees[k, 0]), float(degrees[k, 1])),
+            approach=(int(m.approach[k, 0]), int(m.approach[k, 1])),
+            scale_mm=float(m.distance[k]),
+            position=places[k] or f"row {table.lines[k]}",
+            walk=walk,
+            temperature_c=None if m.temperature_c is None else float(m.temperature_c[k]),
+            payload_kg=None if m.payload_kg is None else float(m.payload_kg[k]),
+            mount=m.mounts[m.mount[k]] or None,
+        )
+        for k in range(len(m))
+    ]
+
+
+def _measurements(table: Table, columns: Columns) -> Measurements:
+    """Every row checked.  :raises InputRefused:"""
     ids = _ids(table)
     t_s = table.numbers("t_s")
     backwards = np.flatnonzero(np.diff(t_s) < 0)
@@ -122,7 +166,7 @@ def parse(content: bytes, columns: Columns = FIVE_BAR, *, source: str = "measure
             int(backwards[0]) + 1, "t_s", "time runs backwards; put the rows in the order they were measured."
         )
     if backwards.size:
-        log.warning("%s: time runs backwards at row %d.", source, table.lines[int(backwards[0]) + 1])
+        log.warning("%s: time runs backwards at row %d.", table.source, table.lines[int(backwards[0]) + 1])
     theta_deg = np.column_stack([table.numbers(name) for name in columns.theta])
     mount, mounts = number(table.text("mount") if table.has("mount") else [""] * len(ids))
     place = table.text("position") if table.has("position") else [""] * len(ids)
@@ -144,8 +188,8 @@ def parse(content: bytes, columns: Columns = FIVE_BAR, *, source: str = "measure
     )
     if len(measurements) < MINIMUM_READINGS:
         raise InputRefused(
-            f"{source}: only {len(measurements)} readings; at least {MINIMUM_READINGS} at different places "
-            "are needed to identify anything."
+            f"{table.source}: only {len(measurements)} readings; at least {MINIMUM_READINGS} at different "
+            "places are needed to identify anything."
         )
     return measurements
 

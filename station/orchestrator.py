@@ -30,12 +30,15 @@ from station.records import (
     PlanName,
     Procedure,
     Reading,
+    RunKind,
     SetZeros,
     State,
+    Submitted,
     Walk,
 )
 from station.robot import Robot
 from station.run import Run
+from station.separating_run import check_separating, learned, since_start_s, start_separating
 from station.settings import Settings
 from station.store import Store
 from station.store_rows import compact
@@ -49,15 +52,14 @@ log = logging.getLogger(__name__)
 IDLE_S = 0.5
 SHUTDOWN_LIMIT_S = 10.0
 
+_CHECKS: dict[RunKind, Callable[[Store, int], None]] = {
+    "apply": check_apply,
+    "rollback": check_roll_back,
+    "separating": check_separating,
+}
+"""Whether the run that another one is about allows it."""
+
 ProcedureFactory = Callable[[PlanName, Robot], Procedure]
-
-
-@dataclass(frozen=True, slots=True)
-class Submitted:
-    """What a request came to; `created` is False when its idempotency key had been used before."""
-
-    id: int
-    created: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,7 +83,7 @@ class Orchestrator:
         self._submitting = Lock()
         self._lock = Lock()
         self._run: Run | None = None
-        self._last = next(iter(store.calibrations(limit=1).items), None)
+        self._last = store.last_on_rig()
         self._closing = False
         self._queue: Queue[Run | None] = Queue()
         self._worker = Thread(target=self._work, name="orchestrator", daemon=True)
@@ -109,7 +111,7 @@ class Orchestrator:
                 raise Busy(holder.id)
             robot = self._robot(request.robot_serial)
             if request.of is not None:
-                (check_apply if request.plan == "apply" else check_roll_back)(self._store, request.of)
+                _CHECKS[request.plan](self._store, request.of)
             calibration_id = self._store.create(request, robot, key=idempotency_key, body_hash=body_hash)
             run = Run(calibration_id, request, robot)
             with self._lock:
@@ -138,12 +140,20 @@ class Orchestrator:
         serial = self._store.summary(calibration_id)["robot_serial"]
         return self.submit(CalibrationRequest(serial, "rollback", operator, of=calibration_id))
 
+    def separate(
+        self, calibration_id: int, operator: str, *, idempotency_key: str | None = None
+    ) -> Submitted:
+        """Tell the cause that a diagnostic run found from its look-alikes by more readings.
+
+        :raises NotFound: there is no such run, or it has no diagnosis; else as `submit`.
+        """
+        serial = self._store.summary(calibration_id)["robot_serial"]
+        request = CalibrationRequest(serial, "separating", operator, of=calibration_id)
+        return self.submit(request, idempotency_key=idempotency_key)
+
     def _robot(self, serial: str) -> Robot:
         """The kept robot file, else the paper's Table 1, checked against the drives' scaling."""
-        try:
-            robot = self._store.robot(serial)
-        except NotFound:
-            robot = Robot.default(serial)
+        robot = self._store.robot_or_nominal(serial)
         for joint, settings in enumerate(self._settings.joints, start=1):
             wanted, has = asdict(robot.scaling(joint)), asdict(settings.scaling)
             differing = [
@@ -314,6 +324,8 @@ class Orchestrator:
         walker.prepare()
         zeroing = Zeroing(run.id, self._machine, walker, self._store)
         zeroing.settle()
+        if run.request.plan == "separating":
+            self._go_on(run, walker)
         procedure = self._procedure(run)
 
         def carry_out(step: Walk | SetZeros) -> Any:
@@ -326,10 +338,23 @@ class Orchestrator:
         self._listeners.publish("residuals", run.add_result(result))
         return result
 
+    def _go_on(self, run: Run, walker: Walker) -> None:
+        """With the readings and the clock of the run before."""
+        of = run.request.of or 0
+        readings = learned(self._store.readings(of))
+        self._store.add_readings(run.id, readings)
+        run.inherit(len(readings))
+        last_s = readings[-1].t_s / self._machine.devices.speed
+        walker.started -= max(since_start_s(self._store, of, run.id), last_s)
+
     def _procedure(self, run: Run) -> Procedure:
         request = run.request
         if request.plan == "apply" or request.plan == "rollback":
             return start_application(self._store, request)
+        if request.plan == "separating":
+            return start_separating(self._store, request)
+        if request.plan == "dataset":
+            raise InputRefused("A data set is imported, not run.")
         return self._start_procedure(request.plan, run.robot)
 
     def _set(self, run: Run, zeroing: Zeroing, step: SetZeros) -> tuple[float, float]:

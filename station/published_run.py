@@ -84,7 +84,8 @@ class PublishedRun:
         residual -= residual.mean()
         limit = LIMIT_SDS * reading_sd
         sd = np.sqrt(np.diag(covariance))
-        reason = self._fault(residual, limit, sd)
+        misfit = self._misfit(residual, limit)
+        reason = self._fault(residual, sd) or misfit
         before, jacobian = mechanism.position_errors(p)
         compensated = p.copy()
         compensated[:2] = 0.0
@@ -127,6 +128,7 @@ class PublishedRun:
                 }
                 for r, value, bound in zip(self._readings, residual, limit, strict=True)
             ),
+            lack_of_fit=misfit,
         )
 
     def _propagate(self, mechanism: FiveBar) -> tuple[Real, Real]:
@@ -150,8 +152,8 @@ class PublishedRun:
         left -= left.mean(axis=0)
         return spread, np.sqrt(np.sum(left**2, axis=1))
 
-    def _fault(self, residual: Real, limit: Real, sd: Real) -> str:
-        """Why the run is not a pass; empty when every check passed on finite numbers."""
+    def _fault(self, residual: Real, sd: Real) -> str:
+        """Why the passes came to nothing; empty when they converged to numbers that can be."""
         if not self.converged:
             return f"mu did not fall below {MU_0_DEG} deg in {len(self._steps)} passes"
         if not (np.isfinite(sd[:2]).all() and np.isfinite(self.total).all() and np.isfinite(residual).all()):
@@ -161,6 +163,10 @@ class PublishedRun:
             return (
                 f"a zero offset of {beyond:.1f} deg is impossible; check the mechanism and the drives' zero"
             )
+        return ""
+
+    def _misfit(self, residual: Real, limit: Real) -> str:
+        """The reading that the model accounts for least, if it is beyond its limit; else empty."""
         worst = int(np.argmax(np.abs(residual) / limit))
         if abs(residual[worst]) > limit[worst]:
             return (

@@ -29,8 +29,9 @@ class State(StrEnum):
 
 
 PlanName = Literal["paper", "rapid", "full", "diagnostic"]
-RunKind = Literal[PlanName, "apply", "rollback"]
-"""What a run does: calibrate by a plan, or write the zeros of an earlier run, or take them back."""
+RunKind = Literal[PlanName, "apply", "rollback", "separating", "dataset"]
+"""What a run does: calibrate by a plan, or write the zeros of an earlier run, or take them back; or go on
+from a diagnostic run, to tell look-alikes apart.  A `dataset` was measured elsewhere and came as a file."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,7 +44,15 @@ class CalibrationRequest:
     work_order: str | None = None
     metadata: dict[str, Any] = field(default_factory=dict)
     of: int | None = None
-    """The run whose zero offsets are applied or rolled back; None for a calibration."""
+    """The run whose zero offsets are applied or rolled back, or that is gone on from; else None."""
+
+
+@dataclass(frozen=True, slots=True)
+class Submitted:
+    """What a request came to; `created` is False when its idempotency key had been used before."""
+
+    id: int
+    created: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,6 +171,8 @@ class CalibrationResult:
     """Per pass: {pass, dtheta1_deg, dtheta2_deg, total1_deg, total2_deg, mu_deg}."""
     residuals: tuple[dict[str, Any], ...]
     """Per reading of the fit: {reading, position, residual_mm, limit_mm}."""
+    lack_of_fit: str = ""
+    """What in the readings the model does not account for, in plain words; empty when it fits."""
     memory: dict[str, Any] | None = None
     """What earlier runs knew: {used, p_value, text, from_calibration, age_days}; None: nothing was known."""
     lasting: dict[str, Any] | None = None

@@ -27,6 +27,8 @@ class Run:
     stopped_by: str | None = None
     state: State = State.QUEUED
     step: int = 0
+    inherited: int = 0
+    """Steps that an earlier run made."""
     steps: int = 0
     iterations: list[dict[str, Any]] = field(default_factory=list)
     _walk: Walk | None = None
@@ -40,6 +42,10 @@ class Run:
     def has_moved(self) -> bool:
         """Whether a motion may have been commanded."""
         return self._walk is not None
+
+    def inherit(self, steps: int) -> None:
+        """Go on after the steps of an earlier run."""
+        self.inherited = self.step = self.steps = steps
 
     def begin_walk(self, walk: Walk) -> dict[str, Any]:
         """Returns the `walk` event."""
@@ -119,7 +125,7 @@ class Run:
             "work_order": self.request.work_order,
             "started_at": self._started_at.isoformat(timespec="milliseconds").replace("+00:00", "Z"),
             "elapsed_s": round(elapsed_s, 1),
-            "remaining_s": round(to_do * elapsed_s / self.step, 1) if self.step else None,
+            "remaining_s": round(to_do * elapsed_s / own, 1) if (own := self.step - self.inherited) else None,
             "walk": {"number": walk.number, "title": walk.title} if walk else None,
             "step": self.step,
             "steps": self.steps,

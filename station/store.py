@@ -13,7 +13,7 @@ from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
-from threading import Lock
+from threading import RLock
 from typing import Any
 
 from sqlite_utils import Database
@@ -53,7 +53,7 @@ class Store:
         """
         self.path = path
         self._writer: Database = open_writer(path)
-        self._lock = Lock()
+        self._lock = RLock()  # what is written in several steps, whole or not at all, takes it again
         self._readers = Readers(path)
 
     def close(self) -> None:
@@ -99,6 +99,13 @@ class Store:
         if row is None:
             raise NotFound(f"Robot {serial} is not known here.")
         return Robot.from_dict(json.loads(row["file"]), source=f"robot {serial}")
+
+    def robot_or_nominal(self, serial: str) -> Robot:
+        """The same, and the paper's Table 1 for a robot that no file is kept of."""
+        try:
+            return self.robot(serial)
+        except NotFound:
+            return Robot.default(serial)
 
     def robots(self) -> list[dict[str, Any]]:
         """The latest version of each: {serial, saved_at, file}."""
@@ -201,6 +208,33 @@ class Store:
                     raise KeyReused(int(taken[0]))
                 db.execute("INSERT INTO idempotency_keys VALUES (?, ?, ?)", [key, body_hash, calibration_id])
         return calibration_id
+
+    def add_run(
+        self,
+        request: CalibrationRequest,
+        robot: Robot,
+        readings: Sequence[Reading],
+        result: CalibrationResult,
+        *,
+        key: str | None = None,
+        body_hash: bytes = b"",
+    ) -> int:
+        """A run that was measured elsewhere, whole or not at all.  :raises KeyReused: as `create`."""
+        with self._writing():
+            calibration_id = self.create(request, robot, key=key, body_hash=body_hash)
+            self.set_state(calibration_id, State.RUNNING, steps=len(readings))
+            self.add_readings(calibration_id, readings)
+            self.finish(calibration_id, State.SUCCEEDED, result)
+        return calibration_id
+
+    def last_on_rig(self) -> dict[str, Any] | None:
+        """Summary of the newest run that the rig made, None before the first."""
+        row = self._readers.one(
+            f"SELECT {LIST_COLUMNS} FROM calibrations LEFT JOIN results ON calibration_id = id"
+            " WHERE plan != 'dataset' ORDER BY id DESC LIMIT 1",
+            [],
+        )
+        return None if row is None else calibration_dict(row, full=False)
 
     def find_key(self, key: str, body_hash: bytes) -> int | None:
         """The calibration that a key started, None when the key is new.

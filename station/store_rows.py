@@ -45,6 +45,7 @@ _REST = (
     "iterations",
     "residuals",
     "memory",
+    "lack_of_fit",
 )
 
 
@@ -162,7 +163,7 @@ def calibration_dict(row: sqlite3.Row, *, full: bool) -> dict[str, Any]:
     if full:
         item["metadata"] = json.loads(row["metadata"]) if row["metadata"] else {}
         rest = json.loads(_expand(row["rest"])) if row["rest"] else {}
-        empty = dict.fromkeys(("before", "after", "method", "weak_direction", "memory"))
+        empty = dict.fromkeys(("before", "after", "method", "weak_direction", "memory", "lack_of_fit"))
         item |= {key: rest.get(key, empty.get(key, [])) for key in _REST}
     return item
 

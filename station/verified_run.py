@@ -92,7 +92,8 @@ def result_of(fit: Identification, readings: list[Reading], fresh: list[Reading]
     raw = everything.distance - mechanism.observe(start, everything.theta).value
     residual = everything.distance - mechanism.observe(fit.p, everything.theta).value
     limit = LIMIT_SDS * fit.noise.sigma_mm
-    reason = _fault(fit, check)
+    misfit = _misfit(fit, check)
+    reason = _not_finite(fit) or misfit
     return CalibrationResult(
         verdict="fail" if reason else "pass",
         reason=reason or f"fresh readings agree within {check.rms_mm * 1e3:.1f} um",
@@ -120,6 +121,7 @@ def result_of(fit: Identification, readings: list[Reading], fresh: list[Reading]
             }
             for r, value in zip(readings, residual, strict=True)
         ),
+        lack_of_fit=misfit,
     )
 
 
@@ -147,11 +149,16 @@ def with_best_remedy(words: dict[str, Any]) -> dict[str, Any]:
     return {**words, "remedy": f"{best['text']} (sd {best['sd_deg']:.3f} deg)"}
 
 
-def _fault(fit: Identification, check: Verification) -> str:
-    """Why the run is not a pass; empty when every check passed on finite numbers."""
+def _not_finite(fit: Identification) -> str:
+    """Why nothing can be said of the run; empty when all numbers are finite."""
     sd = np.sqrt(np.diag(fit.covariance)[:2])
     if not (np.isfinite(sd).all() and np.isfinite(fit.p).all()):
         return "the result is not a finite number"
+    return ""
+
+
+def _misfit(fit: Identification, check: Verification) -> str:
+    """What the model does not account for, in the readings or in the fresh ones; empty when it fits."""
     if not fit.adequate:
         return (
             f"the model does not fit the readings (p = {fit.lack_of_fit_p:.1g}); "

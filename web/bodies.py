@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, JsonValue, StringConstraints
 
+from station import robot
 from station.records import PlanName, Reading, State
 
 Serial = Annotated[
@@ -31,6 +32,18 @@ class CalibrationBody(BaseModel):
     operator: Name
     work_order: Name | None = None
     metadata: dict[str, JsonValue] = Field(default_factory=dict)
+
+
+class DatasetFields(BaseModel):
+    """Whose readings are imported, and by whom; in the query, or as fields beside the files."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    robot_serial: Serial = Field(
+        default=robot.Robot.default().serial, description="without a file kept here: the paper's robot"
+    )
+    operator: Name = "REST"
+    work_order: Name | None = None
 
 
 class ZeroOffset(Answer):
@@ -101,7 +114,9 @@ class CalibrationSummary(Answer):
 
     id: int
     robot_serial: str
-    plan: str = Field(description="of a calibration; `apply` and `rollback` belong to the run `of`")
+    plan: str = Field(
+        description="of a calibration; or `apply`, `rollback`, `separating`, of the run `of`; or `dataset`"
+    )
     of: int | None = None
     operator: str
     work_order: str | None = None
@@ -120,7 +135,7 @@ ApplicationState = Literal["unwritten", "applied", "partly", "in doubt", "rolled
 
 
 class ApplyBody(BaseModel):
-    """Who writes zero offsets to the drives, or takes them back."""
+    """Who writes zero offsets to the drives, takes them back, or goes on from a run."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -171,11 +186,96 @@ class Calibration(CalibrationSummary):
     weak_direction: WeakDirection | None = None
     application: Application | None = Field(default=None, description="null unless the run has passed")
     memory: MemoryUse | None = Field(default=None, description="null when nothing was known")
+    lack_of_fit: str | None = Field(
+        default=None, description="what the model does not account for; null when it fits or none was judged"
+    )
     before: Accuracy | None = None
     after: Accuracy | None = None
     iterations: list[Iteration] | None = None
     residuals: list[Residual] | None = None
     findings: list[dict[str, JsonValue]] = Field(default_factory=list)
+
+
+class SeparatingStop(Answer):
+    position: str
+    x_mm: float
+    y_mm: float
+
+
+class Separating(Answer):
+    """The motion that tells what a run found from its look-alikes."""
+
+    apart: list[str] = Field(description="look-alikes that it should rule out, or confirm instead")
+    stops: list[SeparatingStop] = Field(description="in measuring order; empty when there is none")
+    duration_s: float | None
+    refused: str | None = Field(description="why there is none, null when it can be run")
+
+
+class ResidualRow(Answer):
+    """One reading that a diagnosis learned from, with all that its residual may be ordered by."""
+
+    reading: int
+    position: str
+    x_mm: float
+    y_mm: float
+    t_s: float
+    theta1_deg: float = Field(description="actual angle, zero offset included")
+    theta2_deg: float
+    approach1: int
+    approach2: int
+    travel_mm: float
+    temperature_rise_k: float | None
+    before_mm: float = Field(description="measured less base model")
+    by_effect_mm: list[float] = Field(description="what each of `effects` accounts for")
+    after_mm: float = Field(description="what the last model leaves")
+    limit_mm: float
+
+
+class ResidualList(Answer):
+    """Residuals before and after; `effects` in the order in which they were added."""
+
+    effects: list[str]
+    items: list[ResidualRow]
+    next: None = None
+
+
+Sense = Literal[-1, 0, 1]
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+MOST_TARGETS = 10_000
+
+
+class Target(BaseModel):
+    """Where P is to go, and what an effect may depend on there."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    x_mm: Finite
+    y_mm: Finite
+    approach1: Sense = Field(default=0, description="sign of the joint's last motion; 0 not known")
+    approach2: Sense = 0
+    temperature_c: Finite | None = Field(default=None, description="null: as at the run's first reading")
+    payload_kg: Finite | None = None
+
+
+class SolveBody(BaseModel):
+    """Targets to be commanded under the identified model."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    targets: list[Target] = Field(min_length=1, max_length=MOST_TARGETS)
+
+
+class JointCommand(Answer):
+    theta1_deg: float
+    theta2_deg: float
+
+
+class Solution(Answer):
+    """Joint commands in the drives' nominal frame, one a target, in their order."""
+
+    commands: list[JointCommand]
+    range: str = Field(description="what the model was learned on")
+    confirmed: bool | None = Field(description="false: fresh readings refuted the model; null: never asked")
 
 
 class MemorySummary(Answer):

@@ -12,7 +12,7 @@ from fastapi.responses import JSONResponse
 from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
 
-from station.errors import Busy, InputRefused, KeyReused, NotApplicable, NotFound
+from station.errors import Busy, FieldRefused, InputRefused, KeyReused, NotApplicable, NotFound
 
 MEDIA_TYPE = "application/problem+json"
 
@@ -96,6 +96,11 @@ def add(app: FastAPI) -> None:
     @app.exception_handler(InputRefused)
     async def refused(request: Request, error: InputRefused) -> ProblemResponse:
         return problem(422, str(error), kind="refused")
+
+    @app.exception_handler(FieldRefused)
+    async def field_refused(request: Request, error: FieldRefused) -> ProblemResponse:
+        errors = [FieldAtFault(field=error.field, detail=str(error))]
+        return problem(422, str(error), kind="refused", field=error.field, errors=errors)
 
     @app.exception_handler(NotFound)
     async def not_found(request: Request, error: NotFound) -> ProblemResponse:

@@ -21,6 +21,7 @@ _MODULES = {
     "diagnose": "diagnosis",
     "export": "archive",
     "identify": "numerics",
+    "import": "importing",
     "memory": "history",
     "plan": "numerics",
     "real-robot": "real_robot",

@@ -76,8 +76,8 @@ def solve_command(targets: Path, model_file: Path, csv_file: Path | None) -> Non
     """Joint commands for target positions x_mm, y_mm under the identified model."""
     check_folders(csv_file)
     model = read_model(model_file)
-    wanted = read_targets(targets)
-    text = commands_csv(wanted, solve_targets(model, wanted))
+    table, wanted = read_targets(targets)
+    text = commands_csv(table, solve_targets(model, wanted))
     if csv_file:
         write_text(csv_file, text)
     else:

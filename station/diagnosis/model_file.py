@@ -140,21 +140,35 @@ def read_part(path: Path) -> ModelPart:
         raise InputRefused(f"Model {path} cannot be read: {error.strerror}.") from error
     except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise InputRefused(f"Model {path} is not valid JSON: {error}.") from error
+    return part_of(content, str(path))
+
+
+def model_of(content: Any, source: str) -> LearnedModel:
+    """A five-bar's, from a diagnosis document; `source` says where that is from.
+
+    :raises InputRefused: as `read_model`.
+    """
+    return learned_model(part_of(content, source), source)
+
+
+def part_of(content: Any, source: str) -> ModelPart:
+    """:raises InputRefused: as `read_part`."""
     part = content.get("model") if isinstance(content, dict) else None
     if not isinstance(part, dict):
         raise InputRefused(
-            f"Model {path} has no section `model`; give the file of `station diagnose --json`."
+            f"Model {source} has no section `model`; give the file of `station diagnose --json`."
         )
     if part.get("schema") != SCHEMA:
         raise InputRefused(
-            f"Model {path} is of schema {part.get('schema')!r}; this station reads {SCHEMA}: diagnose again."
+            f"Model {source} is of schema {part.get('schema')!r}; this station reads {SCHEMA}: "
+            "diagnose again."
         )
     try:
         return ModelPart.model_validate(part)
     except ValidationError as error:
         first = error.errors()[0]
         where = ".".join(str(step) for step in first["loc"])
-        raise InputRefused(f"Model {path}: [model.{where}] {first['msg']}.") from error
+        raise InputRefused(f"Model {source}: [model.{where}] {first['msg']}.") from error
 
 
 def learned_model(part: ModelPart, source: str) -> LearnedModel:

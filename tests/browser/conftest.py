@@ -9,7 +9,7 @@ import signal
 import subprocess
 import sys
 from collections.abc import Callable, Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import Any
 from urllib.parse import urlsplit
@@ -28,6 +28,8 @@ FLAGS = [
 SMALL, LARGE = {"width": 1024, "height": 768}, {"width": 1280, "height": 800}
 BUILT_PAGE = (pages.STATIC / "index.html").is_file(), "the built page (npm run build in web/ui)"
 END_LIMIT_S = 15.0
+RECORD = "STATION_RECORD"
+"""Environment variable: folder in which each test leaves a trace and its last picture."""
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
@@ -147,8 +149,22 @@ def chromium() -> Iterator[Browser]:
         browser.close()
 
 
+@contextmanager
+def recorded(context: BrowserContext, name: str) -> Iterator[None]:
+    """Where a folder is given, every step is recorded there, to be watched with `playwright show-trace`."""
+    folder = os.environ.get(RECORD)
+    if not folder:
+        yield
+        return
+    context.tracing.start(title=name, screenshots=True, snapshots=True)
+    yield
+    for page in context.pages:
+        page.screenshot(path=Path(folder) / f"{name}.png", full_page=True)
+    context.tracing.stop(path=Path(folder) / f"{name}.zip")
+
+
 @pytest.fixture
-def context(chromium: Browser) -> Iterator[BrowserContext]:
+def context(chromium: Browser, request: pytest.FixtureRequest) -> Iterator[BrowserContext]:
     """Any request that is not for this computer is refused, and fails the test; so does any page error."""
     context = chromium.new_context(viewport=SMALL)  # type: ignore[arg-type]
     foreign: list[str] = []
@@ -164,7 +180,8 @@ def context(chromium: Browser) -> Iterator[BrowserContext]:
     context.route("**/*", judge)
     context.on("weberror", lambda error: errors.append(str(error.error)))
     context.on("console", lambda said: errors.append(said.text) if "Security Policy" in said.text else None)
-    yield context
+    with recorded(context, request.node.name):
+        yield context
     context.close()
     assert foreign == []
     assert errors == []

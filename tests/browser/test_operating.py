@@ -103,3 +103,17 @@ def test_a_run_cut_off_shows_as_interrupted(page: Page, serve: Serve, tmp_path: 
     expect(page.locator(".outcome")).to_contain_text("INTERRUPTED")
     expect(page.get_by_role("button", name="Calibrate")).to_be_enabled()
     expect(page.get_by_role("button", name="Abort run")).to_be_disabled()
+
+
+def test_what_is_typed_into_a_filter_outlives_what_the_station_tells(
+    page: Page, slow_station: Station
+) -> None:
+    body = {"robot_serial": "FB-450", "plan": "paper", "operator": "ada"}
+    page.goto(f"{slow_station.url}/history")
+    page.get_by_label("Robot serial").fill("FB-4")
+    run = slow_station.api.post("/calibrations", json=body).raise_for_status().json()["id"]
+    expect(page.locator("tbody")).to_contain_text("FB-450")
+    expect(page.get_by_label("Robot serial")).to_have_value("FB-4")
+    slow_station.api.post(f"/calibrations/{run}/abort").raise_for_status()
+    expect(page.locator("tbody")).to_contain_text("ABORTED")
+    expect(page.get_by_label("Robot serial")).to_have_value("FB-4")

@@ -34,6 +34,14 @@ def test_no_state_breaks_wcag_2_2_aa(page: Page, slow_station: Station) -> None:
     assert violations(page) == []
 
 
+def test_a_chart_that_cannot_be_loaded_says_so(page: Page, station: Station) -> None:
+    run = add_run(station, "FB-801")
+    page.route("**/assets/residual-drawing-*.js", lambda route: route.abort())
+    page.goto(f"{station.url}/result/{run['id']}")
+    expect(page.get_by_text("The chart could not be loaded")).to_be_visible()
+    assert violations(page) == []
+
+
 def test_a_run_that_does_not_exist_says_so(page: Page, station: Station) -> None:
     page.goto(f"{station.url}/result/99999")
     expect(page.locator("main")).to_contain_text("no calibration 99999")

@@ -79,7 +79,7 @@ def test_true_position_error_falls(tmp_path: Path, effect: dict[str, Any]) -> No
     before = IdentifiedMachine.of(diagnosis.base).commands(
         place, Situation(approach, np.zeros(len(place)), np.zeros(len(place)))
     )
-    after = solve_targets(read_model(file), read_targets(targets_file(tmp_path, place, approach)))
+    after = solve_targets(read_model(file), read_targets(targets_file(tmp_path, place, approach))[1])
     was = rms(true_error_mm(machine, place, approach, before))
     now = rms(true_error_mm(machine, place, approach, after))
     predicted_before, predicted_after = Findings(diagnosis).position_errors

@@ -18,11 +18,13 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
+from station import measurement_file
 from station.cli import main
 from station.records import CalibrationRequest, Reading, State
 from station.robot import Robot
 from station.store import Store
 from tests.station.fakes import result_of
+from tests.station.test_diagnosing import BACKLASH, machine, run
 
 READING = Reading(1, 1.25, (0.5, 180.5), (1, -1), 12.3456, "p1", 1, (12.3456,))
 
@@ -74,6 +76,19 @@ def test_export_writes_the_measurement_file(home: Path) -> None:
     assert (row["reading"], float(row["scale_mm"]), row["approach2"]) == ("1", 12.3456, "-1")
 
 
+def test_import_keeps_a_file_as_a_run_and_passes_only_what_fresh_readings_confirm(tmp_path: Path) -> None:
+    readings, _ = run(machine(BACKLASH))
+    walk, fresh = (tmp_path / "walk.csv", tmp_path / "fresh.csv")
+    for number, file in enumerate((walk, fresh), start=1):
+        file.write_text(measurement_file.to_csv(r for r in readings if r.walk == number))
+    confirmed = station(tmp_path, "import", str(walk), "--confirm", str(fresh), "--serial", "FB-5")
+    assert (confirmed.exit_code, confirmed.output[:33]) == (0, "Run 1: pass, backlash of joint 1 ")
+    alone = station(tmp_path, "import", str(walk), "--serial", "FB-5")
+    assert alone.exit_code == 1
+    assert "no fresh readings confirm it" in alone.output
+    assert "dataset" in station(tmp_path, "show", "2").output
+
+
 def test_a_backup_is_a_station_database_and_never_overwrites(home: Path, tmp_path: Path) -> None:
     target = tmp_path / "elsewhere" / "station.db"
     target.parent.mkdir()
@@ -94,6 +109,7 @@ def test_a_backup_is_a_station_database_and_never_overwrites(home: Path, tmp_pat
         ("show", "x"),
         ("frobnicate",),
         ("runs", "--state", "napping"),
+        ("import", "none.csv"),
         ("calibrate", "--plan", "guess"),
         ("calibrate", "--config", "none.toml"),
         ("calibrate", "--robot", "none.toml"),

@@ -16,7 +16,7 @@ from station.diagnostic_walk import FRESH_PLACES, fresh_stops
 from station.errors import InputRefused, NotApplicable, NotFound
 from station.plans import make_plan
 from station.procedures import start_procedure
-from station.records import CalibrationRequest, CalibrationResult, Reading, State, Walk
+from station.records import CalibrationRequest, CalibrationResult, PlanName, Procedure, Reading, State, Walk
 from station.robot import Robot
 from station.simulation import SimulatedMachine
 from station.store import Store
@@ -31,14 +31,20 @@ def machine(*effects: dict[str, Any]) -> SimulatedMachine:
     return SimulatedMachine(ROBOT, TRUTH, "continuous", 5, effects)
 
 
-def run(machine: SimulatedMachine) -> tuple[list[Reading], CalibrationResult]:
-    """The procedure's walks carried out in virtual time, with the run-ups that approaches ask for."""
-    procedure = start_procedure("diagnostic", ROBOT)
+def run(machine: SimulatedMachine, plan: PlanName = "diagnostic") -> tuple[list[Reading], CalibrationResult]:
+    """A plan carried out in virtual time."""
+    return carried_out(machine, start_procedure(plan, ROBOT))
+
+
+def carried_out(
+    machine: SimulatedMachine, procedure: Procedure, before: int = 0
+) -> tuple[list[Reading], CalibrationResult]:
+    """The walks in virtual time, with the run-ups that approaches ask for, after so many readings."""
     readings: list[Reading] = []
     try:
         walk = next(procedure)
         while True:
-            taken = measure(machine, walk, len(readings))
+            taken = measure(machine, walk, before + len(readings))
             readings += taken
             walk = procedure.send(taken)
     except StopIteration as end:
@@ -60,7 +66,7 @@ def measure(machine: SimulatedMachine, walk: Any, taken: int) -> list[Reading]:
     return [
         Reading(
             taken + n,
-            float(visited.t_s[k]) + 1000.0 * walk.number,
+            float(visited.t_s[k]),
             tuple(float(v) for v in np.degrees(visited.theta[k])),
             tuple(int(a) for a in visited.approach[k]),
             float(visited.distance[k]),
@@ -119,6 +125,20 @@ def test_what_the_catalogue_does_not_hold_fails_and_says_what_it_depends_on() ->
     assert result.diagnosis is not None
     assert result.diagnosis["hints"]
     assert result.diagnosis["hints"][0]["depends_on"] in result.reason
+
+
+@pytest.mark.parametrize("plan", ["paper", "rapid", "full"])
+def test_lack_of_fit_is_judged_at_once_after_any_calibration(tmp_path: Path, plan: PlanName) -> None:
+    assert run(machine(), plan)[1].lack_of_fit == ""
+    _, result = run(machine({**BACKLASH, "width_deg": 0.05}), plan)
+    assert result.verdict == "fail"
+    assert result.lack_of_fit == result.reason != ""
+    store = Store(tmp_path / "station.db")
+    kept = store.create(CalibrationRequest("R1", plan, "ada"), ROBOT)
+    assert store.calibration(kept)["lack_of_fit"] is None
+    store.finish(kept, State.SUCCEEDED, result)
+    assert store.calibration(kept)["lack_of_fit"] == result.reason
+    store.close()
 
 
 def test_readings_of_another_robot_are_refused() -> None:

@@ -5,29 +5,24 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Annotated, Any, Literal
 
-from fastapi import APIRouter, Header, Query, Response
+from fastapi import APIRouter, Query, Response
 from starlette.exceptions import HTTPException
 
 from station.application import application
-from station.orchestrator import Submitted
-from station.records import CalibrationRequest, State
+from station.records import CalibrationRequest, State, Submitted
 from station.runtime import Runtime
 from station.store_rows import Page
 from web.aside import aside
 from web.bodies import ApplyBody, Calibration, CalibrationBody, CalibrationList, CalibrationSummary
 from web.problems import documented
-from web.routes.parts import LARGEST_ID, CalibrationId, TheRuntime
+from web.routes.parts import LARGEST_ID, LOCATION, CalibrationId, IdempotencyKey, TheRuntime
 
 ABORT_TIMEOUT_S = 5.0
 
 router = APIRouter(prefix="/calibrations", tags=["calibrations"])
-Key = Annotated[str | None, Header(alias="Idempotency-Key", min_length=1, max_length=255)]
 
 STARTED: dict[int | str, dict[str, Any]] = {
-    202: {
-        "description": "Accepted",
-        "headers": {"Location": {"description": "the run's address", "schema": {"type": "string"}}},
-    },
+    202: {"description": "Accepted", "headers": LOCATION},
     **documented(409),
 }
 
@@ -37,7 +32,7 @@ def start_calibration(
     body: CalibrationBody,
     runtime: TheRuntime,
     response: Response,
-    idempotency_key: Key = None,
+    idempotency_key: IdempotencyKey = None,
 ) -> dict[str, Any]:
     """Start a run.  The same `Idempotency-Key` with the same body answers the same run."""
     request = CalibrationRequest(**body.model_dump())
@@ -111,7 +106,7 @@ def apply_calibration(
     body: ApplyBody,
     runtime: TheRuntime,
     response: Response,
-    idempotency_key: Key = None,
+    idempotency_key: IdempotencyKey = None,
 ) -> dict[str, Any]:
     """Write the zero offsets to the drives, read them back, verify at fresh places.
 
@@ -132,6 +127,27 @@ def roll_back_calibration(
 ) -> dict[str, Any]:
     """Put the old zeros back; a run of its own.  Calling it again answers the run that did it."""
     return _started(runtime.orchestrator.roll_back(calibration_id, body.operator), runtime, response)
+
+
+@router.post(
+    "/{calibration_id}/separate",
+    status_code=202,
+    response_model=CalibrationSummary,
+    responses={**STARTED, **documented(404)},
+)
+def separate(
+    calibration_id: CalibrationId,
+    body: ApplyBody,
+    runtime: TheRuntime,
+    response: Response,
+    idempotency_key: IdempotencyKey = None,
+) -> dict[str, Any]:
+    """Tell the cause that a diagnostic run found from its look-alikes, by the motion of `/separating`.
+
+    A run of its own, of plan `separating`: it goes on from the readings of that run, and fresh ones judge.
+    """
+    submitted = runtime.orchestrator.separate(calibration_id, body.operator, idempotency_key=idempotency_key)
+    return _started(submitted, runtime, response)
 
 
 def _started(submitted: Submitted, runtime: Runtime, response: Response) -> dict[str, Any]:

@@ -1,14 +1,34 @@
-"""`/calibrations/{id}/diagnosis` and `/report.html`: causes that a run found, for programs and people."""
+"""What a run found, under `/calibrations/{id}`: diagnosis, residuals, report, separating motion, solve."""
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import Any
 
+import numpy as np
 from fastapi import APIRouter
 from fastapi.responses import HTMLResponse
 
+from station.diagnosis.document import Findings
+from station.diagnosis.model_file import model_of
 from station.diagnosis.page import page
+from station.diagnosis.residuals import residuals
+from station.diagnosis.solve import range_text, solve_targets
+from station.diagnosis.targets import targets_of
 from station.diagnostic_run import diagnosed
+from station.errors import NotApplicable
+from station.records import Reading
+from station.runtime import Runtime
+from station.separating_run import planned
+from web.bodies import (
+    JointCommand,
+    ResidualList,
+    ResidualRow,
+    Separating,
+    SeparatingStop,
+    Solution,
+    SolveBody,
+)
 from web.problems import documented
 from web.routes.parts import CalibrationId, TheRuntime
 
@@ -27,13 +47,62 @@ def read_diagnosis(calibration_id: CalibrationId, runtime: TheRuntime) -> dict[s
     return runtime.store.diagnosis(calibration_id)
 
 
+@router.get("/residuals", response_model=ResidualList, responses=documented(404))
+def read_residuals(calibration_id: CalibrationId, runtime: TheRuntime) -> ResidualList:
+    """The residual of every reading without and with the effects, computed again from the stored readings."""
+    findings, readings = _again(runtime, calibration_id)
+    found = residuals(findings, {r.reading: r.position for r in readings})
+    return ResidualList(
+        effects=list(found.effects), items=[ResidualRow.model_validate(asdict(row)) for row in found.rows]
+    )
+
+
+@router.get("/separating", response_model=Separating, responses=documented(404))
+def read_separating(calibration_id: CalibrationId, runtime: TheRuntime) -> Separating:
+    """The motion that tells the cause from its look-alikes, or why there is none.
+
+    `POST .../separate` runs it.
+    """
+    try:
+        plan = planned(runtime.store, calibration_id)
+    except NotApplicable as none:
+        return Separating(apart=[], stops=[], duration_s=None, refused=str(none))
+    stops = [
+        SeparatingStop(position=s.position, x_mm=s.target_mm[0], y_mm=s.target_mm[1])
+        for s in plan.experiment.stops
+    ]
+    return Separating(
+        apart=list(plan.experiment.apart), stops=stops, duration_s=plan.duration_s, refused=None
+    )
+
+
 @router.get("/report.html", response_class=HTMLResponse, responses=documented(404))
 def read_report(calibration_id: CalibrationId, runtime: TheRuntime) -> HTMLResponse:
     """The diagnosis as a page with drawings, computed again from the stored readings."""
+    findings, _ = _again(runtime, calibration_id)
+    report = page(findings, f"run {calibration_id}, robot {findings.diagnosis.robot.serial}")
+    return HTMLResponse(report.to_html(), headers={"Content-Security-Policy": REPORT_POLICY})
+
+
+@router.post("/solve", response_model=Solution, responses=documented(404))
+def solve(calibration_id: CalibrationId, body: SolveBody, runtime: TheRuntime) -> Solution:
+    """Joint commands that bring P to the targets under the run's model, with every effect on the position.
+
+    Refused are targets out of reach or beyond what an effect was learned on, and those without the
+    approach, temperature or payload that an effect needs; the problem names target and field.
+    """
+    model = model_of(runtime.store.diagnosis(calibration_id), f"of run {calibration_id}")
+    theta_deg = np.degrees(solve_targets(model, targets_of([t.model_dump() for t in body.targets])))
+    return Solution(
+        commands=[JointCommand(theta1_deg=float(a), theta2_deg=float(b)) for a, b in theta_deg],
+        range=range_text(model),
+        confirmed=model.confirmed,
+    )
+
+
+def _again(runtime: Runtime, calibration_id: int) -> tuple[Findings, list[Reading]]:
+    """The diagnosis of a run from its readings.  :raises NotFound: no such run, or it has none."""
     store = runtime.store
     store.diagnosis(calibration_id)
-    robot = store.robot_of(calibration_id)
-    report = page(
-        diagnosed(robot, store.readings(calibration_id)), f"run {calibration_id}, robot {robot.serial}"
-    )
-    return HTMLResponse(report.to_html(), headers={"Content-Security-Policy": REPORT_POLICY})
+    readings = store.readings(calibration_id)
+    return diagnosed(store.robot_of(calibration_id), readings), readings

@@ -20,4 +20,7 @@ def _runtime(connection: HTTPConnection) -> Runtime:
 
 TheRuntime = Annotated[Runtime, Depends(_runtime)]
 CallerName = Annotated[str | None, Header(alias="X-Operator", max_length=64, description="for the log")]
+IdempotencyKey = Annotated[str | None, Header(alias="Idempotency-Key", min_length=1, max_length=255)]
+LOCATION = {"Location": {"description": "the run's address", "schema": {"type": "string"}}}
+"""The header of an answer that made a run, for OpenAPI."""
 CalibrationId = Annotated[int, Path(ge=1, le=LARGEST_ID)]

@@ -14,7 +14,8 @@ export type Summary = Schemas["CalibrationSummary"];
 export type Calibration = Schemas["Calibration"];
 export type Reading = Schemas["ReadingAnswer"];
 export type CalibrationBody = Schemas["CalibrationBody"];
-
+export type ResidualRow = Schemas["ResidualRow"];
+export type Separating = Schemas["Separating"];
 
 interface Effect {
   effect: string;
@@ -25,6 +26,9 @@ interface Effect {
 export interface Diagnosis {
   verdict: "adequate" | "explained" | "partly_explained" | "unexplained";
   confirmed: boolean | null;
+  sentence: string;
+  noise: { sigma_mm: number; source: "repeats" | "specification"; dof: number };
+  outliers: number[];
   findings: (Effect & {
     parameters: { name: string; value: number; sd: number; unit: string }[];
     share: number;
@@ -41,6 +45,12 @@ export interface Diagnosis {
     confirm_max_mm: number | null;
   }[];
   hints: { text: string; strength: number }[];
+  invisible: (Effect & {
+    parameter: string | null;
+    minimum_detectable: number | null;
+    unit: string | null;
+    text: string;
+  })[];
 }
 
 const TIMEOUT_MS = 8000;
@@ -108,6 +118,16 @@ export const stop = () =>
 export const calibration = (id: number) => call<Calibration>("GET", `/calibrations/${id}`);
 
 export const diagnosis = (id: number) => call<Diagnosis>("GET", `/calibrations/${id}/diagnosis`);
+
+export const residuals = (id: number) => call<Schemas["ResidualList"]>("GET", `/calibrations/${id}/residuals`);
+
+export const separating = (id: number) => call<Separating>("GET", `/calibrations/${id}/separating`);
+
+export const separate = (id: number, operator: string, key: string) =>
+  call<Summary>("POST", `/calibrations/${id}/separate`, {
+    headers: { "Content-Type": "application/json", "Idempotency-Key": key },
+    body: JSON.stringify({ operator }),
+  });
 
 export const calibrations = (query: URLSearchParams) =>
   call<Schemas["CalibrationList"]>("GET", `/calibrations?${query}`);

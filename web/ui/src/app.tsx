@@ -1,6 +1,7 @@
 /** The frame: a header that never scrolls away, and one view below it. */
 import { Header } from "./parts/header";
 import { path } from "./router";
+import { DiagnosisView } from "./views/diagnosis";
 import { HistoryView } from "./views/history";
 import { ResultView } from "./views/result";
 import { StationView } from "./views/station";
@@ -19,6 +20,7 @@ export function App() {
 function View() {
   const [, view, id] = path.value.split("/");
   if (view === "history") return <HistoryView />;
+  if (view === "diagnosis") return <DiagnosisView id={Number(id)} />;
   if (view === "result") return <ResultView id={id ? Number(id) : null} />;
   return <StationView />;
 }

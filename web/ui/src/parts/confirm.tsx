@@ -8,10 +8,12 @@ interface Props {
   /** What will happen, in a sentence. */
   children: ComponentChildren;
   disabled: boolean;
+  /** What is to be done next, rather than what may be. */
+  prominent?: boolean;
   act: () => Promise<unknown>;
 }
 
-export function ConfirmedButton({ label, children, disabled, act }: Props) {
+export function ConfirmedButton({ label, children, disabled, prominent, act }: Props) {
   const armed = useSignal(false);
   const sending = useSignal(false);
   const trouble = useSignal<string | null>(null);
@@ -40,6 +42,7 @@ export function ConfirmedButton({ label, children, disabled, act }: Props) {
     <div class="confirmed">
       <button
         type="button"
+        class={prominent ? "act" : undefined}
         ref={button}
         disabled={disabled || armed.value}
         onClick={() => {

@@ -4,8 +4,9 @@ import { connected, station } from "../live";
 import { keepOperator, operator } from "../operator";
 import { navigate } from "../router";
 import { ConfirmedButton } from "./confirm";
+import { OperatorField } from "./operator-field";
 
-export function FindCause({ result: { robot_serial, work_order } }: { result: Calibration }) {
+export function FindCause({ result: { robot_serial, work_order, lack_of_fit } }: { result: Calibration }) {
   const idle = connected.value && !station.value?.run && operator.value.trim() !== "";
   const walk = async () => {
     keepOperator();
@@ -15,23 +16,25 @@ export function FindCause({ result: { robot_serial, work_order } }: { result: Ca
   };
   return (
     <section class="panel wide find-cause" aria-label="Cause">
-      <h2>Does the model lack something?</h2>
+      {lack_of_fit === null ? (
+        <h2>Does the model lack something?</h2>
+      ) : (
+        <>
+          <h2>
+            <strong class="alarm warn">◆ The model does not account for these readings</strong>
+          </h2>
+          <p>
+            Something is missing from it, and the zero offsets may be wrong by more than they say: {lack_of_fit}.
+          </p>
+        </>
+      )}
       <p>
         A walk of 120 readings there and back shows what the residual depends on and names its cause; 40 fresh readings
         then judge it.
       </p>
       <div class="writes">
-        <p class="field">
-          <label for="cause-operator">Operator</label>
-          <input
-            id="cause-operator"
-            value={operator.value}
-            maxLength={64}
-            spellcheck={false}
-            onInput={(event) => (operator.value = event.currentTarget.value)}
-          />
-        </p>
-        <ConfirmedButton label="Find the cause" disabled={!idle} act={walk}>
+        <OperatorField id="cause-operator" />
+        <ConfirmedButton label="Find the cause" prominent={lack_of_fit !== null} disabled={!idle} act={walk}>
           <strong>Robot {robot_serial} will move</strong> over its whole workspace. Nobody within its reach?
         </ConfirmedButton>
       </div>

@@ -5,9 +5,9 @@ import { Link } from "./link";
 import { StopButton, StopReport } from "./stop";
 
 const VIEWS = [
-  { to: "/", text: "Station" },
-  { to: "/result", text: "Result" },
-  { to: "/history", text: "History" },
+  { to: "/", text: "Station", views: ["/"] },
+  { to: "/result", text: "Result", views: ["/result", "/diagnosis"] },
+  { to: "/history", text: "History", views: ["/history"] },
 ];
 
 export function Header() {
@@ -15,8 +15,8 @@ export function Header() {
     <header>
       <div class="bar">
         <nav aria-label="Views">
-          {VIEWS.map(({ to, text }) => (
-            <Link to={to} current={to === "/" ? path.value === to : path.value.startsWith(to)}>
+          {VIEWS.map(({ to, text, views }) => (
+            <Link to={to} current={views.includes(`/${path.value.split("/")[1]}`)}>
               {text}
             </Link>
           ))}

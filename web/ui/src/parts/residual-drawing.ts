@@ -1,18 +1,14 @@
 import { LineChart, ScatterChart } from "echarts/charts";
 import { GridComponent } from "echarts/components";
-import { init, use } from "echarts/core";
+import { use } from "echarts/core";
 import { SVGRenderer } from "echarts/renderers";
 import type { Calibration } from "../api";
+import { DARK, GREY, mount, RED, xAxis, yAxis } from "./drawing";
 
 use([LineChart, ScatterChart, GridComponent, SVGRenderer]);
 
-const DARK = "#1b1f24";
-const GREY = "#5d656e";
-const RED = "#b00020";
-
-/** Draws into `place` and follows its size; returns how to take it away. */
+/** Draws into `place`; returns how to take it away. */
 export function draw(place: HTMLElement, residuals: NonNullable<Calibration["residuals"]>): () => void {
-  const chart = init(place, null, { renderer: "svg" });
   const over = (i: number) => {
     const { residual_mm: residual, limit_mm: limit } = residuals[i]!;
     return residual !== null && limit !== null && Math.abs(residual) > limit;
@@ -25,12 +21,15 @@ export function draw(place: HTMLElement, residuals: NonNullable<Calibration["res
     silent: true,
     lineStyle: { color: GREY, type: "dashed" as const, width: 1.5 },
   });
-  const axis = { nameTextStyle: { color: DARK, fontSize: 14 }, axisLabel: { color: DARK, fontSize: 13 } };
-  chart.setOption({
-    animation: false,
-    grid: { left: 76, right: 24, top: 34, bottom: 48 },
-    xAxis: { ...axis, type: "value", name: "reading", nameLocation: "middle", nameGap: 30, minInterval: 1, min: ({ min }: { min: number }) => min - 1, max: ({ max }: { max: number }) => max + 1 },
-    yAxis: { ...axis, type: "value", name: "residual, mm (dashed: limits)", nameTextStyle: { ...axis.nameTextStyle, align: "left" } },
+  return mount(place, {
+    xAxis: {
+      ...xAxis,
+      name: "reading",
+      minInterval: 1,
+      min: ({ min }: { min: number }) => min - 1,
+      max: ({ max }: { max: number }) => max + 1,
+    },
+    yAxis: { ...yAxis, name: "residual, mm (dashed: limits)" },
     series: [
       limits(1),
       limits(-1),
@@ -44,10 +43,4 @@ export function draw(place: HTMLElement, residuals: NonNullable<Calibration["res
       },
     ],
   });
-  const sized = new ResizeObserver(() => chart.resize());
-  sized.observe(place);
-  return () => {
-    sized.disconnect();
-    chart.dispose();
-  };
 }

@@ -15,14 +15,6 @@ export function HistoryView() {
   // asked again when a run starts or ends
   const latest = `${station.value?.run?.id} ${station.value?.last?.id}`;
   const { value: page, trouble } = useLoaded(`${filters} ${latest}`, () => calibrations(toApi(filters))).value;
-  const set = (name: string, value: string) => {
-    // the address as it is now: another filter may have been set since this was drawn
-    const next = new URLSearchParams(query.value);
-    next.delete("cursor");
-    if (value) next.set(name, value);
-    else next.delete(name);
-    navigate(address(next), { replace: true });
-  };
   const older = new URLSearchParams(filters);
   if (page?.next) older.set("cursor", String(page.next));
   const newest = new URLSearchParams(filters);
@@ -30,21 +22,7 @@ export function HistoryView() {
   return (
     <div class="history">
       <h1 class="hidden">History</h1>
-      <form class="filters panel" onSubmit={(event) => event.preventDefault()} aria-label="Filter">
-        <p class="field">
-          <label for="filter-serial">Robot serial</label>
-          <input
-            id="filter-serial"
-            value={filters.get("robot_serial") ?? ""}
-            spellcheck={false}
-            onChange={(event) => set("robot_serial", event.currentTarget.value.trim())}
-          />
-        </p>
-        <Choice name="state" label="State" options={STATES} value={filters.get("state") ?? ""} set={set} />
-        <Choice name="verdict" label="Verdict" options={["pass", "fail"]} value={filters.get("verdict") ?? ""} set={set} />
-        <Day name="since" label="From" value={filters.get("since") ?? ""} set={set} />
-        <Day name="until" label="To" value={filters.get("until") ?? ""} set={set} />
-      </form>
+      <Filters />
       <section class="panel list">
         <div class="scroll" tabIndex={0} role="region" aria-label="Runs">
           <table>
@@ -83,6 +61,36 @@ export function HistoryView() {
         </p>
       </section>
     </div>
+  );
+}
+
+/** A part of its own: what the station tells meanwhile must not take away what is being typed. */
+function Filters() {
+  const filters = query.value;
+  const set = (name: string, value: string) => {
+    // the address as it is now: another filter may have been set since this was drawn
+    const next = new URLSearchParams(query.value);
+    next.delete("cursor");
+    if (value) next.set(name, value);
+    else next.delete(name);
+    navigate(address(next), { replace: true });
+  };
+  return (
+    <form class="filters panel" onSubmit={(event) => event.preventDefault()} aria-label="Filter">
+      <p class="field">
+        <label for="filter-serial">Robot serial</label>
+        <input
+          id="filter-serial"
+          value={filters.get("robot_serial") ?? ""}
+          spellcheck={false}
+          onChange={(event) => set("robot_serial", event.currentTarget.value.trim())}
+        />
+      </p>
+      <Choice name="state" label="State" options={STATES} value={filters.get("state") ?? ""} set={set} />
+      <Choice name="verdict" label="Verdict" options={["pass", "fail"]} value={filters.get("verdict") ?? ""} set={set} />
+      <Day name="since" label="From" value={filters.get("since") ?? ""} set={set} />
+      <Day name="until" label="To" value={filters.get("until") ?? ""} set={set} />
+    </form>
   );
 }
 

@@ -1,12 +1,14 @@
-import { calibration, type Calibration } from "../api";
+import { calibration, type Calibration, diagnosis } from "../api";
 import { dateTime, duration, fixed, signed } from "../format";
 import { station } from "../live";
 import { Application } from "../parts/application";
-import { DiagnosisParts } from "../parts/diagnosis";
+import { BeforeAfter } from "../parts/before-after";
+import { Causes, Hints } from "../parts/causes";
 import { FindCause } from "../parts/find-cause";
 import { Link } from "../parts/link";
 import { useLoaded } from "../parts/load";
 import { Memory } from "../parts/memory";
+import { SeparatingOffer } from "../parts/separating";
 import { ResidualChart } from "../parts/residual-chart";
 import { VerdictLine } from "../parts/verdict";
 
@@ -16,7 +18,7 @@ const K = 2;
 /** One run: `id` from the address, else the last one that ended or whose offsets were written. */
 export function ResultView({ id }: { id: number | null }) {
   const last = station.value?.last;
-  const shown = id ?? last?.of ?? last?.id ?? null;
+  const shown = id ?? (last?.plan === "separating" ? last.id : (last?.of ?? last?.id)) ?? null;
   if (shown === null) return <Empty text={station.value ? "No run has ended yet." : "Waiting for the station …"} />;
   return <Result key={shown} id={shown} />;
 }
@@ -37,8 +39,8 @@ function Result({ id }: { id: number }) {
   const { value: result, trouble } = useLoaded(`${id} ${progress}`, () => calibration(id)).value;
   if (!result) return <Empty text={trouble ?? "Loading …"} />;
   const diagnosed = result.method === "diagnosis";
-  const passed = result.verdict === "pass";
-  const offer = result.of === null && result.ended_at && result.plan !== "diagnostic" && <FindCause result={result} />;
+  const misfit = result.lack_of_fit !== null;
+  const offer = result.of === null && result.ended_at && !diagnosed && <FindCause result={result} />;
   return (
     <div class="result">
       <section class="panel summary">
@@ -65,6 +67,11 @@ function Result({ id }: { id: number }) {
             Readings (CSV)
           </a>
           {diagnosed && (
+            <Link class="button" to={`/diagnosis/${id}`}>
+              Diagnosis
+            </Link>
+          )}
+          {diagnosed && (
             <a class="button" href={`/api/v1/calibrations/${id}/report.html`}>
               Report
             </a>
@@ -74,25 +81,44 @@ function Result({ id }: { id: number }) {
           </Link>
         </p>
       </section>
-      {!passed && offer}
+      {misfit && offer}
       {result.zero_offsets?.length ? (
         <>
-          {diagnosed && <DiagnosisParts result={result} />}
+          {diagnosed && <Found id={id} serial={result.robot_serial} />}
           <Application result={result} />
           <ZeroOffsets result={result} />
           <BeforeAfter result={result} />
           <WeakDirection result={result} />
           {result.of === null && !diagnosed && <Memory result={result} />}
           <Iterations result={result} />
-          <ResidualChart residuals={result.residuals ?? []} />
+          <ResidualChart id={id} residuals={result.residuals ?? []} />
         </>
       ) : (
         <section class="panel">
           <p>{result.ended_at ? "No zero offsets were identified in this run." : "The result follows the last reading."}</p>
         </section>
       )}
-      {passed && offer}
+      {!misfit && offer}
     </div>
+  );
+}
+
+/** What a diagnosis found, in short; its own page has the charts. */
+function Found({ id, serial }: { id: number; serial: string }) {
+  const { value: found, trouble } = useLoaded(`${id}`, () => diagnosis(id)).value;
+  if (!found) {
+    return (
+      <section class="panel wide">
+        <p role="status">{trouble ?? "Loading …"}</p>
+      </section>
+    );
+  }
+  return (
+    <>
+      <Causes found={found} />
+      <SeparatingOffer id={id} serial={serial} found={found} />
+      <Hints found={found} />
+    </>
   );
 }
 
@@ -159,56 +185,6 @@ function ZeroOffsets({ result }: { result: Calibration }) {
 function Against({ value, limit }: { value: number | null; limit: number | null }) {
   if (value === null || limit === null) return <>–</>;
   return Math.abs(value) <= limit ? <>within</> : <strong class="alarm warn">◆ outside</strong>;
-}
-
-function BeforeAfter({ result: { before, after, method } }: { result: Calibration }) {
-  const diagnosed = method === "diagnosis";
-  const rows = [
-    { text: "Readings, rms", digits: 4, before: before?.reading_rms_mm, after: after?.reading_rms_mm },
-    {
-      text: "Fresh readings, rms",
-      digits: 4,
-      before: before?.fresh_reading_rms_mm,
-      after: after?.fresh_reading_rms_mm,
-    },
-    {
-      text: "Predicted position error, rms",
-      digits: 3,
-      before: before?.predicted_position_error_mm?.rms,
-      after: after?.predicted_position_error_mm?.rms,
-    },
-    {
-      text: "Predicted position error, largest",
-      digits: 3,
-      before: before?.predicted_position_error_mm?.max,
-      after: after?.predicted_position_error_mm?.max,
-    },
-  ];
-  return (
-    <section class="panel">
-      <h2>Before and after, in mm</h2>
-      <table>
-        <thead>
-          <tr>
-            <td />
-            <th scope="col">{diagnosed ? "Without the effects" : "Before"}</th>
-            <th scope="col">{diagnosed ? "With them" : "After"}</th>
-          </tr>
-        </thead>
-        <tbody>
-          {rows.filter(({ before, after }) => before != null || after != null).map((row) => (
-            <tr>
-              <th scope="row" class="text">
-                {row.text}
-              </th>
-              <td>{fixed(row.before, row.digits)}</td>
-              <td class="main">{fixed(row.after, row.digits)}</td>
-            </tr>
-          ))}
-        </tbody>
-      </table>
-    </section>
-  );
 }
 
 function WeakDirection({ result: { weak_direction: weak } }: { result: Calibration }) {

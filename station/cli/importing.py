@@ -1,0 +1,53 @@
+"""`station import`: a measurement file into the history, diagnosed, while the service runs or not."""
+
+from __future__ import annotations
+
+import getpass
+from contextlib import closing
+from pathlib import Path
+
+import click
+
+from station.dataset import Upload, import_dataset
+from station.errors import InputRefused
+from station.records import CalibrationRequest
+from station.robot import Robot
+from station.settings import database_path, load_settings
+from station.store import Store
+
+_file = click.Path(path_type=Path)
+
+
+@click.command("import")
+@click.argument("data", type=_file)
+@click.option("--confirm", "fresh_file", type=_file, help="Fresh readings to confirm the cause with.")
+@click.option("--serial", default=Robot.default().serial, show_default=True, help="Robot that was measured.")
+@click.option("--operator", default=getpass.getuser, help="Who imports; default: who is logged in.")
+@click.option("--config", type=_file, help="Station file that names the database.")
+@click.pass_context
+def import_command(
+    context: click.Context,
+    data: Path,
+    fresh_file: Path | None,
+    serial: str,
+    operator: str,
+    config: Path | None,
+) -> None:
+    """Keep a measurement file as a finished run and trace what the model leaves over to its cause.
+
+    Exit status 0: fresh readings confirm the model; 1: they do not, or there are none.
+    """
+    learned = _read(data)
+    fresh = _read(fresh_file) if fresh_file else None
+    request = CalibrationRequest(serial, "dataset", operator)
+    with closing(Store(database_path(load_settings(config), context.obj))) as store:
+        run = store.summary(import_dataset(store, request, learned, fresh).id)
+    click.echo(f"Run {run['id']}: {run['verdict']}, {run['reason']}")
+    context.exit(0 if run["verdict"] == "pass" else 1)
+
+
+def _read(file: Path) -> Upload:
+    try:
+        return Upload(file.name, file.read_bytes())
+    except OSError as error:
+        raise InputRefused(f"{file} cannot be read: {error.strerror}.") from error

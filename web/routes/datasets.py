@@ -1,0 +1,72 @@
+"""`/datasets`: a measurement file made elsewhere becomes a run with its diagnosis.  The rig is not needed."""
+
+from __future__ import annotations
+
+from threading import Lock
+from typing import Annotated, Any
+
+from fastapi import APIRouter, Query, Request, Response
+from fastapi.exceptions import RequestValidationError
+from pydantic import ValidationError
+
+from station.dataset import import_dataset
+from station.records import CalibrationRequest
+from web.aside import aside
+from web.bodies import CalibrationSummary, DatasetFields
+from web.problems import documented
+from web.routes.parts import LOCATION, IdempotencyKey, TheRuntime
+from web.uploads import csv_or_form, uploaded
+
+FILES = ("file", "fresh")
+
+router = APIRouter(prefix="/datasets", tags=["datasets"])
+_one_at_a_time = Lock()
+"""So that many uploads cannot keep the processor from a run, and a key is never used twice at once."""
+
+
+@router.post(
+    "",
+    status_code=201,
+    response_model=CalibrationSummary,
+    responses={201: {"description": "Imported", "headers": LOCATION}, **documented(400, 409, 413, 415)},
+    openapi_extra=csv_or_form(*FILES, fields=DatasetFields.model_json_schema()["properties"]),
+)
+async def import_measurement_file(
+    request: Request,
+    runtime: TheRuntime,
+    response: Response,
+    query: Annotated[DatasetFields, Query()],
+    idempotency_key: IdempotencyKey = None,
+) -> dict[str, Any]:
+    """Diagnose a measurement file and keep it as a finished run of plan `dataset`.
+
+    A CSV body, or a form with `file` and, to confirm the cause, `fresh`: readings taken afterwards at
+    other places.  Only what fresh readings confirm is a pass.  A refused file leaves nothing behind.
+    """
+    sent = await uploaded(request, *FILES)
+    fields = _with(query, sent.fields)
+
+    def work() -> dict[str, Any]:
+        with _one_at_a_time:
+            submitted = import_dataset(
+                runtime.store,
+                CalibrationRequest(plan="dataset", **fields.model_dump()),
+                sent.files["file"],
+                sent.files.get("fresh"),
+                idempotency_key=idempotency_key,
+            )
+        return runtime.store.summary(submitted.id)
+
+    summary = await aside(work)
+    response.headers["Location"] = f"/api/v1/calibrations/{summary['id']}"
+    return summary
+
+
+def _with(query: DatasetFields, form: Any) -> DatasetFields:
+    """Form fields count before those of the query.  :raises RequestValidationError:"""
+    try:
+        return DatasetFields.model_validate({**query.model_dump(exclude_unset=True), **form})
+    except ValidationError as error:
+        raise RequestValidationError(
+            [{**e, "loc": ("body", *e["loc"])} for e in error.errors(include_url=False)]
+        ) from error
