@@ -27,6 +27,11 @@ def with_guesses(m: Measurements) -> Measurements:
     return replace(m, guessed=tuple(guessed))
 
 
+def in_words(m: Measurements) -> str:
+    """What was guessed, for people."""
+    return f"Not recorded, but guessed from the rows themselves: {' and '.join(m.guessed)}."
+
+
 def _approaches(theta: Real) -> np.ndarray:
     """(K, n) sense of each joint's last motion in the order of the rows; 0 before the first."""
     way = np.diff(theta, axis=0, prepend=theta[:1])

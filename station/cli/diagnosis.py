@@ -8,6 +8,7 @@ import click
 from rich.console import Console
 from rich.table import Table
 
+from station import guesses
 from station.cli.numerics import check_folders, describe, measured_option, write_json, write_text
 from station.diagnosis import kinds
 from station.diagnosis.cross_validation import without_a_quarter
@@ -140,6 +141,8 @@ def _print(findings: Findings) -> None:
         sizes_mm = (s.fit_rms_mm, s.holdout_rms_mm, s.holdout_max_mm, s.confirm_rms_mm, s.confirm_max_mm)
         table.add_row(s.model, str(s.unknowns), *("" if v is None else f"{v * 1e3:.2f}" for v in sizes_mm))
     console.print(table)
+    if findings.diagnosis.measurements.guessed:
+        console.print(guesses.in_words(findings.diagnosis.measurements))
     before, after = findings.position_errors
     over = kinds.extent(findings.fit)
     console.print(

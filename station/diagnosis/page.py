@@ -8,6 +8,7 @@ from dataclasses import replace
 import numpy as np
 from markupsafe import Markup
 
+from station import guesses
 from station.diagnosis import kinds
 from station.diagnosis.curves import Curve, curves
 from station.diagnosis.document import Findings, FoundEffect
@@ -54,7 +55,7 @@ def _errors(findings: Findings) -> Section:
         sizes = (s.fit_rms_mm, s.holdout_rms_mm, s.holdout_max_mm, s.confirm_rms_mm, s.confirm_max_mm)
         rows.append((s.model, s.unknowns, *(_um(v) for v in sizes)))
     before, after = findings.position_errors
-    noise = findings.noise
+    noise, measurements = findings.noise, findings.diagnosis.measurements
     origin = f"from {noise.dof} repeats" if noise.source == "repeats" else "as specified"
     return Section(
         "Errors before and after",
@@ -62,6 +63,7 @@ def _errors(findings: Findings) -> Section:
             f"Noise of one reading {noise.sigma_mm * MICROMETRES:.2f} {UM}, {origin}. "
             "“Place left out”: each place predicted from all others. "
             "“Fresh”: readings taken afterwards, predicted with everything frozen.",
+            *([guesses.in_words(measurements)] if measurements.guessed else []),
         ),
         (
             Table(
