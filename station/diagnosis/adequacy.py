@@ -15,7 +15,7 @@ from scipy.special import chdtrc, fdtrc, ndtr
 from station.diagnosis.model import Fit
 from station.kinematics import Real
 
-ALPHA = 0.003
+ALPHA = 0.001
 """Of each of the three tests: a clean machine is looked at twice in less than one of a hundred runs."""
 FEWEST_REPEATS = 6
 TENSION = 1e-4

@@ -1,107 +1,178 @@
 """Smooth departures from any model: in time, by approach and place, by place, along an angle or the travel.
 
-The catalogue names causes; these name nothing, and are what a cause has to beat.  A residual is
-held against a few smooth columns of each kind with whatever the model could still take up
-projected out (an added-variable F test; Cook and Weisberg, Residuals and Influence in Regression,
-1982, section 2.3.2).
+The catalogue names causes; these name none, and are what a cause has to leave nothing to.  A residual
+is held against a few smooth columns of each kind, with whatever the model could still take up
+projected out of them (added variables: Cook and Weisberg, Residuals and Influence in Regression,
+1982, section 2.3.2).  The null hypothesis of each F test is that the residual is noise.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import fdtrc
 
-from station.diagnosis.model import Fit, Model
+from station.diagnosis.model import Fit, Model, Term
 from station.effects import Conditions
 from station.kinematics import Complex, Real
+from station.least_squares import Prior
+
+SLOW, SMOOTH = 6, 8
+"""Half waves over the readings in order of time, and in order of an angle or the travel."""
+ACROSS, UP = 6, 3
+"""Half waves over the workspace."""
+LOST = 1e-3
+"""A column of which less is left after projection says nothing of its own."""
+STEP = 1e-4
+"""Relative, of the difference quotient of a searched parameter."""
 
 
 @dataclass(frozen=True)
-class Rest:
-    """What a model leaves of readings, whitened, and what it could still take up."""
+class Departure:
+    """One kind of dependence of a residual."""
 
-    residual: Real
-    """(N,) readings, then prior rows; perpendicular to `taken`."""
-    taken: Real
-    """(N, P) orthonormal."""
-    dof: int
-    conditions: Conditions
-    at: Complex
+    on: str
+    share: float
+    """Of the residual's square, beyond what as many columns take of noise; 0 to 1."""
+    p_value: float
+
+
+@dataclass(frozen=True)
+class Readings:
+    """K readings with what a model leaves of them and how it answers to its unknowns."""
+
+    residual_mm: Real
+    """(K,) measured less predicted."""
+    by_unknown: Real
+    """(K, X) mm: derivatives by the model's parameters, then by its searched ones."""
     row_sd: Real
     """(K,) mm"""
+    conditions: Conditions
+    at: Complex
+    """(K,) where P stood, mm."""
 
-    def reduction(self, columns: Real) -> tuple[float, int]:
-        """Of the square by columns (K, q) in mm, and how many of them count."""
-        spread = np.zeros((len(self.residual), columns.shape[1]))
-        spread[: len(self.row_sd)] = columns / self.row_sd[:, None]
-        norm = np.linalg.norm(spread, axis=0)
-        spread /= np.where(norm > 0, norm, 1.0)
-        left = spread - self.taken @ (self.taken.T @ spread)
-        u, s, _ = np.linalg.svd(left, full_matrices=False)
-        along = u[:, s > 1e-3].T @ self.residual
-        return float(along @ along), len(along)
-
-    def p_value(self, columns: Real) -> float:
-        won, size = self.reduction(columns)
-        dof = self.dof - size
-        rest = float(self.residual @ self.residual) - won
-        if dof <= 0 or size == 0:
-            return 1.0
-        return float(fdtrc(size, dof, (won / size) / (max(rest, 1e-12) / dof)))
+    def take(self, rows: NDArray[np.bool_]) -> Readings:
+        """Only these of them."""
+        return Readings(
+            self.residual_mm[rows],
+            self.by_unknown[rows],
+            self.row_sd[rows],
+            self.conditions.take(rows),
+            self.at[rows],
+        )
 
 
-def cosines(along: Real, count: int) -> Real:
-    """(K, count) half waves over the order of the readings along something."""
+def readings(model: Model, x: Real, measured: Real, row_sd: Real, c: Conditions) -> Readings:
+    """Of a model at its unknowns x (X,), with measured (K,), mm."""
+    predicted = model.observe(x, model.bases(c))
+    J = np.column_stack([predicted.by_parameter, *_by_searched(model, x, c)])
+    at = model.mechanism.positions(x[: model.base_size])
+    return Readings(measured - predicted.value, J, row_sd, c, at)
+
+
+def _by_searched(model: Model, x: Real, c: Conditions) -> Iterator[Real]:
+    """(K,) derivative by each searched parameter that lies between the points of its grid."""
+    for k, term in enumerate(model.terms):
+        for name in term.effect.refined(term.hidden, c):
+            step = STEP * (abs(term.hidden[name]) or 1.0)
+            beside = (_turned(term, name, step), _turned(term, name, -step))
+            up, down = (replace(model, terms=(*model.terms[:k], t, *model.terms[k + 1 :])) for t in beside)
+            yield (up.observe(x, up.bases(c)).value - down.observe(x, down.bases(c)).value) / (2.0 * step)
+
+
+def _turned(term: Term, name: str, by: float) -> Term:
+    return replace(term, hidden={**term.hidden, name: term.hidden[name] + by})
+
+
+class Rest:
+    """What a model leaves of readings, with everything that its unknowns could take up taken."""
+
+    def __init__(self, parts: tuple[Readings, ...], prior: Prior, x: Real) -> None:
+        """`parts` in order of time; prior and x of the model's parameters."""
+        self._sd = np.concatenate([part.row_sd for part in parts])
+        J = np.concatenate([part.by_unknown / part.row_sd[:, None] for part in parts])
+        held = np.zeros((len(prior.root), J.shape[1]))
+        held[:, : prior.root.shape[1]] = prior.root
+        r = [part.residual_mm / part.row_sd for part in parts]
+        self._taken = _orthonormal(np.concatenate([J, held]))
+        z = np.concatenate([*r, prior.root @ (prior.mean - x)])
+        self._left = z - self._taken @ (self._taken.T @ z)
+        self._dof = len(z) - J.shape[1]
+        self._at = np.concatenate([part.at for part in parts])
+        self._conditions = [part.conditions for part in parts]
+
+    def departures(self) -> tuple[Departure, ...]:
+        """Every kind that these readings can show, in no order of importance."""
+        approach = self._joined("approach")
+        found = [self._test("time", _half_waves(self._joined("t_s"), SLOW))]
+        if np.any(approach != 0):
+            direction = self._joined("slider_direction")
+            doubtful = direction != self._joined("slider_net")
+            senses = np.column_stack([approach, direction])
+            found.append(self._test("approach x place", self._by_place_and(senses), doubtful))
+        found.append(self._test("place", self._over_workspace()))
+        theta = self._joined("theta")
+        found += [self._test(f"theta{i + 1}", _half_waves(t, SMOOTH)) for i, t in enumerate(theta.T)]
+        found.append(self._test("travel", _half_waves(self._joined("travel"), SMOOTH)))
+        return tuple(found)
+
+    def _joined(self, name: str) -> Real:
+        return np.concatenate([getattr(c, name) for c in self._conditions])
+
+    def _test(self, on: str, columns: Real, left_out: np.ndarray | None = None) -> Departure:
+        """Columns (K, q) in mm; readings `left_out` (K,) take no part."""
+        taken, left = self._taken, self._left
+        if left_out is not None and left_out.any():
+            alone = np.eye(len(left))[:, np.flatnonzero(left_out)]
+            alone = _orthonormal(alone - taken @ (taken.T @ alone))
+            left = left - alone @ (alone.T @ left)
+            taken = np.column_stack([taken, alone])
+        spread = np.zeros((len(left), columns.shape[1]))
+        spread[: len(self._sd)] = columns / self._sd[:, None]
+        spread /= np.maximum(np.linalg.norm(spread, axis=0), 1e-300)
+        u, s, _ = np.linalg.svd(spread - taken @ (taken.T @ spread), full_matrices=False)
+        along = u[:, s > LOST].T @ left
+        size = len(along)
+        whole, won = float(left @ left), float(along @ along)
+        dof = self._dof - (taken.shape[1] - self._taken.shape[1]) - size
+        if size == 0 or dof <= 0 or whole <= won:
+            return Departure(on, 0.0, 1.0)
+        noise = (whole - won) / dof
+        p_value = float(fdtrc(size, dof, won / size / noise))
+        return Departure(on, float(max(won - size * noise, 0.0) / whole), p_value)
+
+    def _by_place_and(self, senses: Real) -> Real:
+        """(K, 6 n) each sense times a parabola over the workspace."""
+        x, y = _centred(self._at.real), _centred(self._at.imag)
+        smooth = np.column_stack([np.ones(len(x)), x, y, x * x, x * y, y * y])
+        return np.asarray((senses[:, :, None] * smooth[:, None, :]).reshape(len(x), -1))
+
+    def _over_workspace(self) -> Real:
+        x, y = (np.pi * (_centred(v) + 1.0) / 2.0 for v in (self._at.real, self._at.imag))
+        waves = [np.cos(i * x) * np.cos(j * y) for i in range(ACROSS) for j in range(UP) if i + j]
+        return np.column_stack(waves)
+
+
+def of_fit(fit: Fit) -> Readings:
+    """The readings a model was learned on."""
+    return readings(fit.model, fit.x, fit.model.mechanism.measured, fit.row_sd, fit.conditions)
+
+
+def _orthonormal(J: Real) -> Real:
+    norms = np.linalg.norm(J, axis=0)
+    return np.asarray(np.linalg.qr(J / np.where(norms > 0.0, norms, 1.0))[0])
+
+
+def _half_waves(along: Real, count: int) -> Real:
+    """(K, count) cosines over the order of the readings along something."""
     rank = np.argsort(np.argsort(along, kind="stable"), kind="stable")
-    s = (rank + 0.5) / len(along)
-    return np.cos(np.pi * s[:, None] * np.arange(1, count + 1))
+    return np.asarray(np.cos(np.pi * (rank[:, None] + 0.5) / len(along) * np.arange(1, count + 1)))
 
 
-def unit(v: Real) -> Real:
+def _centred(v: Real) -> Real:
+    """From -1 to 1."""
     low, high = float(v.min()), float(v.max())
-    return (v - low) / ((high - low) or 1.0)
-
-
-def by_approach(c: Conditions, at: Complex) -> Real:
-    x, y = 2.0 * unit(at.real) - 1.0, 2.0 * unit(at.imag) - 1.0
-    smooth = np.stack([np.ones(len(x)), x, y, x * x, x * y, y * y], axis=1)
-    senses = np.column_stack([c.slider_direction, c.slider_net, c.approach])
-    return (senses[:, :, None] * smooth[:, None, :]).reshape(len(x), -1)
-
-
-def by_place(at: Complex) -> Real:
-    x, y = unit(at.real), unit(at.imag)
-    return np.stack(
-        [np.cos(np.pi * i * x) * np.cos(np.pi * j * y) for i in range(6) for j in range(3) if i + j], axis=1
-    )
-
-
-def kinds(rest: Rest) -> Iterator[tuple[str, Real]]:
-    c = rest.conditions
-    yield "time", cosines(c.t_s, 6)
-    yield "approach x place", by_approach(c, rest.at)
-    yield "place", by_place(rest.at)
-    for i in range(c.theta.shape[1]):
-        yield f"theta{i + 1}", cosines(c.theta[:, i], 8)
-    yield "travel", cosines(c.travel, 8)
-
-
-def pooled(learned: Fit, model: Model, residual: Real, J: Real, sd: Real, fresh: Conditions) -> Rest:
-    """Of readings learned on and fresh ones together; hidden parameters stay as learned."""
-    s = learned.solution
-    stacked = np.concatenate([s.jacobian, J / sd[:, None], learned.prior.root])
-    pull = learned.prior.root @ (learned.prior.mean - learned.x)
-    z = np.concatenate([-s.residual, residual / sd, pull])
-    norms = np.linalg.norm(stacked, axis=0)
-    q = np.linalg.qr(stacked / np.where(norms > 0, norms, 1.0))[0]
-    a, base = learned.model, learned.x[: learned.model.base_size]
-    at = np.concatenate([a.mechanism.positions(base), model.mechanism.positions(base)])
-    both = {}
-    for name in ("t_s", "theta", "drive_angle", "approach", "travel", "slider_direction", "slider_net", "pull"):
-        both[name] = np.concatenate([getattr(learned.conditions, name), getattr(fresh, name)])
-    c = Conditions(**both, temperature_rise=None, payload_kg=None, lengths={})
-    n = len(learned.row_sd) + len(sd)
-    return Rest(z - q @ (q.T @ z), q, n - learned.prior.free, c, at, np.concatenate([learned.row_sd, sd]))
+    return np.asarray((2.0 * v - low - high) / ((high - low) or 1.0))

@@ -130,20 +130,21 @@ def diagnose(
 
 def _confirmed(found: Trace, fresh: Measurements) -> tuple[Trace, tuple[Confirmation, ...]]:
     """Every stage against the fresh readings; they also settle between look-alikes left open by the walk."""
-    checks = tuple(_check(stage, fresh) for stage in found.stages)
+    base = found.stages[0].fit
+    checks = tuple(_check(base, stage, fresh) for stage in found.stages)
     if not found.findings or not found.adequate or checks[-1].confirmed:
         return found, checks
     for alias in found.findings[-1].aliases:
         mechanism = found.stages[0].fit.model.mechanism
         other = with_alias(found, alias, tolerance_prior(mechanism), mechanism.row_sd)
-        check = _check(other.stages[-1], fresh)
+        check = _check(base, other.stages[-1], fresh)
         if other.adequate and check.confirmed:
             return other, (*checks[:-1], check)
     return found, checks
 
 
-def _check(stage: Stage, fresh: Measurements) -> Confirmation:
-    return confirm(stage.fit, fresh, max(stage.adequacy.pure_dof, FEWEST_NOISE_DOF))
+def _check(base: Fit, stage: Stage, fresh: Measurements) -> Confirmation:
+    return confirm(base, stage.fit, fresh, max(stage.adequacy.pure_dof, FEWEST_NOISE_DOF))
 
 
 def check_enough(measurements: Measurements) -> None:
