@@ -71,12 +71,17 @@ def judge(fit: Fit, specified_sd: Real) -> Adequacy:
     pure = float(np.sum((r / fit.row_sd - mean[group]) ** 2))
     dof = int(np.sum(counts - 1))
     known = dof >= FEWEST_REPEATS and pure > 0.0
-    lack_p = _lack_of_fit_p(fit, pure, dof) if known else float(chdtrc(fit.dof, fit.cost))
-    against_spec = pure * float(np.mean((fit.row_sd / specified_sd) ** 2))
+    to_spec = float(np.mean((fit.row_sd / specified_sd) ** 2))
+    against_spec = pure * to_spec
+    repeats_p = float(chdtrc(dof, against_spec)) if known else 1.0
+    lack_p = _lack_of_fit_p(fit, pure, dof) if known else 1.0
+    if repeats_p >= ALPHA:
+        # few repeats say little; no worse than specified, they let the specification speak
+        lack_p = min(lack_p, float(chdtrc(fit.dof, fit.cost * to_spec)))
     return Adequacy(
         lack_of_fit_p=lack_p,
         order_in_time_p=_order_p(r / fit.row_sd, fit.model.mechanism.measurements.t_s),
-        repeats_p=float(chdtrc(dof, against_spec)) if known else 1.0,
+        repeats_p=repeats_p,
         pure_factor=float(np.sqrt(pure / dof)) if known else float("nan"),
         pure_dof=dof,
         loudness=float(np.sqrt(against_spec / dof)) if known else float("nan"),

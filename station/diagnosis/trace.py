@@ -91,8 +91,38 @@ def trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[Effec
         findings.append(finding)
         stage = _settled(better.model, prior, specified_sd, better)
         stages.append(stage)
+        if len(findings) > 1:
+            findings = _reconsidered(findings, stage.fit, prior, effects)
+            stages = _staged(base, findings, prior, specified_sd, stages[0])
+            stage = stages[-1]
         odd = _odd_readings(stage.fit)
     return Trace(tuple(stages), tuple(findings), odd)
+
+
+def _reconsidered(findings: list[Finding], full: Fit, prior: Prior, effects: Sequence[Effect]) -> list[Finding]:
+    """Each earlier finding once more, beside all the others: it was chosen while they disturbed it."""
+    best = full
+    findings = list(findings)
+    for k in range(len(findings) - 1):
+        others = tuple(f.term for j, f in enumerate(findings) if j != k)
+        try:
+            without = fit(replace(full.model, terms=others), prior, full.row_sd)
+        except NotConvergedError:
+            continue
+        scan = Scan(without)
+        chosen = _add(scan, prior, scan.candidates(_others(effects, others)))
+        if chosen is not None and chosen[1].cost <= best.cost:
+            findings[k], best = chosen
+    return findings
+
+
+def _staged(
+    base: Model, findings: list[Finding], prior: Prior, specified_sd: Real, first: Stage
+) -> list[Stage]:
+    """The way anew: the base model, then one more of the findings each."""
+    terms = [f.term for f in findings]
+    models = [replace(base, terms=tuple(terms[: k + 1])) for k in range(len(terms))]
+    return [first, *(_settled(model, prior, specified_sd, None) for model in models)]
 
 
 def with_alias(found: Trace, alias: Term, prior: Prior, specified_sd: Real) -> Trace:
