@@ -12,6 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import chdtrc, fdtrc, ndtr
 
+from station.diagnosis.departures import Rest, departures, of_fit
 from station.diagnosis.model import Fit
 from station.kinematics import Real
 
@@ -37,13 +38,15 @@ class Adequacy:
     pure_dof: int
     loudness: float
     """Pure error over the specification; NaN without enough repeats."""
+    departure_p: float
+    """Of the most significant smooth departure, the price of all of them included."""
     tension_p: float
     """Of the parameters against their tolerances: a model may fit by bending what is known."""
 
     @property
     def passed(self) -> bool:
         """By the tests that a somewhat noisier head alone does not fail."""
-        fits = min(self.lack_of_fit_p, self.order_in_time_p) >= ALPHA
+        fits = min(self.lack_of_fit_p, self.order_in_time_p, self.departure_p) >= ALPHA
         return fits and not self.loud and self.tension_p >= TENSION
 
     @property
@@ -85,8 +88,14 @@ def judge(fit: Fit, specified_sd: Real) -> Adequacy:
         pure_factor=float(np.sqrt(pure / dof)) if known else float("nan"),
         pure_dof=dof,
         loudness=float(np.sqrt(against_spec / dof)) if known else float("nan"),
+        departure_p=_departure_p(fit),
         tension_p=_tension_p(fit),
     )
+
+
+def _departure_p(fit: Fit) -> float:
+    found = departures(Rest((of_fit(fit, fit.row_sd),), fit.prior, fit.x))
+    return min(1.0, len(found) * min(d.p_value for d in found))
 
 
 def _tension_p(fit: Fit) -> float:

@@ -1,8 +1,9 @@
 """Fresh readings against a frozen model: only what predicts them may be called the cause.
 
-Two questions are put to them.  Are they predicted as a whole (chi-square with the prediction
-covariance)?  And does nothing that a nameless smooth departure could describe show in old and fresh
-readings together (`departures`)?  The second asks far more of a model, since it knows where to look.
+Three questions are put to them.  Are they predicted as a whole (chi-square with the prediction
+covariance)?  Do old and fresh readings together show no smooth departure from the model
+(`departures`)?  And are the effects a far better account of all of them than a wandering without a
+name (`rivals`)?  The last two ask far more than the first, since they know where to look.
 """
 
 from __future__ import annotations
@@ -12,8 +13,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import fdtrc
 
-from station.diagnosis.departures import Departure, Readings, Rest, of_fit, readings
+from station.diagnosis.departures import Departure, Readings, Rest, departures, of_fit, readings
 from station.diagnosis.model import Fit, Model
+from station.diagnosis.rivals import strongest
 from station.five_bar import FiveBar
 from station.kinematics import Real
 from station.measurements import Measurements
@@ -22,10 +24,6 @@ REFUSED_P = 0.001
 """A true model is refused this often as a whole,"""
 DIRECTED_P = 1e-4
 """and this often by each of the directed tests."""
-DOUBTED_P = 0.05
-"""A departure no more significant than this still counts"""
-DOUBTED_SHARE = 0.05
-"""where it is as large as this share of what the effects took: so small an effect must be beyond doubt."""
 FEWEST = 8
 FAR_OFF = 5.0
 """Standard deviations; and of few fresh readings, at most this share:"""
@@ -43,15 +41,16 @@ class Confirmation:
     p_value: float
     left_out: tuple[int | str, ...]
     """Ids of few fresh readings far off a model that predicts all others; they took no part in the tests."""
+    rest: Rest
+    """What the model leaves of readings learned on and fresh ones together."""
     departures: tuple[Departure, ...]
-    """Of readings learned on and fresh ones together."""
-    unproven: bool
-    """The effects took so little that a departure of no great significance may be their better name."""
+    """Of it."""
+    rival: str | None
+    """A nameless dependence that makes all readings about as probable as the effects do."""
 
     @property
     def confirmed(self) -> bool:
-        departs = any(d.p_value < DIRECTED_P for d in self.departures)
-        return bool(self.p_value >= REFUSED_P) and not departs and not self.unproven
+        return _predicted(self.p_value, self.departures) and self.rival is None
 
     @property
     def rms_mm(self) -> float:
@@ -68,29 +67,38 @@ def confirm(base: Fit, learned: Fit, fresh: Measurements, noise_dof: int) -> Con
     The statistic is chi-square with the prediction covariance, searched parameters included; as the
     noise itself was estimated with `noise_dof` degrees of freedom it is held against F.
     """
-    model = Model(FiveBar(learned.model.mechanism.robot, fresh), learned.model.reference, learned.model.terms)
-    ratio = float(np.sqrt(np.mean(learned.row_sd**2) / np.mean(learned.model.mechanism.row_sd**2)))
-    noise = model.mechanism.row_sd * ratio
-    conditions = model.conditions(learned.x[: model.base_size], first=False)
-    before, after = of_fit(learned), readings(model, learned.x, fresh.distance, noise, conditions)
+    sd = learned.row_sd
+    ratio = float(np.sqrt(np.mean(sd**2) / np.mean(learned.model.mechanism.row_sd**2)))
+    before, after = of_fit(learned, sd), _fresh(learned, fresh, ratio)
     residual, J = after.residual_mm, after.by_unknown
-    covariance = J @ _covariance(learned, before) @ J.T + np.diag(noise**2)
-    sd = np.sqrt(np.diag(covariance))
+    covariance = J @ _covariance(learned, before) @ J.T + np.diag(after.row_sd**2)
+    sd_mm = np.sqrt(np.diag(covariance))
     kept = np.ones(len(residual), dtype=bool)
-    off = np.abs(residual) > FAR_OFF * sd
+    off = np.abs(residual) > FAR_OFF * sd_mm
     if 0 < off.sum() <= max(1, int(FEW_OFF * len(residual))):
         kept = ~off
     few = residual[kept]
     square = float(few @ np.linalg.solve(covariance[np.ix_(kept, kept)], few))
-    departures = Rest((before, after.take(kept)), learned.prior, learned.x).departures()
-    return Confirmation(
-        residual_mm=residual,
-        sd_mm=sd,
-        p_value=float(fdtrc(len(few), max(noise_dof, 1), square / len(few))),
-        left_out=tuple(np.array(fresh.ids, dtype=object)[~kept]),
-        departures=departures,
-        unproven=_unproven(base, learned, departures),
-    )
+    p_value = float(fdtrc(len(few), max(noise_dof, 1), square / len(few)))
+    rest = Rest((before, after.take(kept)), learned.prior, learned.x)
+    found = departures(rest)
+    rival = None
+    if learned.model.terms and _predicted(p_value, found):
+        without = Rest((of_fit(base, sd), _fresh(base, fresh, ratio).take(kept)), base.prior, base.x)
+        rival = strongest(without, rest, learned.model.terms, learned.conditions)
+    left_out = tuple(np.array(fresh.ids, dtype=object)[~kept])
+    return Confirmation(residual, sd_mm, p_value, left_out, rest, found, rival)
+
+
+def _predicted(p_value: float, found: tuple[Departure, ...]) -> bool:
+    return p_value >= REFUSED_P and all(d.p_value >= DIRECTED_P for d in found)
+
+
+def _fresh(learned: Fit, fresh: Measurements, ratio: float) -> Readings:
+    """Fresh readings under a model learned on others; `ratio` of their noise to the specification."""
+    model = Model(FiveBar(learned.model.mechanism.robot, fresh), learned.model.reference, learned.model.terms)
+    conditions = model.conditions(learned.x[: model.base_size], first=False)
+    return readings(model, learned.x, fresh.distance, model.mechanism.row_sd * ratio, conditions)
 
 
 def _covariance(learned: Fit, before: Readings) -> Real:
@@ -105,11 +113,3 @@ def _covariance(learned: Fit, before: Readings) -> Real:
     norms[norms == 0.0] = 1.0
     inverse = np.linalg.pinv(stacked / norms)
     return np.asarray(inverse @ inverse.T / np.outer(norms, norms))
-
-
-def _unproven(base: Fit, learned: Fit, departures: tuple[Departure, ...]) -> bool:
-    """Squares count the tolerances too: geometry gives way to a smooth effect before the readings do."""
-    if not learned.model.terms:
-        return False
-    took = base.cost * float(np.mean(base.row_sd**2) / np.mean(learned.row_sd**2)) - learned.cost
-    return any(d.p_value < DOUBTED_P and d.share * learned.cost > DOUBTED_SHARE * took for d in departures)

@@ -88,77 +88,100 @@ def _turned(term: Term, name: str, by: float) -> Term:
 
 
 class Rest:
-    """What a model leaves of readings, with everything that its unknowns could take up taken."""
+    """What a model leaves of readings, with everything that its unknowns could take up taken.
+
+    Whitened rows: the readings of all parts, then those of the prior.
+    """
 
     def __init__(self, parts: tuple[Readings, ...], prior: Prior, x: Real) -> None:
         """`parts` in order of time; prior and x of the model's parameters."""
-        self._sd = np.concatenate([part.row_sd for part in parts])
+        self.row_sd: Real = np.concatenate([part.row_sd for part in parts])
+        """(K,) mm"""
+        self.at: Complex = np.concatenate([part.at for part in parts])
+        """(K,) where P stood, mm."""
         J = np.concatenate([part.by_unknown / part.row_sd[:, None] for part in parts])
         held = np.zeros((len(prior.root), J.shape[1]))
         held[:, : prior.root.shape[1]] = prior.root
-        r = [part.residual_mm / part.row_sd for part in parts]
-        self._taken = _orthonormal(np.concatenate([J, held]))
-        z = np.concatenate([*r, prior.root @ (prior.mean - x)])
-        self._left = z - self._taken @ (self._taken.T @ z)
-        self._dof = len(z) - J.shape[1]
-        self._at = np.concatenate([part.at for part in parts])
+        z = [*(part.residual_mm / part.row_sd for part in parts), prior.root @ (prior.mean - x)]
+        self.taken = _orthonormal(np.concatenate([J, held]))
+        """(N, X) directions that the unknowns can take up."""
+        self.left = perpendicular(np.concatenate(z), self.taken)
+        """(N,)"""
+        self.dof = len(self.left) - J.shape[1]
         self._conditions = [part.conditions for part in parts]
 
-    def departures(self) -> tuple[Departure, ...]:
-        """Every kind that these readings can show, in no order of importance."""
-        approach = self._joined("approach")
-        found = [self._test("time", _half_waves(self._joined("t_s"), SLOW))]
-        if np.any(approach != 0):
-            direction = self._joined("slider_direction")
-            doubtful = direction != self._joined("slider_net")
-            senses = np.column_stack([approach, direction])
-            found.append(self._test("approach x place", self._by_place_and(senses), doubtful))
-        found.append(self._test("place", self._over_workspace()))
-        theta = self._joined("theta")
-        found += [self._test(f"theta{i + 1}", _half_waves(t, SMOOTH)) for i, t in enumerate(theta.T)]
-        found.append(self._test("travel", _half_waves(self._joined("travel"), SMOOTH)))
-        return tuple(found)
+    @property
+    def square(self) -> float:
+        return float(self.left @ self.left)
 
-    def _joined(self, name: str) -> Real:
+    def of(self, name: str) -> Real:
+        """(K, ...) of the conditions of all readings."""
         return np.concatenate([getattr(c, name) for c in self._conditions])
 
-    def _test(self, on: str, columns: Real, left_out: np.ndarray | None = None) -> Departure:
-        """Columns (K, q) in mm; readings `left_out` (K,) take no part."""
-        taken, left = self._taken, self._left
-        if left_out is not None and left_out.any():
-            alone = np.eye(len(left))[:, np.flatnonzero(left_out)]
-            alone = _orthonormal(alone - taken @ (taken.T @ alone))
-            left = left - alone @ (alone.T @ left)
-            taken = np.column_stack([taken, alone])
-        spread = np.zeros((len(left), columns.shape[1]))
-        spread[: len(self._sd)] = columns / self._sd[:, None]
-        spread /= np.maximum(np.linalg.norm(spread, axis=0), 1e-300)
-        u, s, _ = np.linalg.svd(spread - taken @ (taken.T @ spread), full_matrices=False)
-        along = u[:, s > LOST].T @ left
-        size = len(along)
-        whole, won = float(left @ left), float(along @ along)
-        dof = self._dof - (taken.shape[1] - self._taken.shape[1]) - size
-        if size == 0 or dof <= 0 or whole <= won:
-            return Departure(on, 0.0, 1.0)
-        noise = (whole - won) / dof
-        p_value = float(fdtrc(size, dof, won / size / noise))
-        return Departure(on, float(max(won - size * noise, 0.0) / whole), p_value)
-
-    def _by_place_and(self, senses: Real) -> Real:
-        """(K, 6 n) each sense times a parabola over the workspace."""
-        x, y = _centred(self._at.real), _centred(self._at.imag)
-        smooth = np.column_stack([np.ones(len(x)), x, y, x * x, x * y, y * y])
-        return np.asarray((senses[:, :, None] * smooth[:, None, :]).reshape(len(x), -1))
-
-    def _over_workspace(self) -> Real:
-        x, y = (np.pi * (_centred(v) + 1.0) / 2.0 for v in (self._at.real, self._at.imag))
-        waves = [np.cos(i * x) * np.cos(j * y) for i in range(ACROSS) for j in range(UP) if i + j]
-        return np.column_stack(waves)
+    def spread(self, columns: Real) -> Real:
+        """(N, q) whitened, of columns (K, q) in mm."""
+        rows = np.zeros((len(self.left), columns.shape[1]))
+        rows[: len(self.row_sd)] = columns / self.row_sd[:, None]
+        return rows
 
 
-def of_fit(fit: Fit) -> Readings:
-    """The readings a model was learned on."""
-    return readings(fit.model, fit.x, fit.model.mechanism.measured, fit.row_sd, fit.conditions)
+def departures(rest: Rest) -> tuple[Departure, ...]:
+    """Every kind that these readings can show, in no order of importance."""
+    found = [_test(rest, "time", _half_waves(rest.of("t_s"), SLOW))]
+    if np.any(rest.of("approach") != 0):
+        # where the slider's sense is in doubt nothing can be said of it
+        doubtful = rest.of("slider_direction") != rest.of("slider_net")
+        found.append(_test(rest, "approach x place", by_approach_and_place(rest), doubtful))
+    found.append(_test(rest, "place", _over_workspace(rest)))
+    theta = rest.of("theta")
+    found += [_test(rest, f"theta{i + 1}", _half_waves(t, SMOOTH)) for i, t in enumerate(theta.T)]
+    found.append(_test(rest, "travel", _half_waves(rest.of("travel"), SMOOTH)))
+    return tuple(found)
+
+
+def _test(rest: Rest, on: str, columns: Real, left_out: NDArray[np.bool_] | None = None) -> Departure:
+    """Columns (K, q) in mm; readings `left_out` (K,) take no part."""
+    taken, left = rest.taken, rest.left
+    if left_out is not None and left_out.any():
+        alone = _orthonormal(perpendicular(np.eye(len(left))[:, np.flatnonzero(left_out)], taken))
+        left = perpendicular(left, alone)
+        taken = np.column_stack([taken, alone])
+    added = rest.spread(columns)
+    added /= np.maximum(np.linalg.norm(added, axis=0), 1e-300)
+    u, s, _ = np.linalg.svd(perpendicular(added, taken), full_matrices=False)
+    along = u[:, s > LOST].T @ left
+    size = len(along)
+    whole, won = float(left @ left), float(along @ along)
+    dof = rest.dof - (taken.shape[1] - rest.taken.shape[1]) - size
+    if size == 0 or dof <= 0 or whole <= won:
+        return Departure(on, 0.0, 1.0)
+    noise = (whole - won) / dof
+    p_value = float(fdtrc(size, dof, won / size / noise))
+    return Departure(on, float(max(won - size * noise, 0.0) / whole), p_value)
+
+
+def by_approach_and_place(rest: Rest) -> Real:
+    """(K, 6 n) each sense of motion times a parabola over the workspace."""
+    x, y = _centred(rest.at.real), _centred(rest.at.imag)
+    senses = np.column_stack([rest.of("approach"), rest.of("slider_direction")])
+    smooth = np.column_stack([np.ones(len(x)), x, y, x * x, x * y, y * y])
+    return np.asarray((senses[:, :, None] * smooth[:, None, :]).reshape(len(x), -1))
+
+
+def _over_workspace(rest: Rest) -> Real:
+    x, y = (np.pi * (_centred(v) + 1.0) / 2.0 for v in (rest.at.real, rest.at.imag))
+    waves = [np.cos(i * x) * np.cos(j * y) for i in range(ACROSS) for j in range(UP) if i + j]
+    return np.column_stack(waves)
+
+
+def perpendicular(columns: Real, taken: Real) -> Real:
+    """What is left of columns (N, ...) with orthonormal `taken` (N, X) projected out."""
+    return np.asarray(columns - taken @ (taken.T @ columns))
+
+
+def of_fit(fit: Fit, row_sd: Real) -> Readings:
+    """The readings a model was learned on, with noise row_sd (K,), mm."""
+    return readings(fit.model, fit.x, fit.model.mechanism.measured, row_sd, fit.conditions)
 
 
 def _orthonormal(J: Real) -> Real:

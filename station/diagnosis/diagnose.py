@@ -134,12 +134,16 @@ def _confirmed(found: Trace, fresh: Measurements) -> tuple[Trace, tuple[Confirma
     checks = tuple(_check(base, stage, fresh) for stage in found.stages)
     if not found.findings or not found.adequate or checks[-1].confirmed:
         return found, checks
-    for alias in found.findings[-1].aliases:
-        mechanism = found.stages[0].fit.model.mechanism
-        other = with_alias(found, alias, tolerance_prior(mechanism), mechanism.row_sd)
-        check = _check(base, other.stages[-1], fresh)
-        if other.adequate and check.confirmed:
-            return other, (*checks[:-1], check)
+    mechanism = found.stages[0].fit.model.mechanism
+    for at, finding in enumerate(found.findings):
+        for alias in finding.aliases:
+            try:
+                other = with_alias(found, at, alias, tolerance_prior(mechanism), mechanism.row_sd)
+            except NotConvergedError:
+                continue
+            check = _check(base, other.stages[-1], fresh)
+            if other.adequate and check.confirmed:
+                return other, (*(_check(base, stage, fresh) for stage in other.stages[:-1]), check)
     return found, checks
 
 

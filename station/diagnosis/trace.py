@@ -99,7 +99,9 @@ def trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[Effec
     return Trace(tuple(stages), tuple(findings), odd)
 
 
-def _reconsidered(findings: list[Finding], full: Fit, prior: Prior, effects: Sequence[Effect]) -> list[Finding]:
+def _reconsidered(
+    findings: list[Finding], full: Fit, prior: Prior, effects: Sequence[Effect]
+) -> list[Finding]:
     """Each earlier finding once more, beside all the others: it was chosen while they disturbed it."""
     best = full
     findings = list(findings)
@@ -125,15 +127,15 @@ def _staged(
     return [first, *(_settled(model, prior, specified_sd, None) for model in models)]
 
 
-def with_alias(found: Trace, alias: Term, prior: Prior, specified_sd: Real) -> Trace:
-    """The same way with a look-alike of the last finding in its place."""
-    *earlier, last = found.findings
-    model = found.stages[-2].fit.model
-    better = fit(replace(model, terms=(*model.terms, alias)), prior, found.stages[-1].fit.row_sd)
-    others = (last.term, *(t for t in last.aliases if t is not alias))
-    swapped = Finding(alias, last.p_value, others)
-    stage = _settled(better.model, prior, specified_sd, better)
-    return replace(found, stages=(*found.stages[:-1], stage), findings=(*earlier, swapped))
+def with_alias(found: Trace, at: int, alias: Term, prior: Prior, specified_sd: Real) -> Trace:
+    """The same way with a look-alike in the place of finding number `at`."""
+    old = found.findings[at]
+    others = (old.term, *(t for t in old.aliases if t is not alias))
+    findings = list(found.findings)
+    findings[at] = Finding(alias, old.p_value, others)
+    first = found.stages[0]
+    stages = _staged(first.fit.model, findings, prior, specified_sd, first)
+    return replace(found, stages=tuple(stages), findings=tuple(findings))
 
 
 def _odd_readings(found: Fit) -> tuple[Outlier, ...]:
