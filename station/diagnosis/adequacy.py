@@ -1,8 +1,8 @@
-"""Whether a fit is good enough to stop: lack of fit, order in time, repeats, tolerances.
+"""Whether a fit is good enough to stop: lack of fit, order, smooth departures, repeats, tolerances.
 
 Null hypothesis of each test: the residual is noise.  The repeats' own scatter is the yardstick for
-the rest; where something changes with time it scatters too much itself, which is why the other two
-tests stand beside it.
+the rest; where something changes with time it scatters too much itself, and few repeats are a poor
+yardstick, which is why the other tests stand beside it.
 """
 
 from __future__ import annotations
@@ -16,8 +16,8 @@ from station.diagnosis.departures import Rest, departures, of_fit
 from station.diagnosis.model import Fit
 from station.kinematics import Real
 
-ALPHA = 0.001
-"""Of each of the three tests: a clean machine is looked at twice in less than one of a hundred runs."""
+ALPHA = 5e-4
+"""Of each test: a clean machine is looked at twice in two of a thousand runs."""
 FEWEST_REPEATS = 6
 TENSION = 1e-4
 """Tolerances are rougher than noise: only a plain contradiction counts."""
@@ -27,7 +27,7 @@ LOUD = 3.0
 
 @dataclass(frozen=True)
 class Adequacy:
-    """p-values of the three tests and the pure error they used."""
+    """p-values of the tests and the pure error they used."""
 
     lack_of_fit_p: float
     order_in_time_p: float

@@ -16,8 +16,10 @@ from scipy.special import fdtrc
 from station.diagnosis.departures import Departure, Readings, Rest, departures, of_fit, readings
 from station.diagnosis.model import Fit, Model
 from station.diagnosis.rivals import strongest
+from station.effects import doubtful
 from station.five_bar import FiveBar
 from station.kinematics import Real
+from station.least_squares import BLIND
 from station.measurements import Measurements
 
 REFUSED_P = 0.001
@@ -71,12 +73,13 @@ def confirm(base: Fit, learned: Fit, fresh: Measurements, noise_dof: int) -> Con
     ratio = float(np.sqrt(np.mean(sd**2) / np.mean(learned.model.mechanism.row_sd**2)))
     before, after = of_fit(learned, sd), _fresh(learned, fresh, ratio)
     residual, J = after.residual_mm, after.by_unknown
-    covariance = J @ _covariance(learned, before) @ J.T + np.diag(after.row_sd**2)
+    spread = J @ _root(learned, before)
+    covariance = spread @ spread.T + np.diag(after.row_sd**2)
     sd_mm = np.sqrt(np.diag(covariance))
-    kept = np.ones(len(residual), dtype=bool)
     off = np.abs(residual) > FAR_OFF * sd_mm
-    if 0 < off.sum() <= max(1, int(FEW_OFF * len(residual))):
-        kept = ~off
+    kept = ~(off & doubtful((term.effect for term in learned.model.terms), after.conditions))
+    if (off & kept).sum() <= max(1, int(FEW_OFF * len(residual))):
+        kept &= ~off
     few = residual[kept]
     square = float(few @ np.linalg.solve(covariance[np.ix_(kept, kept)], few))
     p_value = float(fdtrc(len(few), max(noise_dof, 1), square / len(few)))
@@ -101,15 +104,11 @@ def _fresh(learned: Fit, fresh: Measurements, ratio: float) -> Readings:
     return readings(model, learned.x, fresh.distance, model.mechanism.row_sd * ratio, conditions)
 
 
-def _covariance(learned: Fit, before: Readings) -> Real:
-    """(X, X) of all unknowns, the searched ones included."""
-    known = learned.solution.covariance
-    if before.by_unknown.shape[1] == len(known):
-        return known
+def _root(learned: Fit, before: Readings) -> Real:
+    """(X, N) whose square is the covariance of all unknowns, the searched ones included."""
     held = np.zeros((len(learned.prior.root), before.by_unknown.shape[1]))
-    held[:, : len(known)] = learned.prior.root
+    held[:, : learned.prior.root.shape[1]] = learned.prior.root
     stacked = np.concatenate([before.by_unknown / before.row_sd[:, None], held])
     norms = np.linalg.norm(stacked, axis=0)
     norms[norms == 0.0] = 1.0
-    inverse = np.linalg.pinv(stacked / norms)
-    return np.asarray(inverse @ inverse.T / np.outer(norms, norms))
+    return np.asarray(np.linalg.pinv(stacked / norms, rcond=BLIND) / norms[:, None])

@@ -114,6 +114,10 @@ class Rest:
     def square(self) -> float:
         return float(self.left @ self.left)
 
+    def recorded(self, name: str) -> bool:
+        """Whether the conditions of all readings have it."""
+        return all(getattr(c, name) is not None for c in self._conditions)
+
     def of(self, name: str) -> Real:
         """(K, ...) of the conditions of all readings."""
         return np.concatenate([getattr(c, name) for c in self._conditions])
@@ -127,28 +131,26 @@ class Rest:
 
 def departures(rest: Rest) -> tuple[Departure, ...]:
     """Every kind that these readings can show, in no order of importance."""
-    found = [_test(rest, "time", _half_waves(rest.of("t_s"), SLOW))]
+    found = [added(rest, "time", half_waves(rest.of("t_s"), SLOW))]
     if np.any(rest.of("approach") != 0):
-        # where the slider's sense is in doubt nothing can be said of it
-        doubtful = rest.of("slider_direction") != rest.of("slider_net")
-        found.append(_test(rest, "approach x place", by_approach_and_place(rest), doubtful))
-    found.append(_test(rest, "place", _over_workspace(rest)))
+        found.append(added(rest, "approach x place", by_approach_and_place(rest), in_doubt(rest)))
+    found.append(added(rest, "place", _over_workspace(rest)))
     theta = rest.of("theta")
-    found += [_test(rest, f"theta{i + 1}", _half_waves(t, SMOOTH)) for i, t in enumerate(theta.T)]
-    found.append(_test(rest, "travel", _half_waves(rest.of("travel"), SMOOTH)))
+    found += [added(rest, f"theta{i + 1}", half_waves(t, SMOOTH)) for i, t in enumerate(theta.T)]
+    found.append(added(rest, "travel", half_waves(rest.of("travel"), SMOOTH)))
     return tuple(found)
 
 
-def _test(rest: Rest, on: str, columns: Real, left_out: NDArray[np.bool_] | None = None) -> Departure:
-    """Columns (K, q) in mm; readings `left_out` (K,) take no part."""
+def added(rest: Rest, on: str, columns: Real, beside: Real | None = None) -> Departure:
+    """F test of columns (K, q) in mm, with what columns `beside` (K, m) could take up left to those."""
     taken, left = rest.taken, rest.left
-    if left_out is not None and left_out.any():
-        alone = _orthonormal(perpendicular(np.eye(len(left))[:, np.flatnonzero(left_out)], taken))
-        left = perpendicular(left, alone)
-        taken = np.column_stack([taken, alone])
-    added = rest.spread(columns)
-    added /= np.maximum(np.linalg.norm(added, axis=0), 1e-300)
-    u, s, _ = np.linalg.svd(perpendicular(added, taken), full_matrices=False)
+    if beside is not None and beside.size:
+        others = _orthonormal(perpendicular(rest.spread(beside), taken))
+        left = perpendicular(left, others)
+        taken = np.column_stack([taken, others])
+    new = rest.spread(columns)
+    new /= np.maximum(np.linalg.norm(new, axis=0), 1e-300)
+    u, s, _ = np.linalg.svd(perpendicular(new, taken), full_matrices=False)
     along = u[:, s > LOST].T @ left
     size = len(along)
     whole, won = float(left @ left), float(along @ along)
@@ -157,15 +159,25 @@ def _test(rest: Rest, on: str, columns: Real, left_out: NDArray[np.bool_] | None
         return Departure(on, 0.0, 1.0)
     noise = (whole - won) / dof
     p_value = float(fdtrc(size, dof, won / size / noise))
-    return Departure(on, float(max(won - size * noise, 0.0) / whole), p_value)
+    return Departure(on, float(max(won - size * noise, 0.0) / rest.square), p_value)
+
+
+def in_doubt(rest: Rest) -> Real:
+    """(K, m) a column of its own for each reading of which the slider's sense cannot be said."""
+    doubtful = rest.of("slider_direction") != rest.of("slider_net")
+    return np.eye(len(doubtful))[:, doubtful]
+
+
+def senses(rest: Rest) -> Real:
+    """(K, n + 1) sign of the last motion of joints and slider."""
+    return np.column_stack([rest.of("approach"), rest.of("slider_direction")])
 
 
 def by_approach_and_place(rest: Rest) -> Real:
     """(K, 6 n) each sense of motion times a parabola over the workspace."""
     x, y = _centred(rest.at.real), _centred(rest.at.imag)
-    senses = np.column_stack([rest.of("approach"), rest.of("slider_direction")])
     smooth = np.column_stack([np.ones(len(x)), x, y, x * x, x * y, y * y])
-    return np.asarray((senses[:, :, None] * smooth[:, None, :]).reshape(len(x), -1))
+    return np.asarray((senses(rest)[:, :, None] * smooth[:, None, :]).reshape(len(x), -1))
 
 
 def _over_workspace(rest: Rest) -> Real:
@@ -189,7 +201,7 @@ def _orthonormal(J: Real) -> Real:
     return np.asarray(np.linalg.qr(J / np.where(norms > 0.0, norms, 1.0))[0])
 
 
-def _half_waves(along: Real, count: int) -> Real:
+def half_waves(along: Real, count: int) -> Real:
     """(K, count) cosines over the order of the readings along something."""
     rank = np.argsort(np.argsort(along, kind="stable"), kind="stable")
     return np.asarray(np.cos(np.pi * (rank[:, None] + 0.5) / len(along) * np.arange(1, count + 1)))

@@ -11,6 +11,7 @@ import numpy as np
 from station import outliers
 from station.diagnosis.conditions import reference_of
 from station.diagnosis.confirm import FEWEST, Confirmation, confirm
+from station.diagnosis.departures import Rest, of_fit
 from station.diagnosis.hints import Hint, hints
 from station.diagnosis.model import Fit, Model
 from station.diagnosis.trace import Stage, Trace, trace, with_alias
@@ -113,10 +114,8 @@ def diagnose(
     checks: tuple[Confirmation, ...] = ()
     if fresh is not None:
         found, checks = _confirmed(found, fresh)
-    last = found.stages[-1]
-    noise = float(np.sqrt(np.mean(last.fit.row_sd**2)))
     unexplained = not found.adequate or (bool(checks) and not checks[-1].confirmed)
-    rest = found.stages[0] if _hopeless(found, checks) else last
+    described = 0 if _hopeless(found, checks) else -1
     return Diagnosis(
         robot=robot,
         measurements=kept,
@@ -124,7 +123,7 @@ def diagnose(
         trace=found,
         fresh=fresh,
         confirmations=checks,
-        hints=hints(rest.fit, noise, repeats_agree=rest.adequacy.quiet) if unexplained else (),
+        hints=hints(_rest(found, checks, described)) if unexplained else (),
     )
 
 
@@ -193,9 +192,20 @@ def _trace(robot: Robot, measurements: Measurements, effects: Sequence[Effect]) 
         ) from error
 
 
-def _hopeless(found: Trace, checks: Sequence[Confirmation]) -> bool:
-    """The effects found take or predict so little that the rest is better described from the base on."""
+def _rest(found: Trace, checks: Sequence[Confirmation], stage: int) -> Rest:
+    """What a stage leaves, of fresh readings too where there are any."""
     if checks:
+        return checks[stage].rest
+    fit = found.stages[stage].fit
+    return Rest((of_fit(fit, fit.row_sd),), fit.prior, fit.x)
+
+
+def _hopeless(found: Trace, checks: Sequence[Confirmation]) -> bool:
+    """The effects found take or predict so little, or something without a name so nearly as well, that
+    the rest is better described from the base on."""
+    if checks:
+        if checks[-1].rival is not None:
+            return True
         return checks[-1].rms_mm > USELESS * checks[0].rms_mm
     before = float(np.sum(found.stages[0].fit.residual_mm ** 2))
     after = float(np.sum(found.stages[-1].fit.residual_mm ** 2))

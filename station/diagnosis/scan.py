@@ -73,7 +73,7 @@ class Scan:
         within = inside.transpose(1, 2, 0)
         left = whole - within @ within.transpose(0, 2, 1)
         along = (self._residual @ flat).reshape(S.shape[::2])
-        reduction, smallest = _explained(left, along)
+        reduction, smallest = explained(left, along)
         # what a constant reading offset takes up is no part of a signature
         mean = flat.mean(axis=0).reshape(S.shape[::2])
         total = np.trace(whole, axis1=1, axis2=2) - len(fit.row_sd) * np.sum(mean**2, axis=1)
@@ -137,7 +137,7 @@ class Scan:
         )
 
 
-def _explained(left: Real, along: Real) -> tuple[Real, Real]:
+def explained(left: Real, along: Real) -> tuple[Real, Real]:
     """along' left^-1 along for stacks of q x q matrices, q 1 or 2, and the largest diagonal of left."""
     largest = np.maximum(np.diagonal(left, axis1=1, axis2=2).max(axis=1), 0.0)
     if left.shape[1] == 1:

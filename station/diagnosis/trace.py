@@ -15,7 +15,7 @@ from station import outliers
 from station.diagnosis.adequacy import ALPHA, Adequacy, judge
 from station.diagnosis.model import Fit, Model, Term, fit
 from station.diagnosis.scan import Candidate, Scan
-from station.effects import Effect
+from station.effects import Effect, doubtful
 from station.kinematics import Real
 from station.least_squares import NotConvergedError, Prior
 from station.outliers import Outlier
@@ -139,10 +139,17 @@ def with_alias(found: Trace, at: int, alias: Term, prior: Prior, specified_sd: R
 
 
 def _odd_readings(found: Fit) -> tuple[Outlier, ...]:
-    """Single readings off the model; many of them, or a few together at an end, are an effect."""
+    """Single readings off the model: first those of which an effect in it can say nothing.
+
+    Many others, or a few together at an end, are an effect.
+    """
     measurements = found.model.mechanism.measurements
     odd = outliers.off(measurements, found.solution, found.row_sd)
     n = len(measurements)
+    in_doubt = doubtful((term.effect for term in found.model.terms), found.conditions)
+    doubted = {measurements.ids[k] for k in np.flatnonzero(in_doubt)}
+    if any(o.reading in doubted for o in odd):
+        return tuple(o for o in odd if o.reading in doubted)
     if len(odd) > max(1, int(ODD_SHARE * n)):
         return ()
     if len(odd) > 1 and len({o.residual_mm > 0 for o in odd}) == 1:
