@@ -37,10 +37,16 @@ CATALOGUE = (
     "link_length", "scale_gain", "scale_bow", "scale_cyclic", "scale_hysteresis", "drift", "thermal_links",
     "thermal_scale",
 )  # fmt: skip
-OUTSIDE = (
-    "cable_drag", "slider_drag", "stiction_patch", "sticky_patch", "field_bump", "random_walk",
-    "wandering_zero",
-)  # fmt: skip
+OUTSIDE = {
+    "cable_drag": "approach x place",
+    "slider_drag": "approach x place",
+    "sticky_patch": "approach x place",
+    "stiction_patch": "place",
+    "field_bump": "travel",
+    "random_walk": "time",
+    "wandering_zero": "time",
+}
+"""Nothing of the catalogue, and what the strongest hint should point to."""
 PAIRS = (
     ("backlash", "gear_cyclic"), ("drift", "scale_cyclic"), ("gear_cyclic", "gear_cyclic"),
     ("backlash", "drift"), ("count_slip", "scale_hysteresis"),

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import fdtrc
 
-from station.diagnosis.model import Fit, Model, Term
+from station.diagnosis.model import Fit, Model
 from station.effects import Conditions
 from station.kinematics import Complex, Real
 from station.least_squares import Prior
@@ -68,23 +68,29 @@ class Readings:
 def readings(model: Model, x: Real, measured: Real, row_sd: Real, c: Conditions) -> Readings:
     """Of a model at its unknowns x (X,), with measured (K,), mm."""
     predicted = model.observe(x, model.bases(c))
-    J = np.column_stack([predicted.by_parameter, *_by_searched(model, x, c)])
+    J = np.column_stack([predicted.by_parameter, *(column for *_, column in by_searched(model, x, c))])
     at = model.mechanism.positions(x[: model.base_size])
     return Readings(measured - predicted.value, J, row_sd, c, at)
 
 
-def _by_searched(model: Model, x: Real, c: Conditions) -> Iterator[Real]:
-    """(K,) derivative by each searched parameter that lies between the points of its grid."""
+def by_searched(model: Model, x: Real, c: Conditions) -> Iterator[tuple[int, str, Real]]:
+    """Number of the term, name and (K,) derivative of every searched parameter that is not on a grid."""
     for k, term in enumerate(model.terms):
         for name in term.effect.refined(term.hidden, c):
             step = STEP * (abs(term.hidden[name]) or 1.0)
-            beside = (_turned(term, name, step), _turned(term, name, -step))
-            up, down = (replace(model, terms=(*model.terms[:k], t, *model.terms[k + 1 :])) for t in beside)
-            yield (up.observe(x, up.bases(c)).value - down.observe(x, down.bases(c)).value) / (2.0 * step)
+            up, down = (turned(model, k, name, by) for by in (step, -step))
+            yield k, name, (_value(up, x, c) - _value(down, x, c)) / (2.0 * step)
 
 
-def _turned(term: Term, name: str, by: float) -> Term:
-    return replace(term, hidden={**term.hidden, name: term.hidden[name] + by})
+def turned(model: Model, k: int, name: str, by: float) -> Model:
+    """With a searched parameter of term k changed."""
+    term = model.terms[k]
+    changed = replace(term, hidden={**term.hidden, name: term.hidden[name] + by})
+    return replace(model, terms=(*model.terms[:k], changed, *model.terms[k + 1 :]))
+
+
+def _value(model: Model, x: Real, c: Conditions) -> Real:
+    return model.observe(x, model.bases(c)).value
 
 
 class Rest:

@@ -80,6 +80,11 @@ class Scan:
         share = np.sqrt(np.maximum(np.trace(left, axis1=1, axis2=2), 0.0) / np.where(total > 0, total, 1.0))
         return reduction, share, smallest
 
+    def step(self, columns: Real) -> Real:
+        """(q,) by how much added whitened columns (R, q) answer the residual, all else refitted."""
+        left = columns - self._q @ (self._q.T @ columns)
+        return np.asarray(np.linalg.lstsq(left, self._residual, rcond=None)[0])
+
     def _best(self, effect: Effect, variants: Variants) -> Candidate:
         reduction, share, _ = self.reductions(variants, variants.basis)
         reduction = np.where(share >= INVISIBLE_SHARE, reduction, 0.0)

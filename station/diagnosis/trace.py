@@ -13,6 +13,7 @@ import numpy as np
 
 from station import outliers
 from station.diagnosis.adequacy import ALPHA, Adequacy, judge
+from station.diagnosis.departures import by_searched, turned
 from station.diagnosis.model import Fit, Model, Term, fit
 from station.diagnosis.scan import Candidate, Scan
 from station.effects import Effect, doubtful
@@ -28,6 +29,7 @@ RIVALS = 40.0
 HOPEFUL = 0.02
 """Unless it takes all but this share: a large effect is not quite linear."""
 MOST_RIVALS = 6
+MOST_POLISHING = 8
 ODD_SHARE = 0.03
 END_SHARE = 0.12
 """Of the walk, in which readings off to one side together look like a step and not like slips of the head."""
@@ -115,7 +117,40 @@ def _reconsidered(
         chosen = _add(scan, prior, scan.candidates(_others(effects, others)))
         if chosen is not None and chosen[1].cost <= best.cost:
             findings[k], best = chosen
-    return findings
+    return _polished(findings, best, prior)
+
+
+def _polished(findings: list[Finding], found: Fit, prior: Prior) -> list[Finding]:
+    """All searched parameters together (Gauss-Newton): two close periods shift one another.
+
+    found: fit with the terms of the findings, in any order.
+    """
+    model = replace(found.model, terms=tuple(f.term for f in findings))
+    try:
+        best = fit(model, prior, found.row_sd)
+        for _ in range(MOST_POLISHING):
+            better = fit(_stepped(best), prior, found.row_sd)
+            if better.cost > best.cost - 1.0:
+                break
+            best = better
+    except NotConvergedError:
+        return findings
+    return [replace(f, term=term) for f, term in zip(findings, best.model.terms, strict=True)]
+
+
+def _stepped(found: Fit) -> Model:
+    """The model with its searched parameters where one linear step puts them."""
+    searched = list(by_searched(found.model, found.x, found.conditions))
+    if not searched:
+        return found.model
+    own = np.column_stack([column for *_, column in searched]) / found.row_sd[:, None]
+    step = Scan(found).step(own)
+    model = found.model
+    for (k, name, _), by in zip(searched, step, strict=True):
+        term = model.terms[k]
+        low, high = term.effect.refined(term.hidden, found.conditions)[name]
+        model = turned(model, k, name, float(np.clip(by, low - term.hidden[name], high - term.hidden[name])))
+    return model
 
 
 def _staged(
