@@ -14,6 +14,7 @@ from station.diagnosis.confirm import FEWEST, Confirmation, confirm
 from station.diagnosis.departures import Rest, of_fit
 from station.diagnosis.hints import Hint, hints
 from station.diagnosis.model import Fit, Model
+from station.diagnosis.rivals import strongest
 from station.diagnosis.trace import Stage, Trace, trace, with_alias
 from station.effects import Effect, catalogue
 from station.errors import InputRefused
@@ -50,6 +51,8 @@ class Diagnosis:
     confirmations: tuple[Confirmation, ...]
     """One per stage; empty without fresh readings."""
     hints: tuple[Hint, ...]
+    rival: str | None
+    """A nameless dependence that makes the readings about as probable as the effects found."""
 
     @property
     def base(self) -> Fit:
@@ -77,7 +80,7 @@ class Diagnosis:
         found = bool(self.trace.findings)
         if not found:
             return "adequate" if self.trace.adequate and self.confirmed is not False else "unexplained"
-        if self.trace.adequate and self.confirmed is not False:
+        if self.trace.adequate and self.rival is None and self.confirmed is not False:
             return "explained"
         return "partly_explained" if self.explained_share >= GOOD_SHARE else "unexplained"
 
@@ -114,8 +117,9 @@ def diagnose(
     checks: tuple[Confirmation, ...] = ()
     if fresh is not None:
         found, checks = _confirmed(found, fresh)
-    unexplained = not found.adequate or (bool(checks) and not checks[-1].confirmed)
-    described = 0 if _hopeless(found, checks) else -1
+    rival = _rival(found, checks)
+    unexplained = not found.adequate or rival is not None or (bool(checks) and not checks[-1].confirmed)
+    described = 0 if rival is not None or _hopeless(found, checks) else -1
     return Diagnosis(
         robot=robot,
         measurements=kept,
@@ -124,6 +128,7 @@ def diagnose(
         fresh=fresh,
         confirmations=checks,
         hints=hints(_rest(found, checks, described)) if unexplained else (),
+        rival=rival,
     )
 
 
@@ -192,6 +197,17 @@ def _trace(robot: Robot, measurements: Measurements, effects: Sequence[Effect]) 
         ) from error
 
 
+def _rival(found: Trace, checks: Sequence[Confirmation]) -> str | None:
+    """Of the effects found, by all readings there are."""
+    if checks:
+        return checks[-1].rival
+    if not found.findings or not found.adequate:
+        return None
+    base, last = found.stages[0].fit, found.stages[-1].fit
+    without = Rest((of_fit(base, last.row_sd),), base.prior, base.x)
+    return strongest(without, _rest(found, checks, -1), last.model.terms, last.conditions)
+
+
 def _rest(found: Trace, checks: Sequence[Confirmation], stage: int) -> Rest:
     """What a stage leaves, of fresh readings too where there are any."""
     if checks:
@@ -201,11 +217,8 @@ def _rest(found: Trace, checks: Sequence[Confirmation], stage: int) -> Rest:
 
 
 def _hopeless(found: Trace, checks: Sequence[Confirmation]) -> bool:
-    """The effects found take or predict so little, or something without a name so nearly as well, that
-    the rest is better described from the base on."""
+    """The effects found take or predict so little that the rest is better described from the base on."""
     if checks:
-        if checks[-1].rival is not None:
-            return True
         return checks[-1].rms_mm > USELESS * checks[0].rms_mm
     before = float(np.sum(found.stages[0].fit.residual_mm ** 2))
     after = float(np.sum(found.stages[-1].fit.residual_mm ** 2))
