@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from station.kinematics import Real
 from station.measurements import Measurements
@@ -46,6 +48,15 @@ class Conditions:
 
     def __len__(self) -> int:
         return len(self.t_s)
+
+    def take(self, rows: NDArray[np.bool_]) -> Conditions:
+        """Of these readings only, mask (K,)."""
+        taken: dict[str, Any] = {
+            f.name: value[rows]
+            for f in fields(self)
+            if isinstance(value := getattr(self, f.name), np.ndarray)
+        }
+        return replace(self, **taken, load=tuple(part[rows] for part in self.load))
 
 
 @dataclass(frozen=True)

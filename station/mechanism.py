@@ -123,5 +123,9 @@ def by_reading(mechanism: Mechanism, rows: Real) -> Real:
 
 def axis_of_row(mechanism: Mechanism) -> NDArray[np.intp]:
     """(R,) which coordinate of its reading each row is."""
-    reading = mechanism.reading_of_row
+    return axes(mechanism.reading_of_row)
+
+
+def axes(reading: NDArray[np.intp]) -> NDArray[np.intp]:
+    """(R,) the same from the ascending numbers of the readings (R,)."""
     return np.asarray(np.arange(len(reading)) - np.searchsorted(reading, reading))

@@ -37,7 +37,16 @@ CATALOGUE = (
     "link_length", "scale_gain", "scale_bow", "scale_cyclic", "scale_hysteresis", "drift", "thermal_links",
     "thermal_scale",
 )  # fmt: skip
-OUTSIDE = ("cable_drag", "stiction_patch", "random_walk")
+OUTSIDE = {
+    "cable_drag": "approach x place",
+    "slider_drag": "approach x place",
+    "sticky_patch": "approach x place",
+    "stiction_patch": "place",
+    "field_bump": "travel",
+    "random_walk": "time",
+    "wandering_zero": "time",
+}
+"""Nothing of the catalogue, and what the strongest hint should point to."""
 PAIRS = (
     ("backlash", "gear_cyclic"), ("drift", "scale_cyclic"), ("gear_cyclic", "gear_cyclic"),
     ("backlash", "drift"), ("count_slip", "scale_hysteresis"),
@@ -182,4 +191,18 @@ def _effect(kind: str, rng: np.random.Generator) -> Make:
             return lambda a: {"kind": kind, "x_mm": x, "y_mm": y, "radius_mm": 30.0, "depth_mm": 0.05 * a}
         case "random_walk":
             return lambda a: {"kind": kind, "mm_per_stop": 0.003 * abs(a)}
+        case "wandering_zero":
+            return lambda a: {"kind": kind, "joint": joint, "deg_per_stop": 0.001 * abs(a)}
+        case "slider_drag":
+            return lambda a: {"kind": kind, "width_mm": 0.02 * abs(a)}
+        case "sticky_patch":
+            x, y = float(rng.uniform(-150.0, 150.0)), float(rng.uniform(-750.0, -660.0))
+            return lambda a: {
+                "kind": kind, "x_mm": x, "y_mm": y, "radius_mm": 50.0, "width_mm": 0.05 * abs(a),
+            }  # fmt: skip
+        case "field_bump":
+            rho = float(rng.uniform(530.0, 620.0))
+            return lambda a: {
+                "kind": kind, "rho_mm": rho, "half_width_mm": 10.0, "height_mm": 0.02 * sign * a,
+            }  # fmt: skip
     raise ValueError(f"no such kind: {kind}")

@@ -11,8 +11,10 @@ import numpy as np
 from station import outliers
 from station.conditions import reference_of
 from station.diagnosis.confirm import FEWEST, Confirmation, confirm
+from station.diagnosis.departures import Rest, of_fit, rest_of
 from station.diagnosis.hints import Hint, hints
-from station.diagnosis.model import Fit, Model
+from station.diagnosis.model import Fit, Model, is_long
+from station.diagnosis.rivals import strongest
 from station.diagnosis.trace import Stage, Trace, trace, with_alias
 from station.effects import Effect
 from station.errors import InputRefused
@@ -49,6 +51,8 @@ class Diagnosis:
     confirmations: tuple[Confirmation, ...]
     """One per stage; empty without fresh readings."""
     hints: tuple[Hint, ...]
+    rival: str | None
+    """A nameless dependence that makes the readings about as probable as the effects found."""
 
     @property
     def base(self) -> Fit:
@@ -76,7 +80,7 @@ class Diagnosis:
         found = bool(self.trace.findings)
         if not found:
             return "adequate" if self.trace.adequate and self.confirmed is not False else "unexplained"
-        if self.trace.adequate and self.confirmed is not False:
+        if self.trace.adequate and self.rival is None and self.confirmed is not False:
             return "explained"
         return "partly_explained" if self.explained_share >= GOOD_SHARE else "unexplained"
 
@@ -112,10 +116,9 @@ def diagnose(
     checks: tuple[Confirmation, ...] = ()
     if fresh is not None:
         found, checks = _confirmed(found, fresh)
-    last = found.stages[-1]
-    noise = float(np.sqrt(np.mean(last.fit.row_sd**2)))
-    unexplained = not found.adequate or (bool(checks) and not checks[-1].confirmed)
-    rest = found.stages[0] if _hopeless(found, checks) else last
+    rival = _rival(found, checks)
+    unexplained = not found.adequate or rival is not None or (bool(checks) and not checks[-1].confirmed)
+    described = 0 if rival is not None or _hopeless(found, checks) else -1
     return Diagnosis(
         robot=robot,
         measurements=found.stages[-1].fit.model.mechanism.measurements,
@@ -123,26 +126,32 @@ def diagnose(
         trace=found,
         fresh=fresh,
         confirmations=checks,
-        hints=hints(rest.fit, noise, repeats_agree=rest.adequacy.quiet) if unexplained else (),
+        hints=hints(_rest(found, checks, described)) if unexplained else (),
+        rival=rival,
     )
 
 
 def _confirmed(found: Trace, fresh: Measurements) -> tuple[Trace, tuple[Confirmation, ...]]:
     """Every stage against the fresh readings; they also settle between look-alikes left open by the walk."""
-    checks = tuple(_check(stage, fresh) for stage in found.stages)
-    if not found.findings or not found.adequate or checks[-1].confirmed:
+    base = found.stages[0].fit
+    checks = tuple(_check(base, stage, fresh) for stage in found.stages)
+    if not found.findings or not found.adequate or checks[-1].confirmed or is_long(base):
         return found, checks
-    for alias in found.findings[-1].aliases:
-        mechanism = found.stages[0].fit.model.mechanism
-        other = with_alias(found, alias, tolerance_prior(mechanism), mechanism.row_sd)
-        check = _check(other.stages[-1], fresh)
-        if other.adequate and check.confirmed:
-            return other, (*checks[:-1], check)
+    mechanism = found.stages[0].fit.model.mechanism
+    for at, finding in enumerate(found.findings):
+        for alias in finding.aliases:
+            try:
+                other = with_alias(found, at, alias, tolerance_prior(mechanism), mechanism.row_sd)
+            except NotConvergedError:
+                continue
+            check = _check(base, other.stages[-1], fresh)
+            if other.adequate and check.confirmed:
+                return other, (*(_check(base, stage, fresh) for stage in other.stages[:-1]), check)
     return found, checks
 
 
-def _check(stage: Stage, fresh: Measurements) -> Confirmation:
-    return confirm(stage.fit, fresh, max(stage.adequacy.pure_dof, FEWEST_NOISE_DOF))
+def _check(base: Fit, stage: Stage, fresh: Measurements) -> Confirmation:
+    return confirm(base, stage.fit, fresh, max(stage.adequacy.pure_dof, FEWEST_NOISE_DOF))
 
 
 def check_enough(mechanism: Mechanism) -> None:
@@ -186,6 +195,24 @@ def _trace(mechanism: AnyMechanism, effects: Sequence[Effect]) -> Trace:
         raise InputRefused(
             f"The identification did not converge ({error}); check that angles and distances belong together."
         ) from error
+
+
+def _rival(found: Trace, checks: Sequence[Confirmation]) -> str | None:
+    """Of the effects found, by all readings there are."""
+    if checks:
+        return checks[-1].rival
+    base, last = found.stages[0].fit, found.stages[-1].fit
+    if not found.findings or not found.adequate or is_long(last):
+        return None
+    without = Rest((of_fit(base, last.row_sd),), base.prior, base.x)
+    return strongest(without, _rest(found, checks, -1), last.model.terms, last.conditions)
+
+
+def _rest(found: Trace, checks: Sequence[Confirmation], stage: int) -> Rest:
+    """What a stage leaves, of fresh readings too where there are any."""
+    if checks:
+        return checks[stage].rest
+    return rest_of(found.stages[stage].fit)
 
 
 def _hopeless(found: Trace, checks: Sequence[Confirmation]) -> bool:

@@ -172,6 +172,11 @@ class Findings:
         model = "them" if len(self.effects) > 1 else "it"
         share = f"{100.0 * self.diagnosis.explained_share:.0f} %"
         match self.diagnosis.verdict:
+            case "partly_explained" | "unexplained" if self.diagnosis.rival is not None:
+                return (
+                    f"Not explained: {names} took {share} of the residual's square, but a dependence on "
+                    f"{self.diagnosis.rival} without any name accounts for the readings about as well."
+                )
             case "adequate":
                 text = "Adequate: the model fits the readings, nothing is missing from it"
             case "explained":

@@ -1,26 +1,42 @@
 """What an unexplained residual depends on, found without the catalogue.
 
 Each test's null hypothesis is that the residual does not depend on the thing named; Holm's procedure
-keeps the chance of any false hint at `LEVEL`.
+keeps the chance of any false hint at `LEVEL`.  Smooth dependences are those of `departures`; along
+each angle and the travel a periodogram looks for shorter ones (Lomb, Astrophysics and Space Science
+39, 1976), its false-alarm probability being that of the whole search.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import KDTree
-from scipy.special import fdtrc, ndtr
+from scipy.special import fdtrc
 
-from station.diagnosis.model import Fit
+from station.diagnosis.departures import (
+    Departure,
+    Rest,
+    added,
+    by_approach_and_place,
+    departures,
+    half_waves,
+    in_doubt,
+    perpendicular,
+    senses,
+)
+from station.diagnosis.scan import explained
+from station.effects.cyclic import OVERSAMPLING, waves
 from station.kinematics import Real
-from station.mechanism import axis_of_row
 
 LEVEL = 0.01
-NEAREST = 6
 LOCAL_SHARE = 0.15
 """Of what the sense of approach does, the part that differs from place to place where it counts."""
+NEAR_MM = 40.0
+MOST_PER_TURN = 80.0
+SHORTEST_MM = 0.4
+SHARPER = 0.05
+"""Share of the residual's square by which a period must beat a smooth course to be named."""
 
 
 @dataclass(frozen=True)
@@ -34,17 +50,9 @@ class Hint:
     text: str
 
 
-def hints(fit: Fit, noise_sd_mm: float, *, repeats_agree: bool) -> tuple[Hint, ...]:
-    """Significant dependences of a fit's residual, strongest first.
-
-    noise_sd_mm is the scatter of repeats.  Where repeats of one place disagree more than the devices
-    are specified for, something changed between them: that is time's, and no place's or angle's.
-    """
-    axis = axis_of_row(fit.model.mechanism)
-    each = [
-        list(_tests(fit, fit.residual_mm[axis == a], noise_sd_mm, repeats_agree)) for a in np.unique(axis)
-    ]
-    found = sorted(map(_strongest, zip(*each, strict=True)), key=lambda h: h.p_value)
+def hints(rest: Rest) -> tuple[Hint, ...]:
+    """Significant dependences of what a model leaves, strongest first."""
+    found = sorted(_tests(rest), key=lambda h: h.p_value)
     kept = []
     for k, hint in enumerate(found):
         if hint.p_value * (len(found) - k) > LEVEL:
@@ -53,120 +61,84 @@ def hints(fit: Fit, noise_sd_mm: float, *, repeats_agree: bool) -> tuple[Hint, .
     return tuple(sorted(kept, key=lambda h: -h.strength))
 
 
-def _strongest(coordinates: tuple[Hint, ...]) -> Hint:
-    """One thing looked at in every coordinate: the plainest, with the price of looking that often."""
-    plainest = min(coordinates, key=lambda h: h.p_value)
-    return replace(plainest, p_value=min(1.0, plainest.p_value * len(coordinates)))
+def _tests(rest: Rest) -> Iterator[Hint]:
+    theta, travel = rest.of("theta"), rest.of("travel")
+    for found in departures(rest):
+        match found.on:
+            case "time":
+                yield _hint(found, "The residual changes with time.")
+            case "approach x place":
+                yield _by_approach(rest, found)
+            case "place":
+                where = _worst_place(rest)
+                at = ", ".join(f"{name} = {v:.0f}" for name, v in zip("xyz", where, strict=False))
+                yield _hint(found, f"The residual belongs to a place in the workspace, most at {at} mm.")
+            case "travel":
+                text = "The residual follows the measured distance"
+                period, wave = _periodic(rest, travel, 1.0 / SHORTEST_MM)
+                yield _either(found, wave, text, f"about every {period:.3g} mm")
+            case joint:
+                i = int(joint.removeprefix("theta")) - 1
+                text = f"The residual follows the angle of joint {i + 1}"
+                period, wave = _periodic(rest, theta[:, i], MOST_PER_TURN / (2.0 * np.pi))
+                yield _either(found, wave, text, f"about {2.0 * np.pi / period:.3g} times a turn")
+    if rest.recorded("temperature_rise"):
+        course = added(rest, "temperature", half_waves(rest.of("temperature_rise"), 2))
+        yield _hint(course, "The residual follows the temperature.")
 
 
-def _tests(fit: Fit, r: Real, noise_sd_mm: float, repeats_agree: bool) -> Iterator[Hint]:
-    """Of one coordinate's residual r (K,), mm."""
-    m = fit.model.mechanism.measurements
-    c = fit.conditions
-    if not repeats_agree:
-        yield _ordered("time", r, m.t_s, 1.0, "The residual changes with time.")
-        if c.temperature_rise is not None:
-            yield _ordered("temperature", r, c.temperature_rise, 1.0, "It follows the temperature.")
-        return
-    place, _ = _by_group(r, m.position)
-    share = float(place @ place) / float(r @ r)
-    if np.any(c.approach != 0):
-        yield from _by_approach(fit, r, noise_sd_mm)
-    yield _at_a_place(fit, place, share)
-    for i in range(m.joints):
-        text = f"The residual follows the angle of joint {i + 1}."
-        yield _ordered(f"theta{i + 1}", place, c.theta[:, i], share, text)
-    if np.ptp(c.travel) > 0:
-        yield _ordered("travel", place, c.travel, share, "The residual follows the measured distance.")
+def _hint(found: Departure, text: str) -> Hint:
+    return Hint(found.on, found.share, found.p_value, text)
 
 
-def _by_group(r: Real, group: np.ndarray) -> tuple[Real, int]:
-    """(K,) group means, and the number of groups."""
-    index = np.unique(group, axis=0, return_inverse=True)[1].reshape(-1)
-    counts = np.bincount(index)
-    return (np.bincount(index, r) / counts)[index], len(counts)
+def _either(smooth: Departure, wave: Departure, text: str, period: str) -> Hint:
+    if wave.p_value < LEVEL and wave.share > smooth.share + SHARPER:
+        return Hint(smooth.on, wave.share, wave.p_value, f"{text}, {period}.")
+    return _hint(smooth, f"{text}.")
 
 
-def _ordered(name: str, r: Real, along: Real, share: float, text: str) -> Hint:
-    """von Neumann's ratio of r ordered along something: neighbours alike mean dependence."""
-    ordered = r[np.argsort(along, kind="stable")]
-    square, n = float(ordered @ ordered), len(ordered)
-    if square == 0.0 or n < 12:
-        return Hint(name, 0.0, 1.0, text)
-    ratio = float(np.sum(np.diff(ordered) ** 2)) / square
-    z = (ratio - 2.0) / np.sqrt(4.0 * (n - 2) / (n**2 - 1))
-    return Hint(name, share * float(np.clip(1.0 - ratio / 2.0, 0.0, 1.0)), float(ndtr(z)), text)
-
-
-def _by_approach(fit: Fit, r: Real, noise_sd_mm: float) -> Iterator[Hint]:
-    """Does the sense of approach matter, everywhere alike or differently from place to place?"""
-    m = fit.model.mechanism.measurements
-    senses = np.column_stack([fit.conditions.slider_direction, m.approach])
-    place, places = _by_group(r, m.position)
-    cell, cells = _by_group(r, np.column_stack([m.position, senses]))
-    if cells <= places + senses.shape[1]:
-        return
-    centred = senses - np.column_stack([_by_group(s.astype(float), m.position)[0] for s in senses.T])
-    alike = centred @ np.linalg.lstsq(centred, r - place, rcond=None)[0]
-    whole, common = float(r @ r), float(alike @ alike)
-    within, apart = float((r - place) @ (r - place)), float((cell - place) @ (cell - place))
-    columns, spare = senses.shape[1], max(len(r) - places - senses.shape[1], 1)
-    dof = cells - places - columns
-    local = max(apart - common, 0.0)
-    p_alike = float(fdtrc(columns, spare, (common / columns) / ((within - common) / spare)))
-    p_local = float(fdtrc(dof, max(len(r) - cells, 1), local / dof / noise_sd_mm**2))
-    if p_local < LEVEL and local > LOCAL_SHARE * apart:
-        yield Hint(
-            "approach x place",
-            apart / whole,
-            p_local,
+def _by_approach(rest: Rest, found: Departure) -> Hint:
+    """Does the sense of approach matter everywhere alike, or differently from place to place?"""
+    alike = senses(rest)
+    local = added(rest, found.on, by_approach_and_place(rest), np.column_stack([alike, in_doubt(rest)]))
+    if local.p_value < LEVEL and local.share > LOCAL_SHARE * found.share:
+        return _hint(
+            found,
             "The residual depends on the sense of approach, differently from place to place: "
             "something drags on the platform (a cable, a hose).",
         )
-    else:
-        yield Hint(
-            "approach",
-            common / whole,
-            p_alike,
-            "The residual depends on the sense of approach, everywhere alike.",
-        )
+    common = added(rest, "approach", alike, in_doubt(rest))
+    return _hint(common, "The residual depends on the sense of approach, everywhere alike.")
 
 
-def _at_a_place(fit: Fit, place: Real, share: float) -> Hint:
-    """Moran's I of the mean residual of each place with its nearest neighbours, and where it is largest."""
-    m = fit.model.mechanism.measurements
-    at = fit.model.mechanism.places(fit.x[: fit.model.base_size])
-    _, first = np.unique(m.position, return_index=True)
-    value, where = place[first], at[first]
-    n = len(first)
-    text = "The residual belongs to a place in the workspace."
-    if n < 2 * NEAREST:
-        return Hint("place", 0.0, 1.0, text)
-    z = value - value.mean()
-    near = np.asarray(KDTree(where).query(where, NEAREST + 1)[1])[:, 1:]
-    rng = np.random.default_rng(0)
-    moran = _moran(z, near)
-    shuffled = np.array([_moran(rng.permutation(z), near) for _ in range(400)])
-    p_normal = float(1.0 - ndtr((moran - shuffled.mean()) / max(shuffled.std(), 1e-12)))
-    peak = int(np.argmax(np.abs(z)))
-    gathered = _share_at_peak(z, where, where[peak])
-    peak_at = ", ".join(f"{name} = {v:.0f}" for name, v in zip("xyz", where[peak], strict=False))
-    # a dent is an extreme of the few: judged by how far the largest stands out of the middle of all
-    middle = 1.4826 * float(np.median(np.abs(z - np.median(z)))) or 1e-12
-    extreme = float(min(1.0, 2.0 * n * (1.0 - ndtr(np.abs(z[peak]) / middle))))
-    return Hint(
-        "place",
-        share * float(max(gathered, np.clip(moran, 0.0, 1.0))),
-        max(min(p_normal, extreme) * 2.0, 1e-300),
-        f"{text[:-1]}, most at {peak_at} mm.",
-    )
+def _worst_place(rest: Rest) -> Real:
+    """(d,) mm, where the mean of the neighbourhood stands out most from noise."""
+    apart = np.linalg.norm(rest.at[:, None] - rest.at[None, :], axis=2)
+    near = np.exp(-0.5 * (apart / NEAR_MM) ** 2)
+    left = np.zeros((len(rest.at), int(rest.axis.max()) + 1))
+    left[rest.reading, rest.axis] = rest.left[: len(rest.reading)]
+    mean = np.linalg.norm(near @ left, axis=1) / np.linalg.norm(near, axis=1)
+    return np.asarray(rest.at[int(np.argmax(mean))])
 
 
-def _moran(z: Real, near: np.ndarray) -> float:
-    square = float(z @ z)
-    return float(np.sum(z[:, None] * z[near]) / near.shape[1] / square) if square else 0.0
-
-
-def _share_at_peak(z: Real, where: Real, peak: Real) -> float:
-    inside = np.linalg.norm(where - peak, axis=1) < 60.0
-    return float(z[inside] @ z[inside] / (z @ z))
+def _periodic(rest: Rest, along: Real, highest: float) -> tuple[float, Departure]:
+    """The period along something that takes most, up to `highest` periods per unit, and what it takes."""
+    span = float(np.ptp(along))
+    lowest, step = 2.0 / (span or 1.0), 1.0 / (span or 1.0) / OVERSAMPLING
+    count = int((highest - lowest) / step)
+    if count < 1:
+        return np.inf, Departure("period", 0.0, 1.0)
+    turns = waves(along, 2.0 * np.pi * lowest, 2.0 * np.pi * step, count)
+    flat = perpendicular(rest.spread(turns.transpose(1, 0, 2).reshape(len(along), -1)), rest.taken)
+    # coordinate by coordinate: each has amplitudes of its own
+    won = np.zeros(count)
+    for own in np.split(flat, flat.shape[1] // (2 * count), axis=1):
+        pairs = own.reshape(len(own), count, 2).transpose(1, 0, 2)
+        won += explained(pairs.transpose(0, 2, 1) @ pairs, (rest.left @ own).reshape(count, 2))[0]
+    best, size = int(np.argmax(won)), flat.shape[1] // count
+    dof = rest.dof - size
+    noise = max(rest.square - float(won[best]), 1e-12) / dof
+    trials = 2.0 * highest * span
+    p_value = min(1.0, trials * float(fdtrc(size, dof, won[best] / size / noise)))
+    share = max(float(won[best]) - size * noise, 0.0) / rest.square
+    return 1.0 / (lowest + best * step), Departure("period", share, p_value)

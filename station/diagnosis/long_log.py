@@ -16,13 +16,6 @@ from station.diagnosis.model import Fit, fit, fitted
 from station.diagnosis.scan import Candidate, Scan
 from station.least_squares import Prior, Solution
 
-ROWS = 1000
-"""From so many on a log is long: candidates differ by more than their signatures' curvature is worth."""
-
-
-def is_long(found: Fit) -> bool:
-    return len(found.row_sd) > ROWS
-
 
 def with_candidate(scan: Scan, candidate: Candidate, prior: Prior) -> Fit:
     """The scanned fit with one effect more; rows scatter by what is left, or as specified if that is more.

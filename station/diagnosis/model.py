@@ -19,6 +19,7 @@ CONDITION_ROUNDS = 12
 """The basis depends a little on the zero offsets: fitted, evaluated anew, fitted again until it stays."""
 SETTLED_MM = 2e-5
 SETTLED_SDS = 2e-3
+LONG_ROWS = 1000
 
 
 @dataclass(frozen=True)
@@ -142,6 +143,11 @@ class Fit:
         start = self.model.base_size + sum(t.size for t in self.model.terms[:index])
         part = slice(start, start + self.model.terms[index].size)
         return self.x[part], self.solution.covariance[part, part]
+
+
+def is_long(found: Fit) -> bool:
+    """Whether rows are so many that candidates differ by more than their signatures' curvature is worth."""
+    return len(found.row_sd) > LONG_ROWS
 
 
 def fit(model: Model, base_prior: Prior, row_sd: Real, start: Real | None = None) -> Fit:

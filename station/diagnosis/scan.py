@@ -70,7 +70,7 @@ class Scan:
     def reductions(self, variants: Variants, basis: Real) -> tuple[Real, Real, Real]:
         """For basis (V, K, q): cost reduction (V,), visible share (V,), information (V,)."""
         left, along, share = self._projected(variants, basis)
-        reduction, largest = _explained(left, along)
+        reduction, largest = explained(left, along)
         return reduction, share, largest
 
     def signature(self, candidate: Candidate) -> Real:
@@ -97,11 +97,16 @@ class Scan:
         share = np.sqrt(np.maximum(np.trace(left, axis1=1, axis2=2), 0.0) / np.where(total > 0, total, 1.0))
         return left, along, share
 
+    def step(self, columns: Real) -> Real:
+        """(q,) by how much added whitened columns (R, q) answer the residual, all else refitted."""
+        left = columns - self._J @ (self._taken_up @ (self._J.T @ columns))
+        return np.asarray(np.linalg.lstsq(left, self._residual, rcond=None)[0])
+
     def _best(self, effect: Effect, variants: Variants) -> Candidate:
         left, along, share = self._projected(variants, variants.basis)
         if variants.spread is not None:
             return self._with_spread(effect, variants, left[0], along[0], float(share[0]))
-        reduction = np.where(share >= INVISIBLE_SHARE, _explained(left, along)[0], 0.0)
+        reduction = np.where(share >= INVISIBLE_SHARE, explained(left, along)[0], 0.0)
         best = int(np.argmax(reduction))
         size = variants.basis.shape[2]
         return Candidate(
@@ -176,7 +181,7 @@ class Scan:
         )
 
 
-def _explained(left: Real, along: Real) -> tuple[Real, Real]:
+def explained(left: Real, along: Real) -> tuple[Real, Real]:
     """along' left^-1 along for stacks of q x q matrices, q 1 or 2, and the largest diagonal of left."""
     largest = np.maximum(np.diagonal(left, axis1=1, axis2=2).max(axis=1), 0.0)
     if left.shape[1] == 1:

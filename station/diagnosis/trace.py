@@ -14,9 +14,10 @@ import numpy as np
 from station import outliers
 from station.diagnosis import long_log
 from station.diagnosis.adequacy import ALPHA, Adequacy, judge
-from station.diagnosis.model import Fit, Model, Term, fit
+from station.diagnosis.departures import by_searched, turned
+from station.diagnosis.model import Fit, Model, Term, fit, is_long
 from station.diagnosis.scan import Candidate, Scan
-from station.effects import Effect
+from station.effects import Effect, doubtful
 from station.kinematics import Real
 from station.least_squares import NotConvergedError, Prior
 from station.measurements import Measurements
@@ -36,6 +37,7 @@ RIVALS = 40.0
 HOPEFUL = 0.02
 """Unless it takes all but this share: a large effect is not quite linear."""
 MOST_RIVALS = 6
+MOST_POLISHING = 8
 ODD_SHARE = 0.03
 OUTLIER_ROUNDS = 4
 END_SHARE = 0.12
@@ -87,7 +89,7 @@ def trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[Effec
     stage = _settled(base, prior, specified_sd, None)
     stages = [stage]
     findings: list[Finding] = []
-    long = long_log.is_long(stage.fit)
+    long = is_long(stage.fit)
     odd = () if long else _odd_readings(stage.fit)
     most = _most_effects(base.mechanism.measurements)
     while not odd and not stage.adequacy.settled and len(findings) < most:
@@ -106,6 +108,10 @@ def trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[Effec
         findings.append(finding)
         stage = _settled(better.model, prior, specified_sd, better)
         stages.append(stage)
+        if len(findings) > 1 and not long:
+            findings = _reconsidered(findings, stage.fit, prior, effects)
+            stages = _staged(base, findings, prior, specified_sd, stages[0])
+            stage = stages[-1]
         # few gross readings of thousands mislead no scan, and to begin again would take long
         odd = () if long else _odd_readings(stage.fit)
     left_out = _take_out(stages, prior) if long else ()
@@ -143,22 +149,90 @@ def _most_effects(m: Measurements) -> int:
     return max(MOST_EFFECTS, min(EFFECTS_A_JOINT * m.joints, len(m) // READINGS_AN_EFFECT))
 
 
-def with_alias(found: Trace, alias: Term, prior: Prior, specified_sd: Real) -> Trace:
-    """The same way with a look-alike of the last finding in its place."""
-    *earlier, last = found.findings
-    model = found.stages[-2].fit.model
-    better = fit(replace(model, terms=(*model.terms, alias)), prior, found.stages[-1].fit.row_sd)
-    others = (last.term, *(t for t in last.aliases if t is not alias))
-    swapped = Finding(alias, last.p_value, others)
-    stage = _settled(better.model, prior, specified_sd, better)
-    return replace(found, stages=(*found.stages[:-1], stage), findings=(*earlier, swapped))
+def _reconsidered(
+    findings: list[Finding], full: Fit, prior: Prior, effects: Sequence[Effect]
+) -> list[Finding]:
+    """Each earlier finding once more, beside all the others: it was chosen while they disturbed it."""
+    best = full
+    findings = list(findings)
+    for k in range(len(findings) - 1):
+        others = tuple(f.term for j, f in enumerate(findings) if j != k)
+        try:
+            without = fit(replace(full.model, terms=others), prior, full.row_sd)
+        except NotConvergedError:
+            continue
+        scan = Scan(without)
+        chosen = _add(scan, prior, scan.candidates(_others(effects, others)))
+        if chosen is not None and chosen[1].cost <= best.cost:
+            findings[k], best = chosen
+    return _polished(findings, best, prior)
+
+
+def _polished(findings: list[Finding], found: Fit, prior: Prior) -> list[Finding]:
+    """All searched parameters together (Gauss-Newton): two close periods shift one another.
+
+    found: fit with the terms of the findings, in any order.
+    """
+    model = replace(found.model, terms=tuple(f.term for f in findings))
+    try:
+        best = fit(model, prior, found.row_sd)
+        for _ in range(MOST_POLISHING):
+            better = fit(_stepped(best), prior, found.row_sd)
+            if better.cost > best.cost - 1.0:
+                break
+            best = better
+    except NotConvergedError:
+        return findings
+    return [replace(f, term=term) for f, term in zip(findings, best.model.terms, strict=True)]
+
+
+def _stepped(found: Fit) -> Model:
+    """The model with its searched parameters where one linear step puts them."""
+    searched = list(by_searched(found.model, found.x, found.conditions))
+    if not searched:
+        return found.model
+    own = np.column_stack([column for *_, column in searched]) / found.row_sd[:, None]
+    step = Scan(found).step(own)
+    model = found.model
+    for (k, name, _), by in zip(searched, step, strict=True):
+        term = model.terms[k]
+        low, high = term.effect.refined(term.hidden, found.conditions)[name]
+        model = turned(model, k, name, float(np.clip(by, low - term.hidden[name], high - term.hidden[name])))
+    return model
+
+
+def _staged(
+    base: Model, findings: list[Finding], prior: Prior, specified_sd: Real, first: Stage
+) -> list[Stage]:
+    """The way anew: the base model, then one more of the findings each."""
+    terms = [f.term for f in findings]
+    models = [replace(base, terms=tuple(terms[: k + 1])) for k in range(len(terms))]
+    return [first, *(_settled(model, prior, specified_sd, None) for model in models)]
+
+
+def with_alias(found: Trace, at: int, alias: Term, prior: Prior, specified_sd: Real) -> Trace:
+    """The same way with a look-alike in the place of finding number `at`."""
+    old = found.findings[at]
+    others = (old.term, *(t for t in old.aliases if t is not alias))
+    findings = list(found.findings)
+    findings[at] = Finding(alias, old.p_value, others)
+    first = found.stages[0]
+    stages = _staged(first.fit.model, findings, prior, specified_sd, first)
+    return replace(found, stages=tuple(stages), findings=tuple(findings))
 
 
 def _odd_readings(found: Fit) -> tuple[Outlier, ...]:
-    """Single readings off the model; many of them, or a few together at an end, are an effect."""
+    """Single readings off the model: first those of which an effect in it can say nothing.
+
+    Many others, or a few together at an end, are an effect.
+    """
     measurements = found.model.mechanism.measurements
     odd = outliers.off(found.model.mechanism, found.solution, found.row_sd)
     n = len(measurements)
+    in_doubt = doubtful((term.effect for term in found.model.terms), found.conditions)
+    doubted = {measurements.ids[k] for k in np.flatnonzero(in_doubt)}
+    if any(o.reading in doubted for o in odd):
+        return tuple(o for o in odd if o.reading in doubted)
     if len(odd) > max(1, int(ODD_SHARE * n)):
         return ()
     if len(odd) > 1 and len({o.residual_mm > 0 for o in odd}) == 1:
@@ -177,7 +251,7 @@ def _significant(candidates: list[Candidate], tests: int, level: float) -> bool:
 def _settled(model: Model, prior: Prior, specified_sd: Real, better: Fit | None) -> Stage:
     """Fit with the noise that the repeats of this very model show, if they are better than specified."""
     found = fit(model, prior, specified_sd) if better is None else better
-    if long_log.is_long(found):
+    if is_long(found):
         return Stage(found, judge(found, specified_sd))
     for _ in range(2):
         adequacy = judge(found, specified_sd)
@@ -198,7 +272,7 @@ def _add(scan: Scan, prior: Prior, candidates: list[Candidate]) -> tuple[Finding
         return None
     best = max(refined, key=lambda c: c.reduction)
     unit = _noise_square(current.cost - best.reduction, current.dof - best.size)
-    long = long_log.is_long(current)
+    long = is_long(current)
     worst = max(current.cost - best.reduction + RIVALS * unit, 0.0 if long else HOPEFUL * current.cost)
     rivals = [c for c in refined if current.cost - c.reduction < worst]
     fits: list[tuple[float, Candidate, Fit]] = []

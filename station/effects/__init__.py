@@ -6,7 +6,7 @@ Adding an effect is one new file and one line in the catalogue of each machine t
 from __future__ import annotations
 
 from station.effects.backlash import Backlash
-from station.effects.base import Acts, Effect, Variants, signature
+from station.effects.base import Acts, Effect, Variants, doubtful, signature
 from station.effects.compliance import Compliance
 from station.effects.count_slip import CountSlip
 from station.effects.cyclic import EncoderEccentricity, GearCyclic
@@ -16,7 +16,7 @@ from station.effects.scale import ScaleBow, ScaleCyclic, ScaleGain, ScaleHystere
 from station.effects.time import Drift, ThermalGrowth, ThermalLinks
 from station.effects.transmission_gain import TransmissionGain
 
-__all__ = ["Acts", "Effect", "Variants", "arm_catalogue", "catalogue", "signature"]
+__all__ = ["Acts", "Effect", "Variants", "arm_catalogue", "catalogue", "doubtful", "signature"]
 
 PER_JOINT = (Backlash, GearCyclic, EncoderEccentricity, TransmissionGain, Compliance, CountSlip)
 

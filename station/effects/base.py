@@ -8,11 +8,12 @@ a moment) that are searched; amplitudes are fitted.
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from station.conditions import Conditions
 from station.kinematics import Real
@@ -96,12 +97,24 @@ class Effect(ABC):
         """Hidden parameters that may be refined beyond the search grid: name -> (low, high)."""
         return {}
 
+    def doubtful(self, c: Conditions) -> NDArray[np.bool_]:
+        """(K,) readings under conditions in which it cannot be said how this effect acts."""
+        return np.zeros(len(c), dtype=bool)
+
     def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
         """(K, q) basis at given hidden parameters under (other) conditions."""
         found = self.variants(c)
         if found is None:
             raise ValueError(f"{self.label} cannot be evaluated under these conditions")
         return np.asarray(found.basis[found.hidden.index(dict(hidden))])
+
+
+def doubtful(effects: Iterable[Effect], c: Conditions) -> NDArray[np.bool_]:
+    """(K,) readings of which some of these effects can say nothing."""
+    mask = np.zeros(len(c), dtype=bool)
+    for effect in effects:
+        mask |= effect.doubtful(c)
+    return mask
 
 
 def signature(acts: Acts, basis: Real, at: Observation, names: tuple[str, ...], rows: Index) -> Real:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+from numpy.typing import NDArray
 
 from station.conditions import Conditions
 from station.effects.base import ON_READING, Effect, Variants, amplitude_and_phase, one, scaled
@@ -108,6 +109,10 @@ class ScaleHysteresis(Effect):
 
     def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
         return (c.slider_direction if "last_motion" in hidden else c.slider_net)[:, None]
+
+    def doubtful(self, c: Conditions) -> NDArray[np.bool_]:
+        """Where the slider turned round on the way, or the way is not known."""
+        return np.asarray((c.slider_direction != c.slider_net) | (c.slider_direction == 0))
 
     def quantities(
         self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real

@@ -11,6 +11,7 @@ from drivers.emulated.effects.compliance import Compliance
 from drivers.emulated.effects.count_slip import CountSlip
 from drivers.emulated.effects.drift import Drift
 from drivers.emulated.effects.encoder_eccentricity import EncoderEccentricity
+from drivers.emulated.effects.field_bump import FieldBump
 from drivers.emulated.effects.gear_cyclic import GearCyclic
 from drivers.emulated.effects.joint_clearance import JointClearance
 from drivers.emulated.effects.link_length import LinkLength
@@ -20,9 +21,12 @@ from drivers.emulated.effects.scale_bow import ScaleBow
 from drivers.emulated.effects.scale_cyclic import ScaleCyclic
 from drivers.emulated.effects.scale_gain import ScaleGain
 from drivers.emulated.effects.scale_hysteresis import ScaleHysteresis
+from drivers.emulated.effects.slider_drag import SliderDrag
+from drivers.emulated.effects.sticky_patch import StickyPatch
 from drivers.emulated.effects.stiction_patch import StictionPatch
 from drivers.emulated.effects.thermal_growth import ThermalGrowth
 from drivers.emulated.effects.transmission_gain import TransmissionGain
+from drivers.emulated.effects.wandering_zero import WanderingZero
 
 AnyEffect = Annotated[
     Backlash
@@ -31,6 +35,7 @@ AnyEffect = Annotated[
     | CountSlip
     | Drift
     | EncoderEccentricity
+    | FieldBump
     | GearCyclic
     | JointClearance
     | LinkLength
@@ -40,9 +45,12 @@ AnyEffect = Annotated[
     | ScaleCyclic
     | ScaleGain
     | ScaleHysteresis
+    | SliderDrag
+    | StickyPatch
     | StictionPatch
     | ThermalGrowth
-    | TransmissionGain,
+    | TransmissionGain
+    | WanderingZero,
     Field(discriminator="kind"),
 ]
 
@@ -55,6 +63,7 @@ __all__ = [
     "Drift",
     "Effect",
     "EncoderEccentricity",
+    "FieldBump",
     "GearCyclic",
     "JointClearance",
     "LinkLength",
@@ -64,7 +73,10 @@ __all__ = [
     "ScaleCyclic",
     "ScaleGain",
     "ScaleHysteresis",
+    "SliderDrag",
+    "StickyPatch",
     "StictionPatch",
     "ThermalGrowth",
     "TransmissionGain",
+    "WanderingZero",
 ]
