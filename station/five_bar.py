@@ -11,7 +11,7 @@ import numpy as np
 
 from station import conditions, plausibility
 from station.conditions import Conditions, Reference
-from station.effects import Effect, catalogue
+from station.effects import Effect, five_bar_catalogue
 from station.error_model import (
     NAMES,
     SIZE,
@@ -87,7 +87,7 @@ class FiveBar:
 
     def effects(self) -> tuple[Effect, ...]:
         """Every effect at every place of a five-bar with its scale."""
-        return catalogue()
+        return five_bar_catalogue()
 
     @cached_property
     def row_sd(self) -> Real:

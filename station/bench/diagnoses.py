@@ -8,7 +8,7 @@ from station.bench.timing import time_ms
 from station.confusion.machines import draw
 from station.diagnosis.diagnose import diagnose
 from station.diagnosis.scan import Scan
-from station.effects import catalogue
+from station.effects import five_bar_catalogue
 from station.robot import Robot
 
 SEARCHED = ("gear_cyclic", "scale_cyclic")
@@ -20,7 +20,7 @@ def measure(seconds: float) -> dict[str, Any]:
     robot = Robot.default()
     drawn = draw(robot, ("backlash",), seed=1)
     base = diagnose(robot, drawn.walk).base
-    effects = [effect for effect in catalogue() if effect.id not in SEARCHED]
+    effects = [effect for effect in five_bar_catalogue() if effect.id not in SEARCHED]
     return {
         "scan_ms": time_ms(lambda: Scan(base).candidates(effects), seconds=seconds),
         "diagnose_ms": time_ms(lambda: diagnose(robot, drawn.walk, drawn.fresh), seconds=seconds),

@@ -23,6 +23,7 @@ class Detectable:
 
     effect: str
     joint: int | None
+    label: str
     parameter: str | None
     minimum_detectable: float | None
     """Size found in four of five such walks; None when these readings cannot show the effect at all."""
@@ -44,12 +45,14 @@ def _one(scan: Scan, effect: Effect, tests: int) -> Detectable:
     variants = effect.variants(scan.fit.conditions)
     if variants is None:
         text = "these readings were not taken in a way that could show it"
-        return Detectable(effect.id, effect.joint, None, None, None, text)
+        return Detectable(effect.id, effect.joint, effect.label, None, None, None, text)
+    if variants.spread is not None:
+        return _of_many(scan, effect, variants, tests)
     _, share, information = scan.reductions(variants, variants.basis)
     visible = share >= INVISIBLE_SHARE
     if not visible.any():
         text = "invisible in these readings: geometry and zero offsets take up its signature"
-        return Detectable(effect.id, effect.joint, None, None, None, text)
+        return Detectable(effect.id, effect.joint, effect.label, None, None, None, text)
     size = variants.basis.shape[2]
     # variants compared differ in the values of their hidden parameters only, not in what they act on
     kind = variants.hidden[int(np.argmax(visible))].keys()
@@ -59,7 +62,17 @@ def _one(scan: Scan, effect: Effect, tests: int) -> Detectable:
     amplitude[0] = np.sqrt(_noncentrality(scan, variants, size, tests) / information[typical])
     shown = effect.quantities(variants.hidden[typical], amplitude, np.zeros((size, size)))[0]
     text = "" if len(alike) == 1 else "typical of what was searched"
-    return Detectable(effect.id, effect.joint, shown.name, abs(shown.value), shown.unit, text)
+    return Detectable(effect.id, effect.joint, effect.label, shown.name, abs(shown.value), shown.unit, text)
+
+
+def _of_many(scan: Scan, effect: Effect, variants: Variants, tests: int) -> Detectable:
+    """Of many amplitudes together: the shape that shows best."""
+    values, vectors = np.linalg.eigh(scan.information(variants)[0])
+    amplitudes = vectors[:, -1] * np.sqrt(_noncentrality(scan, variants, 1, tests) / values[-1])
+    size = len(amplitudes)
+    shown = effect.quantities(variants.hidden[0], amplitudes, np.zeros((size, size)))[0]
+    text = "of the shape that shows best"
+    return Detectable(effect.id, effect.joint, effect.label, shown.name, abs(shown.value), shown.unit, text)
 
 
 def _noncentrality(scan: Scan, variants: Variants, size: int, tests: int) -> float:

@@ -15,7 +15,7 @@ from station import visited
 from station.diagnosis.diagnose import Diagnosis
 from station.diagnosis.identified import IdentifiedMachine, Situation
 from station.diagnosis.model import Fit, Term
-from station.effects import Acts, Effect, catalogue
+from station.effects import Acts, Effect, five_bar_catalogue
 from station.errors import InputRefused
 from station.kinematics import Real
 from station.machines import robot_of
@@ -179,7 +179,7 @@ def learned_model(part: ModelPart, source: str) -> LearnedModel:
             f"Model {source} is of a serial arm, whose commands its own controller computes; "
             "only a five-bar's are solved here. `station transfer` applies the model to other readings."
         )
-    terms = terms_of(part, catalogue(), source)
+    terms = terms_of(part, five_bar_catalogue(), source)
     size = len(part.values)
     amplitudes = [a for term in part.terms for a in term.amplitudes]
     rows = part.covariance or []

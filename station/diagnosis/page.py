@@ -284,7 +284,7 @@ def _parameters(findings: Findings) -> Section:
 def _invisible(findings: Findings) -> Section:
     rows = [
         (
-            i.effect if i.joint is None else f"{i.effect} of joint {i.joint}",
+            i.label,
             i.parameter or "",
             "" if i.minimum_detectable is None else f"{i.minimum_detectable:.3g} {i.unit}",
             i.text,

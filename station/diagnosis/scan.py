@@ -80,6 +80,10 @@ class Scan:
         rows = model.mechanism.reading_of_row
         return signature(candidate.variants.acts, basis, self.fit.at, model.names, rows)
 
+    def information(self, variants: Variants) -> Real:
+        """(V, q, q) what the rows say of each variant's amplitudes, everything in the model refitted."""
+        return self._projected(variants, variants.basis)[0]
+
     def _projected(self, variants: Variants, basis: Real) -> tuple[Real, Real, Real]:
         """What is left of signatures: information (V, q, q), gradient (V, q), and their share (V,) in RMS."""
         fit, rows = self.fit, len(self.fit.row_sd)

@@ -16,12 +16,12 @@ from station.effects.scale import ScaleBow, ScaleCyclic, ScaleGain, ScaleHystere
 from station.effects.time import Drift, ThermalGrowth, ThermalLinks
 from station.effects.transmission_gain import TransmissionGain
 
-__all__ = ["Acts", "Effect", "Variants", "arm_catalogue", "catalogue", "doubtful", "signature"]
+__all__ = ["Acts", "Effect", "Variants", "arm_catalogue", "doubtful", "five_bar_catalogue", "signature"]
 
 PER_JOINT = (Backlash, GearCyclic, EncoderEccentricity, TransmissionGain, Compliance, CountSlip)
 
 
-def catalogue() -> tuple[Effect, ...]:
+def five_bar_catalogue() -> tuple[Effect, ...]:
     """Every effect at every place of a five-bar with its scale."""
     numbers = (1, 2)
     return (

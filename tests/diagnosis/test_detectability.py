@@ -12,7 +12,7 @@ from station.diagnosis.diagnose import diagnose
 from station.diagnosis.model import Fit, fit
 from station.diagnosis.scan import Scan
 from station.diagnosis.trace import SIGNIFICANT
-from station.effects import catalogue, signature
+from station.effects import five_bar_catalogue, signature
 from station.effects.backlash import Backlash
 from station.least_squares import Prior
 from tests.diagnosis.machines import ROBOT, Emulated
@@ -33,7 +33,7 @@ def test_sizes_agree_with_the_checked_ones(clean: Fit) -> None:
     sd[[names.index("dtheta1"), names.index("dtheta2")]] = np.inf
     prior = Prior.independent(clean.prior.mean, sd)
     four = fit(clean.model, prior, np.full(len(clean.row_sd), CHECKED_NOISE_MM))
-    found = {(d.effect, d.joint, d.parameter): d for d in detectable(four, catalogue())}
+    found = {(d.effect, d.joint, d.parameter): d for d in detectable(four, five_bar_catalogue())}
 
     def size(effect: str, joint: int | None, parameter: str, unit: str) -> float:
         entry = found[effect, joint, parameter]
@@ -56,7 +56,7 @@ def test_sizes_agree_with_the_checked_ones(clean: Fit) -> None:
 def test_power_is_what_it_says(clean: Fit) -> None:
     """Backlash of the smallest visible size, in 200 walks: found in four of five."""
     effect = Backlash(1)
-    entry = next(d for d in detectable(clean, catalogue()) if (d.effect, d.joint) == ("backlash", 1))
+    entry = next(d for d in detectable(clean, five_bar_catalogue()) if (d.effect, d.joint) == ("backlash", 1))
     assert entry.minimum_detectable is not None
     variants = effect.variants(clean.conditions)
     assert variants is not None
@@ -73,21 +73,23 @@ def test_power_is_what_it_says(clean: Fit) -> None:
         cost = float(whitened @ residual)
         one = replace(clean, solution=replace(clean.solution, residual=-residual, cost=cost))
         (candidate,) = Scan(one).candidates([effect])
-        seen += candidate.p_value * len(catalogue()) < SIGNIFICANT
+        seen += candidate.p_value * len(five_bar_catalogue()) < SIGNIFICANT
     assert seen / times == pytest.approx(POWER, abs=0.1)
 
 
 def test_more_noise_hides_more(clean: Fit) -> None:
     loud = replace(clean, row_sd=clean.row_sd * 3.0)
     loud = fit(clean.model, clean.prior, loud.row_sd)
-    for quiet, noisy in zip(detectable(clean, catalogue()), detectable(loud, catalogue()), strict=True):
+    for quiet, noisy in zip(
+        detectable(clean, five_bar_catalogue()), detectable(loud, five_bar_catalogue()), strict=True
+    ):
         if quiet.minimum_detectable is not None and noisy.minimum_detectable is not None:
             assert noisy.minimum_detectable > 1.1 * quiet.minimum_detectable
 
 
 def test_what_was_found_is_not_listed() -> None:
     walk = Emulated({"kind": "backlash", "joint": 1, "width_deg": 0.01}, seed=1).walk()
-    listed = [(d.effect, d.joint) for d in detectable(diagnose(ROBOT, walk).last, catalogue())]
+    listed = [(d.effect, d.joint) for d in detectable(diagnose(ROBOT, walk).last, five_bar_catalogue())]
     assert ("backlash", 1) not in listed
     assert ("backlash", 2) in listed
 
@@ -95,12 +97,12 @@ def test_what_was_found_is_not_listed() -> None:
 def test_without_approach_backlash_cannot_be_shown() -> None:
     walk = Emulated(seed=8).walk()
     walk.approach[:] = 0
-    for entry in detectable(diagnose(ROBOT, walk).last, catalogue()):
+    for entry in detectable(diagnose(ROBOT, walk).last, five_bar_catalogue()):
         if entry.effect == "backlash":
             assert entry.minimum_detectable is None
             assert "not taken in a way" in entry.text
 
 
 def test_labels_name_one_effect_each() -> None:
-    labels = [effect.label for effect in catalogue()]
+    labels = [effect.label for effect in five_bar_catalogue()]
     assert len(set(labels)) == len(labels)

@@ -45,12 +45,13 @@ export interface Diagnosis {
     confirm_max_mm: number | null;
   }[];
   hints: { text: string; strength: number }[];
-  invisible: (Effect & {
+  invisible: {
+    label: string;
     parameter: string | null;
     minimum_detectable: number | null;
     unit: string | null;
     text: string;
-  })[];
+  }[];
 }
 
 const TIMEOUT_MS = 8000;

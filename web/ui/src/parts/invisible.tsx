@@ -1,6 +1,6 @@
 /** What the readings could not have shown: the smallest visible size of every effect that was not found. */
 import type { Diagnosis } from "../api";
-import { effectName, parameterName } from "./causes";
+import { parameterName } from "./causes";
 
 export function Invisible({ found: { invisible } }: { found: Diagnosis }) {
   return (
@@ -23,10 +23,10 @@ export function Invisible({ found: { invisible } }: { found: Diagnosis }) {
           </tr>
         </thead>
         <tbody>
-          {invisible.map(({ effect, joint, parameter, minimum_detectable, unit, text }) => (
-            <tr key={`${effect} ${joint} ${parameter}`}>
+          {invisible.map(({ label, parameter, minimum_detectable, unit, text }) => (
+            <tr key={label}>
               <th scope="row" class="text">
-                {effectName(effect, joint)}
+                {label.replaceAll("_", " ")}
               </th>
               <td>{minimum_detectable === null ? "–" : `${Number(minimum_detectable.toPrecision(2))} ${unit}`}</td>
               <td class="text">{parameter && unit && parameterName(parameter, unit)}</td>
