@@ -181,7 +181,9 @@ def position_error_field(mean: Real, jacobian: Real, covariance: Real) -> Real:
     """(G,) sqrt(|mean|^2 + trace(J C J')) at each place of a grid, mm."""
     finite = np.isfinite(np.diag(covariance))
     J, C = jacobian[:, :, finite], covariance[np.ix_(finite, finite)]
-    variance = np.sum((J @ C) * J, axis=(1, 2))
+    variance = (J.reshape(-1, len(C)) @ C).reshape(J.shape)
+    variance *= J
+    variance = variance.sum(axis=(1, 2))
     return np.asarray(np.sqrt(np.sum(mean**2, axis=1) + variance))
 
 

@@ -23,6 +23,8 @@ MISFIT = 5.0
 """Residuals this many standard deviations large come from a model that is wrong."""
 LOOSE = 1e-3
 """Length of the last step then, per standard deviation of misfit."""
+HUNDREDS = 0.03
+"""Length of the last step of hundreds of unknowns together, in standard deviations."""
 CURVED_AFTER = 5
 """Steps of Gauss-Newton before every other one is made with the full Hessian, if residuals stay large."""
 CRAWLING = 0.3
@@ -169,7 +171,7 @@ def _tolerance(cost: float, rows: int, unknowns: int) -> float:
     """Neither a misfit far beyond the noise nor hundreds of unknowns are pinned down to a fraction of it."""
     misfit = math.sqrt(cost / rows)
     if unknowns >= MANY:
-        return LOOSE * max(misfit, 1.0)
+        return HUNDREDS * max(misfit, 1.0)
     return TOLERANCE if misfit < MISFIT else LOOSE * misfit
 
 

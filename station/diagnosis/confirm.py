@@ -71,7 +71,7 @@ def confirm(base: Fit, learned: Fit, fresh: Measurements, noise_dof: int) -> Con
     The statistic is chi-square with the prediction covariance, searched parameters included; as the
     noise itself was estimated with `noise_dof` degrees of freedom it is held against F.
     """
-    if is_long(learned):
+    if is_long(learned.model.mechanism):
         return _of_long_log(learned, fresh, noise_dof)
     sd = learned.row_sd
     ratio = _noise_ratio(learned)

@@ -234,7 +234,7 @@ def rest_of(fit: Fit) -> Rest:
     Of a long log some readings, and what the parameters of the mechanism could take up of them: the
     amplitudes of curves have taken theirs from all.
     """
-    if not is_long(fit):
+    if not is_long(fit.model.mechanism):
         return Rest((of_fit(fit, fit.row_sd),), fit.prior, fit.x)
     size = fit.model.base_size
     mechanism = fit.model.mechanism

@@ -13,6 +13,7 @@ from station.conditions import reference_of
 from station.diagnosis.confirm import FEWEST, Confirmation, confirm
 from station.diagnosis.departures import Rest, of_fit, rest_of
 from station.diagnosis.hints import Hint, hints
+from station.diagnosis.long_trace import long_trace
 from station.diagnosis.model import Fit, Model, is_long
 from station.diagnosis.rivals import strongest
 from station.diagnosis.trace import Stage, Trace, trace, with_alias
@@ -135,7 +136,7 @@ def _confirmed(found: Trace, fresh: Measurements) -> tuple[Trace, tuple[Confirma
     """Every stage against the fresh readings; they also settle between look-alikes left open by the walk."""
     base = found.stages[0].fit
     checks = tuple(_check(base, stage, fresh) for stage in found.stages)
-    if not found.findings or not found.adequate or checks[-1].confirmed or is_long(base):
+    if not found.findings or not found.adequate or checks[-1].confirmed or is_long(base.model.mechanism):
         return found, checks
     mechanism = found.stages[0].fit.model.mechanism
     for at, finding in enumerate(found.findings):
@@ -184,8 +185,9 @@ def _on_same_mounts(fresh: Measurements, learned: Measurements) -> Measurements:
 
 
 def _trace(mechanism: AnyMechanism, effects: Sequence[Effect]) -> Trace:
+    traced = long_trace if is_long(mechanism) else trace
     try:
-        return trace(
+        return traced(
             Model(mechanism, reference_of(mechanism.measurements)),
             tolerance_prior(mechanism),
             mechanism.row_sd,
@@ -202,7 +204,7 @@ def _rival(found: Trace, checks: Sequence[Confirmation]) -> str | None:
     if checks:
         return checks[-1].rival
     base, last = found.stages[0].fit, found.stages[-1].fit
-    if not found.findings or not found.adequate or is_long(last):
+    if not found.findings or not found.adequate or is_long(last.model.mechanism):
         return None
     without = Rest((of_fit(base, last.row_sd),), base.prior, base.x)
     return strongest(without, _rest(found, checks, -1), last.model.terms, last.conditions)

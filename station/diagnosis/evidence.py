@@ -8,6 +8,7 @@ its posterior means, over the number of them that the readings determine.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -54,31 +55,44 @@ def learned_spread(information: Real, gradient: Real, spread: Real, bands: Index
     return spread, mean
 
 
-def grown(fit: Fit, term: Term, signature: Real, noise: float) -> tuple[tuple[Term, ...], Real]:
-    """The terms of a fit and one more, every spread as the readings want it, and all unknowns (X,).
+def relearned(
+    fit: Fit, added: Sequence[tuple[Term, Real]], noise: float
+) -> tuple[tuple[Term, ...], Real, float]:
+    """The terms of a fit and those added, every spread as the readings want it; all unknowns (X,); the noise.
 
-    The fit is taken as linear where it stands; signature (R, q) is the new term's, mm per unit of amplitude;
-    `noise` is the square of what a row will scatter by, over that of row_sd.
+    The fit is taken as linear where it stands; with each term goes its signature (R, q), mm per unit of
+    amplitude; noise, first as guessed, is the square of what a row scatters by, over that of row_sd, but no
+    less than specified.  It and the spreads depend on each other and are settled together.
     """
-    terms = (*fit.model.terms, term)
-    J = np.hstack([fit.solution.jacobian, signature / fit.row_sd[:, None]])
-    x = np.concatenate([fit.x, np.zeros(term.size)])
-    size = fit.model.base_size
-    base = fit.prior.root[:, :size]
-    information = J.T @ J / noise
-    gradient = information @ x - J.T @ fit.solution.residual / noise
-    information[:size, :size] += base.T @ base
-    gradient[:size] += base.T @ (base @ fit.prior.mean[:size])
-    spread = replace(fit.model, terms=terms).spread
-    learned, mean = learned_spread(
-        information, gradient, np.concatenate([np.full(size, np.inf), spread]), _bands(terms, size)
-    )
-    out, at = [], size
+    terms = (*fit.model.terms, *(term for term, _ in added))
+    model = replace(fit.model, terms=terms)
+    least = float(np.mean((fit.model.mechanism.row_sd / fit.row_sd) ** 2))
+    J = np.hstack([fit.solution.jacobian, *(signature / fit.row_sd[:, None] for _, signature in added)])
+    x = np.concatenate([fit.x, np.zeros(model.unknowns - len(fit.x))])
+    size = model.base_size
+    root = np.zeros((len(fit.prior.root), len(x)))
+    root[:, :size] = fit.prior.root[:, :size]
+    mean = np.zeros(len(x))
+    mean[:size] = fit.prior.mean[:size]
+    normal, held = J.T @ J, root.T @ root
+    toward, pull = normal @ x - J.T @ fit.solution.residual, held @ mean
+    spread = np.concatenate([np.full(size, np.inf), model.spread])
+    bands = _bands(terms, size)
+    dof = len(J) - int(np.sum(np.isinf(spread) & ~root.any(axis=0)))
+    for _ in range(MOST_ROUNDS):
+        spread, at = learned_spread(normal / noise + held, toward / noise + pull, spread, bands)
+        residual = fit.solution.residual + J @ (at - x)
+        pulled = np.sum((at / spread) ** 2) + np.sum((root @ (at - mean)) ** 2)
+        change = max((float(residual @ residual) / noise + float(pulled)) / dof, least / noise)
+        noise *= change
+        if abs(np.log(change)) < SETTLED:
+            break
+    out, first = [], size
     for one in terms:
-        own = learned[at : at + one.size]
+        own = spread[first : first + one.size]
         out.append(one if one.spread is None else replace(one, spread=own))
-        at += one.size
-    return tuple(out), mean
+        first += one.size
+    return tuple(out), at, noise
 
 
 def _bands(terms: tuple[Term, ...], size: int) -> Index:

@@ -11,10 +11,11 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from station.diagnosis.evidence import grown
-from station.diagnosis.model import Fit, fit, fitted
+from station.diagnosis.evidence import relearned
+from station.diagnosis.model import Fit, Model, Term, fit, fitted
 from station.diagnosis.scan import Candidate, Scan
-from station.least_squares import Prior, Solution
+from station.kinematics import Real
+from station.least_squares import Prior
 
 
 def with_candidate(scan: Scan, candidate: Candidate, prior: Prior) -> Fit:
@@ -22,13 +23,21 @@ def with_candidate(scan: Scan, candidate: Candidate, prior: Prior) -> Fit:
 
     :raises NotConvergedError: no convergence.
     """
-    current = scan.fit
-    specified = current.model.mechanism.row_sd
-    left = (current.cost - candidate.reduction) / max(current.dof, 1)
-    noise = max(left, float(np.mean((specified / current.row_sd) ** 2)))
-    terms, x = grown(current, candidate.term(), scan.signature(candidate), noise)
-    model = replace(current.model, terms=terms)
-    return fit(model, prior, current.row_sd * np.sqrt(noise), x)
+    left = (scan.fit.cost - candidate.reduction) / max(scan.fit.dof, 1)
+    return _learned(scan.fit, [(candidate.term(), scan.signature(candidate))], left, prior)
+
+
+def settled(found: Fit, prior: Prior) -> Fit:
+    """A fit once more, with noise and spreads as its readings want them.
+
+    :raises NotConvergedError: no convergence.
+    """
+    return _learned(found, [], found.cost / max(found.dof, 1), prior)
+
+
+def _learned(found: Fit, added: list[tuple[Term, Real]], noise: float, prior: Prior) -> Fit:
+    terms, x, noise = relearned(found, added, noise)
+    return fit(replace(found.model, terms=terms), prior, found.row_sd * np.sqrt(noise), x)
 
 
 def without(found: Fit, kept: NDArray[np.bool_]) -> Fit:
@@ -40,18 +49,38 @@ def without(found: Fit, kept: NDArray[np.bool_]) -> Fit:
     smaller = np.linalg.solve(np.eye(len(C)) - C @ (J_B.T @ J_B), C)
     moved = smaller @ (J_B.T @ r_B)
     residual = old.residual[row] + old.jacobian[row] @ moved
-    x = old.x + moved
-    pull = found.prior.root @ (x - found.prior.mean)
-    solution = Solution(
+    model = replace(found.model, mechanism=mechanism.of(mechanism.measurements.take(kept)))
+    return _moved(
+        found, model, found.prior, old.x + moved, smaller, residual, old.jacobian[row], found.row_sd[row]
+    )
+
+
+def less(found: Fit, k: int, prior: Prior) -> Fit:
+    """The fit without its term k; exact where the model is linear."""
+    model = replace(found.model, terms=(*found.model.terms[:k], *found.model.terms[k + 1 :]))
+    old, C, own = found.solution, found.solution.covariance, found.part(k)
+    keep = np.setdiff1d(np.arange(len(old.x)), own)
+    along = np.linalg.solve(C[np.ix_(own, own)], C[own]).T
+    moved = -along @ old.x[own]
+    residual = old.residual + old.jacobian @ moved
+    smaller = (C - along @ C[own])[np.ix_(keep, keep)]
+    held = model.prior(prior)
+    return _moved(
+        found, model, held, (old.x + moved)[keep], smaller, residual, old.jacobian[:, keep], found.row_sd
+    )
+
+
+def _moved(
+    found: Fit, model: Model, prior: Prior, x: Real, covariance: Real, residual: Real, J: Real, row_sd: Real
+) -> Fit:
+    """Another fit by a linear step from one found; singular values are left as they were."""
+    pull = prior.root @ (x - prior.mean)
+    solution = replace(
+        found.solution,
         x=x,
-        covariance=(smaller + smaller.T) / 2.0,
-        singular_values=old.singular_values,
-        directions=old.directions,
-        scale=old.scale,
+        covariance=(covariance + covariance.T) / 2.0,
         cost=float(residual @ residual + pull @ pull),
         residual=residual,
-        jacobian=old.jacobian[row],
-        steps=old.steps,
+        jacobian=J,
     )
-    model = replace(found.model, mechanism=mechanism.of(mechanism.measurements.take(kept)))
-    return fitted(model, solution, found.prior, found.row_sd[row])
+    return fitted(model, solution, prior, row_sd)

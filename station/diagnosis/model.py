@@ -13,6 +13,7 @@ from station.effects import Effect, signature
 from station.effects.base import Acts
 from station.kinematics import Real
 from station.least_squares import Prior, Solution, solve
+from station.measurements import Index
 from station.mechanism import Mechanism, Observation
 
 CONDITION_ROUNDS = 12
@@ -138,16 +139,20 @@ class Fit:
         """Of the cost: rows less the unknowns that nothing but the rows holds."""
         return len(self.row_sd) - self.prior.free
 
+    def part(self, index: int) -> Index:
+        """(q,) where the amplitudes of term `index` stand among the unknowns."""
+        start = self.model.base_size + sum(t.size for t in self.model.terms[:index])
+        return np.arange(start, start + self.model.terms[index].size)
+
     def amplitudes(self, index: int) -> tuple[Real, Real]:
         """(q,) and covariance (q, q) of term `index`, in whitened units of row_sd."""
-        start = self.model.base_size + sum(t.size for t in self.model.terms[:index])
-        part = slice(start, start + self.model.terms[index].size)
-        return self.x[part], self.solution.covariance[part, part]
+        part = self.part(index)
+        return self.x[part], self.solution.covariance[np.ix_(part, part)]
 
 
-def is_long(found: Fit) -> bool:
+def is_long(mechanism: Mechanism) -> bool:
     """Whether rows are so many that candidates differ by more than their signatures' curvature is worth."""
-    return len(found.row_sd) > LONG_ROWS
+    return len(mechanism.row_sd) > LONG_ROWS
 
 
 def fit(model: Model, base_prior: Prior, row_sd: Real, start: Real | None = None) -> Fit:
@@ -164,7 +169,9 @@ def fit(model: Model, base_prior: Prior, row_sd: Real, start: Real | None = None
 
         def residuals(q: Real, bases: list[Real] = bases) -> tuple[Real, Real]:
             at = model.observe(q, bases)
-            return (at.value - measured) / row_sd, at.by_parameter / row_sd[:, None]
+            J = at.by_parameter
+            J /= row_sd[:, None]  # in place: of a long log it is large
+            return (at.value - measured) / row_sd, J
 
         solution = solve(residuals, x, prior)
         x = solution.x

@@ -15,7 +15,7 @@ from scipy.special import fdtrc
 
 from station.conditions import Conditions
 from station.diagnosis.evidence import learned_spread
-from station.diagnosis.model import Fit, Term
+from station.diagnosis.model import Fit, Term, is_long
 from station.effects import Effect, Variants, signature
 from station.kinematics import Real
 
@@ -55,6 +55,9 @@ class Scan:
         self.fit = fit
         held = np.isfinite(np.diag(fit.solution.covariance))
         self._J = fit.solution.jacobian[:, held]
+        # thousands of rows: what the parameters take up of a signature needs no more digits than half
+        self._kind = np.float32 if is_long(fit.model.mechanism) else np.float64
+        self._J_T = self._J.T.astype(self._kind)
         self._taken_up = fit.solution.covariance[np.ix_(held, held)]
         self._residual = -fit.solution.residual
 
@@ -91,9 +94,11 @@ class Scan:
         S = S / fit.row_sd[:, None]
         flat = S.transpose(1, 0, 2).reshape(rows, -1)
         # what the parameters in the model would take up of each: S' J (J'J + W'W)^-1 J' S
-        inside = (self._J.T @ flat).reshape(-1, *S.shape[::2]).transpose(1, 0, 2)
+        inside = (self._J_T @ flat.astype(self._kind, copy=False)).astype(np.float64, copy=False)
+        back = self._taken_up @ inside
+        inside, back = (a.reshape(-1, *S.shape[::2]).transpose(1, 0, 2) for a in (inside, back))
         whole = S.transpose(0, 2, 1) @ S
-        left = whole - inside.transpose(0, 2, 1) @ (self._taken_up @ inside)
+        left = whole - inside.transpose(0, 2, 1) @ back
         along = (self._residual @ flat).reshape(S.shape[::2])
         # what a constant reading offset takes up is no part of a signature
         mean = flat.mean(axis=0).reshape(S.shape[::2])

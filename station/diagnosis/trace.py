@@ -6,28 +6,22 @@ alias is whatever explains the readings as well, no more and no less (docs/decis
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from station import outliers
-from station.diagnosis import long_log
 from station.diagnosis.adequacy import ALPHA, Adequacy, judge
 from station.diagnosis.departures import by_searched, turned
-from station.diagnosis.model import Fit, Model, Term, fit, is_long
+from station.diagnosis.model import Fit, Model, Term, fit
 from station.diagnosis.scan import Candidate, Scan
 from station.effects import Effect, doubtful
 from station.kinematics import Real
 from station.least_squares import NotConvergedError, Prior
-from station.measurements import Measurements
 from station.outliers import Outlier
 
 MOST_EFFECTS = 3
-READINGS_AN_EFFECT = 200
-"""A long log may show more than three: one for so many readings,"""
-EFFECTS_A_JOINT = 2
-"""but no more than these."""
 WORTH = 0.03
 """Of the rest's square, what an effect must take to be worth a place in the model."""
 SIGNIFICANT = 0.01
@@ -39,11 +33,14 @@ HOPEFUL = 0.02
 MOST_RIVALS = 6
 MOST_POLISHING = 8
 ODD_SHARE = 0.03
-OUTLIER_ROUNDS = 4
 END_SHARE = 0.12
 """Of the walk, in which readings off to one side together look like a step and not like slips of the head."""
 ALIAS = 11.0
 """Chi-square by which a look-alike may be worse and still be the cause (true cause kept in 99.9 %)."""
+
+
+Refitted = Callable[[Scan, Candidate], Fit]
+"""What the scanned fit becomes with a candidate in it."""
 
 
 @dataclass(frozen=True)
@@ -74,7 +71,7 @@ class Trace:
     outliers: tuple[Outlier, ...]
     """Few single readings off the last model: the trace ends there, to be begun again without them."""
     left_out: tuple[Outlier, ...] = ()
-    """Of a long log: readings that were off the last model and are in no fit any more."""
+    """Of a long log: readings that were off the model and are in no fit any more."""
 
     @property
     def adequate(self) -> bool:
@@ -86,67 +83,54 @@ def trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[Effec
 
     :raises NotConvergedError: the base model does not converge.
     """
-    stage = _settled(base, prior, specified_sd, None)
-    stages = [stage]
+    stages = [_settled(base, prior, specified_sd, None)]
     findings: list[Finding] = []
-    long = is_long(stage.fit)
-    odd = () if long else _odd_readings(stage.fit)
-    most = _most_effects(base.mechanism.measurements)
-    while not odd and not stage.adequacy.settled and len(findings) < most:
-        scan = Scan(stage.fit)
-        candidates = scan.candidates(_others(effects, stage.fit.model.terms))
+    odd = odd_readings(stages[0].fit)
+    while not odd and not stages[-1].adequacy.settled and len(findings) < MOST_EFFECTS:
         # where only the repeats are worse than specified, a cause must be plainer
-        level = ALPHA if stage.adequacy.passed else SIGNIFICANT
-        if not _significant(candidates, len(effects), level):
-            break
-        if candidates[0].reduction < WORTH * stage.fit.cost:
-            break
-        chosen = _add(scan, prior, candidates)
+        level = ALPHA if stages[-1].adequacy.passed else SIGNIFICANT
+        chosen = next_effect(stages[-1].fit, _nonlinear(prior), effects, level, HOPEFUL)
         if chosen is None:
             break
         finding, better = chosen
         findings.append(finding)
-        stage = _settled(better.model, prior, specified_sd, better)
-        stages.append(stage)
-        if len(findings) > 1 and not long:
-            findings = _reconsidered(findings, stage.fit, prior, effects)
+        stages.append(_settled(better.model, prior, specified_sd, better))
+        if len(findings) > 1:
+            findings = _reconsidered(findings, stages[-1].fit, prior, effects)
             stages = _staged(base, findings, prior, specified_sd, stages[0])
-            stage = stages[-1]
-        # few gross readings of thousands mislead no scan, and to begin again would take long
-        odd = () if long else _odd_readings(stage.fit)
-    left_out = _take_out(stages, prior) if long else ()
-    return Trace(tuple(stages), tuple(findings), odd, left_out)
+        odd = odd_readings(stages[-1].fit)
+    return Trace(tuple(stages), tuple(findings), odd)
 
 
-def _take_out(stages: list[Stage], prior: Prior) -> tuple[Outlier, ...]:
-    """Take the readings that are off a long log's last model out of every fit, one by one in place.
+def next_effect(
+    found: Fit, refitted: Refitted, effects: Sequence[Effect], level: float, hopeful: float
+) -> tuple[Finding, Fit] | None:
+    """The effect that explains most of what a fit leaves, and the fit with it; None if it is not worth it.
 
-    The effects are known by then: the fits are changed as linear ones, and only the last one is fitted anew.
+    effects: the catalogue; level: of the test over all of it; hopeful: see `HOPEFUL`.
     """
-    last = stages[-1].fit
-    ids = last.model.mechanism.measurements.ids
-    off: tuple[Outlier, ...] = ()
-    for _ in range(OUTLIER_ROUNDS):
-        more = _odd_readings(last)
-        if not more:
-            break
-        off = (*off, *more)
-        named = {o.reading for o in off}
-        last = long_log.without(stages[-1].fit, np.array([i not in named for i in ids]))
-    if not off:
-        return ()
-    kept = np.array([i not in named for i in ids])
-    del last
-    for k, stage in enumerate(stages):
-        found = long_log.without(stage.fit, kept)
-        if k == len(stages) - 1:
-            found = fit(found.model, prior, found.row_sd, found.x)
-        stages[k] = Stage(found, judge(found, found.model.mechanism.row_sd))
-    return off
+    scan = Scan(found)
+    candidates = scan.candidates(_others(effects, found.model.terms))
+    if not candidates or not significant(candidates[0].p_value, len(effects), level):
+        return None
+    if candidates[0].reduction < WORTH * found.cost:
+        return None
+    return _add(scan, refitted, candidates, hopeful)
 
 
-def _most_effects(m: Measurements) -> int:
-    return max(MOST_EFFECTS, min(EFFECTS_A_JOINT * m.joints, len(m) // READINGS_AN_EFFECT))
+def significant(p_value: float, tests: int, level: float) -> bool:
+    """The smallest of so many p-values, family-wise (Holm)."""
+    return p_value * tests < level
+
+
+def _nonlinear(prior: Prior) -> Refitted:
+    def refitted(scan: Scan, c: Candidate) -> Fit:
+        current = scan.fit
+        model = replace(current.model, terms=(*current.model.terms, c.term()))
+        # not from the current fit: without the effect the base parameters may have gone far astray
+        return fit(model, prior, current.row_sd)
+
+    return refitted
 
 
 def _reconsidered(
@@ -162,7 +146,7 @@ def _reconsidered(
         except NotConvergedError:
             continue
         scan = Scan(without)
-        chosen = _add(scan, prior, scan.candidates(_others(effects, others)))
+        chosen = _add(scan, _nonlinear(prior), scan.candidates(_others(effects, others)), HOPEFUL)
         if chosen is not None and chosen[1].cost <= best.cost:
             findings[k], best = chosen
     return _polished(findings, best, prior)
@@ -221,7 +205,7 @@ def with_alias(found: Trace, at: int, alias: Term, prior: Prior, specified_sd: R
     return replace(found, stages=tuple(stages), findings=tuple(findings))
 
 
-def _odd_readings(found: Fit) -> tuple[Outlier, ...]:
+def odd_readings(found: Fit) -> tuple[Outlier, ...]:
     """Single readings off the model: first those of which an effect in it can say nothing.
 
     Many others, or a few together at an end, are an effect.
@@ -244,15 +228,9 @@ def _odd_readings(found: Fit) -> tuple[Outlier, ...]:
     return odd
 
 
-def _significant(candidates: list[Candidate], tests: int, level: float) -> bool:
-    return bool(candidates) and candidates[0].p_value * tests < level
-
-
 def _settled(model: Model, prior: Prior, specified_sd: Real, better: Fit | None) -> Stage:
     """Fit with the noise that the repeats of this very model show, if they are better than specified."""
     found = fit(model, prior, specified_sd) if better is None else better
-    if is_long(found):
-        return Stage(found, judge(found, specified_sd))
     for _ in range(2):
         adequacy = judge(found, specified_sd)
         sd = found.row_sd * adequacy.pure_factor
@@ -264,7 +242,9 @@ def _settled(model: Model, prior: Prior, specified_sd: Real, better: Fit | None)
     return Stage(found, judge(found, specified_sd))
 
 
-def _add(scan: Scan, prior: Prior, candidates: list[Candidate]) -> tuple[Finding, Fit] | None:
+def _add(
+    scan: Scan, refitted: Refitted, candidates: list[Candidate], hopeful: float
+) -> tuple[Finding, Fit] | None:
     """Refit with the best candidates, keep the best, name those that do as well."""
     current = scan.fit
     refined = [scan.refine(c) for c in candidates[: 2 * MOST_RIVALS] if c.visible]
@@ -272,18 +252,12 @@ def _add(scan: Scan, prior: Prior, candidates: list[Candidate]) -> tuple[Finding
         return None
     best = max(refined, key=lambda c: c.reduction)
     unit = _noise_square(current.cost - best.reduction, current.dof - best.size)
-    long = is_long(current)
-    worst = max(current.cost - best.reduction + RIVALS * unit, 0.0 if long else HOPEFUL * current.cost)
+    worst = max(current.cost - best.reduction + RIVALS * unit, hopeful * current.cost)
     rivals = [c for c in refined if current.cost - c.reduction < worst]
     fits: list[tuple[float, Candidate, Fit]] = []
     for c in sorted(rivals, key=lambda c: -c.reduction)[:MOST_RIVALS]:
         try:
-            if long:
-                refit = long_log.with_candidate(scan, c, prior)
-            else:
-                model = replace(current.model, terms=(*current.model.terms, c.term()))
-                # not from the current fit: without the effect the base parameters may have gone far astray
-                refit = fit(model, prior, current.row_sd)
+            refit = refitted(scan, c)
         except NotConvergedError:
             continue
         fits.append((_score(refit, c), c, refit))
