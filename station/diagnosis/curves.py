@@ -61,15 +61,16 @@ def _curve(fit: Fit, k: int, effect: GearCurve, sd_factor: float) -> Curve:
         np.arange(np.degrees(low), np.degrees(high), STEP_DEG) for low, high in visited.of(theta[:, None])[0]
     ]
     angle = np.radians(np.concatenate(parts))
-    basis = fast_basis(angle)
+    size = len(amplitudes)
+    basis = fast_basis(angle, size)
     sd = sd_factor * np.sqrt(np.einsum("ki,ki->k", basis @ covariance, basis))
-    slow = (curve_basis(angle) - basis) @ amplitudes
+    slow = (curve_basis(angle, size) - basis) @ amplitudes
     # what is left of each reading, seen as an error of this joint alone, beside the curve itself
     J = fit.at.by_joint[:, i]
     reading = fit.model.mechanism.reading_of_row
     weight = np.bincount(reading, J**2)
     seen = np.bincount(reading, J * fit.residual_mm) / np.maximum(weight, 1e-12)
-    partial = curve_basis(theta) @ amplitudes + seen - np.interp(theta, angle, slow)
+    partial = curve_basis(theta, size) @ amplitudes + seen - np.interp(theta, angle, slow)
     cell = np.floor(np.degrees(theta) / BIN_DEG).astype(int)
     number, inverse, count = np.unique(cell, return_inverse=True, return_counts=True)
     total = np.bincount(inverse, weight)

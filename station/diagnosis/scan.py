@@ -15,9 +15,11 @@ from scipy.special import fdtrc
 
 from station.conditions import Conditions
 from station.diagnosis.evidence import learned_spread
-from station.diagnosis.model import Fit, Term, is_long
-from station.effects import Effect, Variants, signature
+from station.diagnosis.model import Fit, Term
+from station.effects import Acts, Effect, Variants, signature
+from station.effects.base import weight
 from station.kinematics import Real
+from station.measurements import Index
 
 INVISIBLE_SHARE = 0.01
 """A signature of which less than this is left (RMS) cannot be seen in these readings."""
@@ -48,6 +50,20 @@ class Candidate:
         return Term(self.effect, self.hidden, self.variants.acts, self.size, self.variants.spread)
 
 
+@dataclass(frozen=True)
+class _ByReading:
+    """Sums over the rows of each reading, times their whitened weight; a signature is weight by basis."""
+
+    jacobian: Real
+    """(K, P)"""
+    residual: Real
+    """(K,)"""
+    square: Real
+    """(K,) of the weight itself"""
+    weight: Real
+    """(K,)"""
+
+
 class Scan:
     """One fit's residual, ready to be compared with signatures."""
 
@@ -55,16 +71,15 @@ class Scan:
         self.fit = fit
         held = np.isfinite(np.diag(fit.solution.covariance))
         self._J = fit.solution.jacobian[:, held]
-        # thousands of rows: what the parameters take up of a signature needs no more digits than half
-        self._kind = np.float32 if is_long(fit.model.mechanism) else np.float64
-        self._J_T = self._J.T.astype(self._kind)
         self._taken_up = fit.solution.covariance[np.ix_(held, held)]
         self._residual = -fit.solution.residual
+        self._by_reading: tuple[Acts, _ByReading] | None = None
 
     def candidates(self, effects: Sequence[Effect]) -> list[Candidate]:
         """The best variant of every effect that these readings can show, most significant first."""
         found = []
-        for effect in effects:
+        # joint by joint, as what the rows say is summed for one place of action at a time
+        for effect in sorted(effects, key=lambda e: e.joint or 0):
             variants = effect.variants(self.fit.conditions)
             if variants is not None:
                 found.append(self._best(effect, variants))
@@ -89,22 +104,38 @@ class Scan:
 
     def _projected(self, variants: Variants, basis: Real) -> tuple[Real, Real, Real]:
         """What is left of signatures: information (V, q, q), gradient (V, q), and their share (V,) in RMS."""
-        fit, rows = self.fit, len(self.fit.row_sd)
-        S = signature(variants.acts, basis, fit.at, fit.model.names, fit.model.mechanism.reading_of_row)
-        S = S / fit.row_sd[:, None]
-        flat = S.transpose(1, 0, 2).reshape(rows, -1)
+        shape, rows = basis.shape[::2], len(self.fit.row_sd)
+        flat = basis.transpose(1, 0, 2).reshape(basis.shape[1], -1)
+        of = self._summed(variants.acts)
         # what the parameters in the model would take up of each: S' J (J'J + W'W)^-1 J' S
-        inside = (self._J_T @ flat.astype(self._kind, copy=False)).astype(np.float64, copy=False)
+        inside = of.jacobian.T @ flat
         back = self._taken_up @ inside
-        inside, back = (a.reshape(-1, *S.shape[::2]).transpose(1, 0, 2) for a in (inside, back))
-        whole = S.transpose(0, 2, 1) @ S
+        inside, back = (a.reshape(-1, *shape).transpose(1, 0, 2) for a in (inside, back))
+        whole = basis.transpose(0, 2, 1) @ (of.square[:, None] * basis)
         left = whole - inside.transpose(0, 2, 1) @ back
-        along = (self._residual @ flat).reshape(S.shape[::2])
+        along = (of.residual @ flat).reshape(shape)
         # what a constant reading offset takes up is no part of a signature
-        mean = flat.mean(axis=0).reshape(S.shape[::2])
+        mean = (of.weight @ flat).reshape(shape) / rows
         total = np.trace(whole, axis1=1, axis2=2) - rows * np.sum(mean**2, axis=1)
         share = np.sqrt(np.maximum(np.trace(left, axis1=1, axis2=2), 0.0) / np.where(total > 0, total, 1.0))
         return left, along, share
+
+    def _summed(self, acts: Acts) -> _ByReading:
+        """Of signatures that act at one place; the last such place is kept."""
+        if self._by_reading is None or self._by_reading[0] != acts:
+            model = self.fit.model
+            w = weight(acts, self.fit.at, model.names) / self.fit.row_sd
+            rows = model.mechanism.reading_of_row
+            self._by_reading = (
+                acts,
+                _ByReading(
+                    _over_rows(self._J * w[:, None], rows),
+                    _over_rows(self._residual * w, rows),
+                    _over_rows(w**2, rows),
+                    _over_rows(w, rows),
+                ),
+            )
+        return self._by_reading[1]
 
     def step(self, columns: Real) -> Real:
         """(q,) by how much added whitened columns (R, q) answer the residual, all else refitted."""
@@ -188,6 +219,14 @@ class Scan:
             reduction=reduction,
             p_value=self._p_value(reduction, candidate.freedom, candidate.variants.trials),
         )
+
+
+def _over_rows(of_row: Real, rows: Index) -> Real:
+    """(K, ...) sums of (R, ...) over the rows of each reading; `rows` (R,) ascends."""
+    if len(rows) == rows[-1] + 1:
+        return of_row
+    first = np.flatnonzero(np.diff(rows, prepend=-1))
+    return np.asarray(np.add.reduceat(of_row, first))
 
 
 def explained(left: Real, along: Real) -> tuple[Real, Real]:

@@ -117,15 +117,19 @@ def doubtful(effects: Iterable[Effect], c: Conditions) -> NDArray[np.bool_]:
     return mask
 
 
-def signature(acts: Acts, basis: Real, at: Observation, names: tuple[str, ...], rows: Index) -> Real:
-    """(..., R, q) what a basis (..., K, q) does to the rows of a prediction; `rows` (R,) reading of row."""
-    spread = basis[..., rows, :]
+def weight(acts: Acts, at: Observation, names: tuple[str, ...]) -> Real:
+    """(R,) what one unit of a basis does to each row of a prediction, mm."""
     if acts.joint is not None:
-        return np.asarray(at.by_joint[:, acts.joint, None] * spread)
+        return at.by_joint[:, acts.joint]
     if acts.lengths is not None:
         strain = sum(at.by_parameter[:, names.index(n)] * mm for n, mm in acts.lengths.items())
-        return np.asarray(np.asarray(strain)[:, None] * spread)
-    return spread
+        return np.asarray(strain)
+    return np.ones(len(at.value))
+
+
+def signature(acts: Acts, basis: Real, at: Observation, names: tuple[str, ...], rows: Index) -> Real:
+    """(..., R, q) what a basis (..., K, q) does to the rows of a prediction; `rows` (R,) reading of row."""
+    return np.asarray(weight(acts, at, names)[:, None] * basis[..., rows, :])
 
 
 def scaled(name: str, value: float, variance: float, factor: float, unit: str) -> Quantity:

@@ -22,6 +22,8 @@ NAMED = 3
 """Strongest waves that are named,"""
 SLOWEST = 4
 """from so many cycles a turn on."""
+MARGIN_RAD = np.radians(30.0)
+"""A curve closes on itself so far beyond the visited range, where it means nothing."""
 KNOWN = 4.0
 """Variance of a curve over its median beyond which it is a guess across a gap."""
 GRID = 720
@@ -50,27 +52,27 @@ class GearCurve(Effect):
         if high <= low:
             return None
         hidden = {"from_deg": float(np.degrees(low)), "to_deg": float(np.degrees(high))}
-        spread = np.full(2 * HIGHEST, SPREAD_RAD)
-        return Variants(Acts(joint=i), self.at(hidden, c)[None], (hidden,), 1.0, spread)
+        basis = self.at(hidden, c)
+        spread = np.full(basis.shape[1], SPREAD_RAD)
+        return Variants(Acts(joint=i), basis[None], (hidden,), 1.0, spread)
 
     def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
-        return curve_basis(c.theta[:, (self.joint or 1) - 1])
+        return curve_basis(c.theta[:, (self.joint or 1) - 1], _size(hidden))
 
     def bands(self, size: int) -> Index:
-        """Octaves: 1, 2 to 3, 4 to 7, ... cycles a turn."""
-        n = np.repeat(np.arange(1, size // 2 + 1), 2)
-        return np.asarray(np.floor(np.log2(n)), dtype=np.intp)
+        """Octaves: 1 to 2, 2 to 4, 4 to 8, ... cycles a turn."""
+        return np.asarray(np.repeat(np.floor(np.log2(_per_turn(size))), 2), dtype=np.intp)
 
     def quantities(
         self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
     ) -> tuple[Quantity, ...]:
         """RMS where the curve is known, then amplitude and cycles a turn of its strongest waves."""
         angle = np.radians(np.linspace(hidden["from_deg"], hidden["to_deg"], GRID))
-        basis = curve_basis(angle)
+        basis = curve_basis(angle, len(amplitudes))
         variance = np.einsum("ki,ki->k", basis @ covariance, basis)
         known = variance <= KNOWN * np.median(variance)
         angle = angle[known]
-        basis = fast_basis(angle)
+        basis = fast_basis(angle, len(amplitudes))
         curve = basis @ amplitudes
         sd = np.sqrt(np.mean(np.einsum("ki,ki->k", basis @ covariance, basis)))
         size = np.sqrt(np.mean(curve**2))
@@ -85,18 +87,33 @@ class GearCurve(Effect):
         return tuple(out)
 
 
-def curve_basis(angle: Real) -> Real:
-    """(K, 2 HIGHEST) cosine and sine of 1, 2, ... times an angle (K,), rad."""
-    return np.asarray(waves(angle, 1.0, 1.0, HIGHEST).transpose(1, 0, 2).reshape(len(angle), -1))
+def _size(hidden: Mapping[str, float]) -> int:
+    """Number of amplitudes: two a wave, and whole numbers of waves over range and margin, to `HIGHEST`."""
+    over = np.radians(hidden["to_deg"] - hidden["from_deg"]) + MARGIN_RAD
+    return 2 * min(HIGHEST, int(np.ceil(HIGHEST * over / (2.0 * np.pi))))
 
 
-def fast_basis(angle: Real) -> Real:
-    """(K, 2 HIGHEST) the same without what waves slower than `SLOWEST` make of it over these angles (K,).
+def _per_turn(size: int) -> Real:
+    """(size / 2,) cycles a turn of each wave."""
+    count = size // 2
+    return np.arange(1, count + 1) * (HIGHEST / count)
+
+
+def curve_basis(angle: Real, size: int) -> Real:
+    """(K, size) cosine and sine of each wave at an angle (K,), rad."""
+    count = size // 2
+    step = HIGHEST / count
+    return np.asarray(waves(angle, step, step, count).transpose(1, 0, 2).reshape(len(angle), -1))
+
+
+def fast_basis(angle: Real, size: int) -> Real:
+    """(K, size) the same without what waves slower than `SLOWEST` make of it over these angles (K,).
 
     Below four cycles a turn a curve is the arm's geometry as much as its gears.
     """
-    basis = curve_basis(angle)
-    slow = np.column_stack([basis[:, : 2 * (SLOWEST - 1)], np.ones(len(angle))])
+    basis = curve_basis(angle, size)
+    slowest = waves(angle, 1.0, 1.0, SLOWEST - 1).transpose(1, 0, 2).reshape(len(angle), -1)
+    slow = np.column_stack([slowest, np.ones(len(angle))])
     return np.asarray(basis - slow @ np.linalg.lstsq(slow, basis, rcond=1e-6)[0])
 
 
