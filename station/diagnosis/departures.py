@@ -129,6 +129,8 @@ class Rest:
         self.left = perpendicular(np.concatenate(z), self.taken)
         """(N,)"""
         self.dof = len(self.left) - J.shape[1]
+        self.rows = len(J)
+        """R: without those of the prior."""
         self._conditions = [part.conditions for part in parts]
 
     @property
@@ -179,11 +181,14 @@ def added(rest: Rest, on: str, columns: Real, beside: Real | None = None) -> Dep
     u, s, _ = np.linalg.svd(perpendicular(new, taken), full_matrices=False)
     along = u[:, s > LOST].T @ left
     size = len(along)
-    whole, won = float(left @ left), float(along @ along)
-    dof = rest.dof - (taken.shape[1] - rest.taken.shape[1]) - size
-    if size == 0 or dof <= 0 or whole <= won:
+    # noise is what the readings' own rows scatter by: how generous a tolerance is says nothing of it
+    rest_of_rows = (left - u[:, s > LOST] @ along)[: rest.rows]
+    used = np.sum(taken[: rest.rows] ** 2) + np.sum(u[: rest.rows, s > LOST] ** 2)
+    dof = rest.rows - float(used)
+    noise = float(rest_of_rows @ rest_of_rows) / max(dof, 1.0)
+    if size == 0 or dof < 1.0 or noise == 0.0:
         return Departure(on, 0.0, 1.0)
-    noise = (whole - won) / dof
+    won = float(along @ along)
     p_value = float(fdtrc(size, dof, won / size / noise))
     return Departure(on, float(max(won - size * noise, 0.0) / rest.square), p_value)
 

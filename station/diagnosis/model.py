@@ -21,6 +21,8 @@ CONDITION_ROUNDS = 12
 SETTLED_MM = 2e-5
 SETTLED_SDS = 2e-3
 LONG_ROWS = 1000
+LONG_WITHOUT_REPEATS = 350
+"""Where no repeats say how readings scatter, the residual of fewer rows must."""
 
 
 @dataclass(frozen=True)
@@ -139,6 +141,14 @@ class Fit:
         """Of the cost: rows less the unknowns that nothing but the rows holds."""
         return len(self.row_sd) - self.prior.free
 
+    @property
+    def freedom(self) -> float:
+        """How many unknowns the rows determine: all, less what the prior knows of them."""
+        C = self.solution.covariance
+        held = np.isfinite(np.diag(C))
+        root = self.prior.root[:, held]
+        return float(held.sum() - np.sum((root @ C[np.ix_(held, held)]) * root))
+
     def part(self, index: int) -> Index:
         """(q,) where the amplitudes of term `index` stand among the unknowns."""
         start = self.model.base_size + sum(t.size for t in self.model.terms[:index])
@@ -152,7 +162,7 @@ class Fit:
 
 def is_long(mechanism: Mechanism) -> bool:
     """Whether rows are so many that candidates differ by more than their signatures' curvature is worth."""
-    return len(mechanism.row_sd) > LONG_ROWS
+    return len(mechanism.row_sd) > (LONG_ROWS if mechanism.needs_repeats else LONG_WITHOUT_REPEATS)
 
 
 def fit(model: Model, base_prior: Prior, row_sd: Real, start: Real | None = None) -> Fit:

@@ -73,6 +73,8 @@ class Scan:
         self._J = fit.solution.jacobian[:, held]
         self._taken_up = fit.solution.covariance[np.ix_(held, held)]
         self._residual = -fit.solution.residual
+        self._own_cost = float(self._residual @ self._residual)
+        self._own_dof = len(self._residual) - fit.freedom
         self._by_reading: tuple[Acts, _ByReading] | None = None
 
     def candidates(self, effects: Sequence[Effect]) -> list[Candidate]:
@@ -183,11 +185,12 @@ class Scan:
         )
 
     def _p_value(self, reduction: float, freedom: float, trials: float) -> float:
-        dof = self.fit.dof - freedom
-        rest = max(self.fit.cost - reduction, 1e-12)
-        if dof <= 0:
+        dof, own = self.fit.dof - freedom, self._own_dof - freedom
+        if min(dof, own) <= 0:
             return 1.0
-        return float(min(1.0, trials * fdtrc(freedom, dof, (reduction / freedom) / (rest / dof))))
+        # generous tolerances add to the readings' scatter nothing, but degrees of freedom
+        noise = max((self.fit.cost - reduction) / dof, (self._own_cost - reduction) / own, 1e-12)
+        return float(min(1.0, trials * fdtrc(freedom, dof, reduction / freedom / noise)))
 
     def refine(self, candidate: Candidate) -> Candidate:
         """Settle searched hidden parameters between the grid's points, with their sd."""
