@@ -14,7 +14,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import fdtrc
 
-from station.diagnosis.departures import Departure, Readings, Rest, departures, of_fit, readings, rest_of
+from station.diagnosis.departures import (
+    Departure,
+    Readings,
+    Rest,
+    departures,
+    in_words,
+    of_fit,
+    readings,
+    rest_of,
+)
 from station.diagnosis.model import Fit, Model, is_long
 from station.diagnosis.rivals import strongest
 from station.effects import doubtful
@@ -55,6 +64,14 @@ class Confirmation:
     @property
     def confirmed(self) -> bool:
         return _predicted(self.p_value, self.departures) and self.rival is None
+
+    @property
+    def refusal(self) -> str:
+        """What speaks against the model, where it is not confirmed for a rival's sake."""
+        if self.p_value < REFUSED_P or not self.departures:
+            return "fresh readings refute the model"
+        worst = min(self.departures, key=lambda d: d.p_value)
+        return f"fresh readings and those before them together still depend on {in_words(worst.on)}"
 
     @property
     def rms_mm(self) -> float:

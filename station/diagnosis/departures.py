@@ -44,6 +44,15 @@ class Departure:
     p_value: float
 
 
+def in_words(on: str) -> str:
+    """What a departure or a rival is on, for people."""
+    if on.startswith("theta"):
+        return f"the angle of joint {on.removeprefix('theta')}"
+    return {"approach x place": "approach and place", "place": "the place", "travel": "the travel"}.get(
+        on, on
+    )
+
+
 @dataclass(frozen=True)
 class Readings:
     """K readings in R rows with what a model leaves of them and how it answers to its unknowns."""

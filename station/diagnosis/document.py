@@ -10,6 +10,7 @@ import numpy as np
 
 from station.diagnosis import kinds
 from station.diagnosis.curves import curves
+from station.diagnosis.departures import in_words
 from station.diagnosis.detectability import Detectable, detectable
 from station.diagnosis.diagnose import Diagnosis
 from station.diagnosis.model import Fit, Term
@@ -173,9 +174,10 @@ class Findings:
         share = f"{100.0 * self.diagnosis.explained_share:.0f} %"
         match self.diagnosis.verdict:
             case "partly_explained" | "unexplained" if self.diagnosis.rival is not None:
+                rival = in_words(self.diagnosis.rival)
                 return (
-                    f"Not explained: {names} took {share} of the residual's square, but a dependence on "
-                    f"{self.diagnosis.rival} without any name accounts for the readings about as well."
+                    f"Not explained: {names} took {share} of the residual's square, but a dependence on {rival} "
+                    "without any name accounts for the readings about as well."
                 )
             case "adequate":
                 text = "Adequate: the model fits the readings, nothing is missing from it"
@@ -191,12 +193,10 @@ class Findings:
                 if adequacy.loud:
                     text += f"; repeats scatter {adequacy.loudness:.0f} times more than specified"
                 return f"{text}." if not names else f"{text}; {names} came nearest."
-        after = {
-            True: "fresh readings confirm it",
-            False: "fresh readings refute the model",
-            None: "not confirmed yet by fresh readings",
-        }
-        return f"{text}; {after[self.diagnosis.confirmed]}."
+        checks = self.diagnosis.confirmations
+        if not checks:
+            return f"{text}; not confirmed yet by fresh readings."
+        return f"{text}; {'fresh readings confirm it' if checks[-1].confirmed else checks[-1].refusal}."
 
     def as_json(self, data: dict[str, Any]) -> dict[str, Any]:
         """The contract's document; `data` {file, readings, sha256} says what it was made from."""

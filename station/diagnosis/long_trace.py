@@ -8,6 +8,7 @@ as no effect helps, and everything found is looked at again beside everything el
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 
 import numpy as np
 from scipy.special import fdtrc
@@ -36,6 +37,8 @@ READINGS_AN_EFFECT = 200
 EFFECTS_A_JOINT = 2
 """but no more than these."""
 OUTLIER_ROUNDS = 4
+WORST = 0.5
+"""Readings that are off by less than this share of the worst one are looked at again without it."""
 ROUNDS = 4
 
 
@@ -50,16 +53,12 @@ def long_trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[
     effects = list(effects)
     for _ in range(ROUNDS):
         _grow(fits, findings, prior, effects)
-        off = _take_out(fits)
+        off = _take_out(fits, prior)
         left_out = (*left_out, *off)
         dropped = _drop(fits, findings, prior, len(effects))
         # not to be found and dropped for ever
         effects = [e for e in effects if e not in dropped]
         if not off and not dropped:
-            break
-        try:
-            fits[-1] = long_log.settled(fits[-1], prior)
-        except NotConvergedError:
             break
     stages = tuple(Stage(found, judge(found, found.model.mechanism.row_sd)) for found in fits)
     return Trace(stages, tuple(findings), (), left_out)
@@ -83,24 +82,31 @@ def _grow(fits: list[Fit], findings: list[Finding], prior: Prior, effects: Seque
         fits.append(chosen[1])
 
 
-def _take_out(fits: list[Fit]) -> tuple[Outlier, ...]:
-    """Take the readings that are off the last model out of every fit, in place."""
-    last = fits[-1]
-    ids = last.model.mechanism.measurements.ids
+def _take_out(fits: list[Fit], prior: Prior) -> tuple[Outlier, ...]:
+    """Take the readings that are off the last model out of every fit, in place.
+
+    The worst go first: what they had done to noise and curves made others look worse than they are.
+    """
     off: tuple[Outlier, ...] = ()
     for _ in range(OUTLIER_ROUNDS):
-        more = odd_readings(last)
-        if not more:
+        odd = odd_readings(fits[-1])
+        if not odd:
             break
-        off = (*off, *more)
-        named = {o.reading for o in off}
-        kept = np.array([i not in named for i in ids])
-        last = long_log.without(fits[-1], kept)
-    if off:
-        del last
+        worst = max(o.times_sd for o in odd)
+        now = tuple(o for o in odd if o.times_sd > WORST * worst)
+        named = {o.reading for o in now}
+        kept = np.array([i not in named for i in fits[-1].model.mechanism.measurements.ids])
         for k, found in enumerate(fits):
             fits[k] = long_log.without(found, kept)
+        _settle(fits, prior)
+        off = (*off, *now)
     return off
+
+
+def _settle(fits: list[Fit], prior: Prior) -> None:
+    """Noise, spreads and unknowns of the last model anew; by the linear step where that does not converge."""
+    with suppress(NotConvergedError):
+        fits[-1] = long_log.settled(fits[-1], prior)
 
 
 def _drop(fits: list[Fit], findings: list[Finding], prior: Prior, tests: int) -> list[Effect]:
@@ -116,6 +122,7 @@ def _drop(fits: list[Fit], findings: list[Finding], prior: Prior, tests: int) ->
         del last
         dropped.append(findings.pop(k).term.effect)
         fits[k + 1 :] = [long_log.less(found, k, prior) for found in fits[k + 2 :]]
+        _settle(fits, prior)
     return dropped
 
 
