@@ -176,8 +176,8 @@ class Findings:
             case "partly_explained" | "unexplained" if self.diagnosis.rival is not None:
                 rival = in_words(self.diagnosis.rival)
                 return (
-                    f"Not explained: {names} took {share} of the residual's square, but a dependence on {rival} "
-                    "without any name accounts for the readings about as well."
+                    f"Not explained: {names} took {share} of the residual's square, but a dependence on "
+                    f"{rival} without any name accounts for the readings about as well."
                 )
             case "adequate":
                 text = "Adequate: the model fits the readings, nothing is missing from it"
