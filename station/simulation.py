@@ -80,6 +80,11 @@ class SimulatedMachine:
             temperature_c=np.array([ROOM_C + r.temperature_rise_k for r in taken]),
         )
 
+    def stand(self, theta_deg: Real) -> Complex:
+        """(K,) mm, where the platform truly stands at drive angles theta_deg (K, 2), come to in order."""
+        taken = self._rig.walk([(float(a), float(b)) for a, b in theta_deg])
+        return np.array([complex(*r.true_point_mm) for r in taken])
+
     def walk(self, stops: Sequence[Stop], samples: int = 1) -> Measurements:
         """The stops of a plan."""
         theta_deg = np.array([stop.theta_deg for stop in stops])

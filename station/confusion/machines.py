@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -27,6 +28,8 @@ GRID = (9, 5)
 REPEATED = 10
 FRESH = 40
 INSET_MM = 8.0
+SCATTER_UM = 1.117
+"""Noise of a reading."""
 
 Table = dict[str, Any]
 Make = Callable[[float], Table]
@@ -65,8 +68,8 @@ class Drawn:
     """(effect, joint) of everything in it."""
     size_um: tuple[float, ...]
     """Projected RMS of each."""
-    scatter_um: float
-    """Noise of a reading."""
+    machine: SimulatedMachine
+    """As it is after all readings."""
 
 
 def draw(robot: Robot, kinds: tuple[str, ...], seed: int) -> Drawn:
@@ -82,26 +85,28 @@ def draw(robot: Robot, kinds: tuple[str, ...], seed: int) -> Drawn:
     )
     theta_deg = np.degrees(inverse(robot.geometry, places))
 
-    def measured(effects: list[Table], *, noise: bool = True) -> Measurements:
-        machine = SimulatedMachine(robot, truth, "whole pulses", seed, effects, noise=noise)
-        return machine.visit(theta_deg, labels)
+    def with_effects(effects: list[Table], *, noise: bool = True) -> SimulatedMachine:
+        return SimulatedMachine(robot, truth, "whole pulses", seed, effects, noise=noise)
+
+    def left(make: Make, amplitude: float) -> float:
+        return _left_um(robot, with_effects([make(amplitude)], noise=False).visit(theta_deg, labels))
 
     made, names, sizes = [], [], []
     for kind in kinds:
         make = _effect(kind, rng)
         size = float(np.exp(rng.uniform(np.log(SMALLEST_UM), np.log(LARGEST_UM))))
-        amplitude = _scaled(robot, lambda a, make=make: measured([make(a)], noise=False), size)  # type: ignore[misc]
-        made.append(make(amplitude))
+        made.append(make(_scaled(partial(left, make), size)))
         names.append((NAMES.get(kind, kind), made[-1].get("joint")))
         sizes.append(size)
-    everything = measured(made)
+    machine = with_effects(made)
+    everything = machine.visit(theta_deg, labels)
     walked = len(places) - FRESH
     return Drawn(
         everything.take(np.arange(walked)),
         everything.take(np.arange(walked, len(places))),
         tuple(names),
         tuple(sizes),
-        1.117,
+        machine,
     )
 
 
@@ -122,10 +127,11 @@ def walk_of(robot: Robot, rng: np.random.Generator) -> tuple[Complex, list[str]]
     return places, [str(k) for k in order] + [f"fresh{k}" for k in range(FRESH)]
 
 
-def _scaled(robot: Robot, walk: Callable[[float], Measurements], size_um: float) -> float:
+def _scaled(left_um: Callable[[float], float], size_um: float) -> float:
+    """The amplitude of which so much is left."""
     amplitude = 1.0
     for _ in range(3):
-        left = _left_um(robot, walk(amplitude))
+        left = left_um(amplitude)
         amplitude *= size_um / max(left, 1e-6)
         if abs(left / size_um - 1.0) < 0.05:
             break
