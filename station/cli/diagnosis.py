@@ -149,6 +149,12 @@ def _print(findings: Findings) -> None:
         f"Position error over {over}, predicted: {before['rms']:.4f} mm rms before, "
         f"{after['rms']:.4f} mm after; largest {before['max']:.4f} and {after['max']:.4f} mm."
     )
+    if findings.true_position_errors is not None:
+        before, after = findings.true_position_errors
+        console.print(
+            f"Position error against the tracker: {before['rms']:.4f} mm rms before, "
+            f"{after['rms']:.4f} mm after; largest {before['max']:.4f} and {after['max']:.4f} mm."
+        )
     for hint in findings.diagnosis.hints:
         console.print(f"Hint: {hint.text} ({100 * hint.strength:.0f} %)")
     for outlier in findings.diagnosis.outliers:

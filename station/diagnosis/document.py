@@ -16,6 +16,7 @@ from station.diagnosis.diagnose import Diagnosis
 from station.diagnosis.model import Fit, Term
 from station.diagnosis.model_file import model_json
 from station.diagnosis.stages import StageErrors, stage_errors
+from station.diagnosis.tracked import PositionError, true_position_errors
 from station.identification import vars_of
 from station.noise import Noise
 from station.records import Quantity
@@ -157,6 +158,12 @@ class Findings:
         return kinds.position_errors(self.diagnosis.base, self.diagnosis.last, self._last_sd_factor)
 
     @cached_property
+    def true_position_errors(self) -> tuple[PositionError, PositionError] | None:
+        """Against a tracker, mm, under the base model and the last one; None where nothing was tracked."""
+        d = self.diagnosis
+        return true_position_errors(d.base, d.last, d.measurements, d.fresh)
+
+    @cached_property
     def invisible(self) -> tuple[Detectable, ...]:
         """Smallest visible size of everything that was not found."""
         return detectable(self.diagnosis.last, self.diagnosis.last.model.mechanism.effects())
@@ -202,6 +209,7 @@ class Findings:
         """The contract's document; `data` {file, readings, sha256} says what it was made from."""
         d = self.diagnosis
         before, after = self.position_errors
+        true_before, true_after = self.true_position_errors or (None, None)
         return {
             "schema": SCHEMA,
             "data": data,
@@ -214,8 +222,16 @@ class Findings:
             "findings": [f.as_json() for f in self.effects],
             "curves": [c.as_json() for c in curves(d.last, self._last_sd_factor)],
             "stages": [s.as_json() for s in self.stages],
-            "before": {**self.stages[1].as_json(), "predicted_position_error_mm": before},
-            "after": {**self.stages[-1].as_json(), "predicted_position_error_mm": after},
+            "before": {
+                **self.stages[1].as_json(),
+                "predicted_position_error_mm": before,
+                "true_position_error_mm": true_before,
+            },
+            "after": {
+                **self.stages[-1].as_json(),
+                "predicted_position_error_mm": after,
+                "true_position_error_mm": true_after,
+            },
             "hints": [{"depends_on": h.depends_on, "strength": h.strength, "text": h.text} for h in d.hints],
             "invisible": [i.as_json() for i in self.invisible],
             "outliers": [o.reading for o in d.outliers],

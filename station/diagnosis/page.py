@@ -54,7 +54,6 @@ def _errors(findings: Findings) -> Section:
     for s in findings.stages:
         sizes = (s.fit_rms_mm, s.holdout_rms_mm, s.holdout_max_mm, s.confirm_rms_mm, s.confirm_max_mm)
         rows.append((s.model, s.unknowns, *(_um(v) for v in sizes)))
-    before, after = findings.position_errors
     noise, measurements = findings.noise, findings.diagnosis.measurements
     origin = f"from {noise.dof} repeats" if noise.source == "repeats" else "as specified"
     return Section(
@@ -73,14 +72,27 @@ def _errors(findings: Findings) -> Section:
             ),
             Table(
                 ("commands by", "rms", "largest"),
-                [
-                    ("base model", f"{before['rms']:.3f}", f"{before['max']:.3f}"),
-                    ("last model", f"{after['rms']:.3f}", f"{after['max']:.3f}"),
-                ],
+                _two(findings.position_errors),
                 f"Predicted position error over {kinds.extent(findings.fit)}, mm",
+            ),
+            *(
+                [
+                    Table(
+                        ("position by", "rms", "largest"),
+                        _two(findings.true_position_errors),
+                        "True position error, against the tracker, mm",
+                    )
+                ]
+                if findings.true_position_errors
+                else []
             ),
         ),
     )
+
+
+def _two(errors: tuple[dict[str, float], dict[str, float]]) -> list[tuple[str, str, str]]:
+    names = ("base model", "last model")
+    return [(name, f"{e['rms']:.3f}", f"{e['max']:.3f}") for name, e in zip(names, errors, strict=True)]
 
 
 def _um(value: float | None) -> str:

@@ -26,8 +26,15 @@ EFFECTS: TypeAdapter[AnyEffect] = TypeAdapter(AnyEffect)
 class Emulated:
     """One machine with errors within tolerance and effects as its rig file would say them."""
 
-    def __init__(self, *effects: dict[str, Any], seed: int = 1, recorded_temperature: bool = True) -> None:
+    def __init__(
+        self,
+        *effects: dict[str, Any],
+        seed: int = 1,
+        recorded_temperature: bool = True,
+        tracked: bool = False,
+    ) -> None:
         rng = np.random.default_rng(seed)
+        self.tracked = tracked
         self.recorded_temperature = recorded_temperature
         self.rng = rng
         small = rng.normal(0.0, 0.02, 8).tolist()
@@ -81,6 +88,7 @@ class Emulated:
             mount=np.zeros(len(taken), dtype=np.intp),
             samples=np.ones(len(taken), dtype=np.intp),
             temperature_c=ROOM_C + rise if self.recorded_temperature else None,
+            tracker=np.array([r.true_point_mm for r in taken]) if self.tracked else None,
         )
 
     def stand(self, theta_deg: Real) -> list[VirtualReading]:

@@ -1,0 +1,44 @@
+"""The true position error, where a tracker measured the position of P beside the distance."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from station.conditions import temperature_rise
+from station.diagnosis.identified import IdentifiedMachine, Situation
+from station.diagnosis.model import Fit
+from station.five_bar import FiveBar
+from station.measurements import Measurements
+
+PositionError = dict[str, float]
+"""rms and max, mm"""
+
+
+def true_position_errors(
+    base: Fit, last: Fit, walk: Measurements, fresh: Measurements | None
+) -> tuple[PositionError, PositionError] | None:
+    """Where the models say that P stood, against the tracker, before and after; None without one.
+
+    Of the fresh readings, or without tracked ones of the walk.  The tracker takes part in no fit; its
+    frame is the robot's.
+    """
+    tracked = next((m for m in (fresh, walk) if m is not None and m.tracker is not None), None)
+    if tracked is None or not isinstance(last.model.mechanism, FiveBar):
+        return None
+    rise = temperature_rise(tracked, last.model.reference)
+    nothing = np.zeros(len(tracked))
+    situation = Situation(
+        tracked.approach.astype(float),
+        nothing if rise is None else rise,
+        nothing if tracked.payload_kg is None else tracked.payload_kg,
+    )
+    assert tracked.tracker is not None
+    stood = tracked.tracker @ [1.0, 1.0j]
+    before, after = (
+        np.abs(IdentifiedMachine.of(fit).positions(tracked.theta, situation) - stood) for fit in (base, last)
+    )
+    return _summary(before), _summary(after)
+
+
+def _summary(error: np.ndarray) -> PositionError:
+    return {"rms": float(np.sqrt(np.mean(error**2))), "max": float(error.max())}
