@@ -23,8 +23,8 @@ MISFIT = 5.0
 """Residuals this many standard deviations large come from a model that is wrong."""
 LOOSE = 1e-3
 """Length of the last step then, per standard deviation of misfit."""
-HUNDREDS = 0.03
-"""Length of the last step of hundreds of unknowns together, in standard deviations."""
+HUNDREDS = 1.0
+"""Length of the last step of hundreds of unknowns together: a twentieth of a standard deviation each."""
 CURVED_AFTER = 5
 """Steps of Gauss-Newton before every other one is made with the full Hessian, if residuals stay large."""
 CRAWLING = 0.3

@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 
 import numpy as np
+from numpy.typing import NDArray
 from scipy.special import fdtrc
 
 from station.diagnosis import long_log
@@ -94,13 +95,18 @@ def _take_out(fits: list[Fit], prior: Prior) -> tuple[Outlier, ...]:
             break
         worst = max(o.times_sd for o in odd)
         now = tuple(o for o in odd if o.times_sd > WORST * worst)
-        named = {o.reading for o in now}
-        kept = np.array([i not in named for i in fits[-1].model.mechanism.measurements.ids])
-        for k, found in enumerate(fits):
-            fits[k] = long_log.without(found, kept)
-        _settle(fits, prior)
         off = (*off, *now)
+        fits[-1] = long_log.without(fits[-1], _kept(fits[-1], now))
+        _settle(fits, prior)
+    if off:
+        fits[:-1] = [long_log.without(found, _kept(found, off)) for found in fits[:-1]]
     return off
+
+
+def _kept(found: Fit, off: tuple[Outlier, ...]) -> NDArray[np.bool_]:
+    """(K,) readings that are none of these."""
+    named = {o.reading for o in off}
+    return np.array([i not in named for i in found.model.mechanism.measurements.ids])
 
 
 def _settle(fits: list[Fit], prior: Prior) -> None:
