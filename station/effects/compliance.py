@@ -43,12 +43,11 @@ class Compliance(Effect):
     def quantities(
         self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
     ) -> tuple[Quantity, ...]:
-        names: tuple[tuple[str, str], ...] = (
-            ("deg_at_horizontal", "deg"),
-            ("deg_at_horizontal_per_kg", "deg/kg"),
-        )
+        names = (("deg_at_horizontal", "deg"), ("deg_at_horizontal_per_kg", "deg/kg"))
         if len(amplitudes) > 1 and "by_payload" not in hidden:
-            names = tuple((f"deg_at_moment_{k + 1}", "deg") for k in range(len(amplitudes)))
+            # where along the arm the weight sits is hardly seen; what it does together is
+            whole, variance = float(amplitudes.sum()), float(covariance.sum())
+            return (scaled("deg_at_full_reach", whole, variance, -180.0 / np.pi, "deg"),)
         return tuple(
             scaled(name, a, covariance[k, k], -180.0 / np.pi, unit)
             for k, (a, (name, unit)) in enumerate(zip(amplitudes, names, strict=False))
