@@ -112,7 +112,7 @@ def _causes(findings: Findings) -> Section:
     ]
     return Section(
         "Effects tried" if findings.refuted else "Effects added",
-        [_explanation(found) for found in findings.effects],
+        _explanations(findings.effects),
         (
             Table(
                 ("effect", "size", "share of the residual's square", "p", "looks the same in these readings"),
@@ -166,12 +166,16 @@ def _milli(angle: Real, value: Real, low: Real | None = None, high: Real | None 
     )
 
 
-def _explanation(found: FoundEffect) -> str:
-    effect = found.term.effect
-    text = f"{effect.label}: {effect.physics} Remedy: {effect.remedy}"
-    if found.aliases:
-        text += f" To tell the look-alikes apart: {effect.experiment}"
-    return text
+def _explanations(effects: Sequence[FoundEffect]) -> list[str]:
+    """Physics and remedy, once for all effects that share them."""
+    by_text: dict[str, list[str]] = {}
+    for found in effects:
+        effect = found.term.effect
+        text = f"{effect.physics} Remedy: {effect.remedy}"
+        if found.aliases:
+            text += f" To tell the look-alikes apart: {effect.experiment}"
+        by_text.setdefault(text, []).append(effect.label)
+    return [f"{', '.join(labels)}: {text}" for text, labels in by_text.items()]
 
 
 def _hints(findings: Findings) -> Section:
@@ -224,7 +228,7 @@ def _charts(before: Fit, after: Fit, added: bool) -> Iterator[Chart]:
     for values, name in ((was, "before"), (left, "after")):
         mean = np.bincount(m.position, values) / np.maximum(np.bincount(m.position), 1)
         places = mean[m.position[first]]
-        every = max(1, len(first) // MOST_PLACES)
+        every = -(-len(first) // MOST_PLACES)
         x, y, value = (v[::every].tolist() for v in (at[first, 0], at[first, 1], places))
         drawing = svg.place_map(x, y, value, UM)
         yield Chart(drawing, f"{name}, mean of each place")
@@ -261,7 +265,7 @@ def _series(along: Real, was: Real, left: Real, added: bool) -> Sequence[Series]
 
 def _points(label: str, x: Real, y: Real) -> Series:
     """Of thousands of points only so many as can be told apart on the page, evenly spread over the log."""
-    every = max(1, len(x) // MOST_POINTS)
+    every = -(-len(x) // MOST_POINTS)
     return Series(label, x[::every].tolist(), y[::every].tolist())
 
 
