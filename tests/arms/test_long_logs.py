@@ -12,6 +12,8 @@ from station.diagnosis import long_log
 from station.diagnosis.cross_validation import without_a_quarter
 from station.diagnosis.diagnose import diagnose
 from station.diagnosis.model import Fit, Model, Term, fit, is_long
+from station.diagnosis.scan import INVISIBLE_SHARE, Scan
+from station.effects import signature
 from station.effects.cyclic import GearCyclic
 from station.effects.gear_curve import GearCurve
 from station.identification import tolerance_prior
@@ -90,3 +92,25 @@ def test_generous_tolerances_make_no_cause_of_noise(seed: int) -> None:
     m = replace(arm.log(random_poses(6, 130, seed), seed), tracker=None)
     found = diagnose(arm.robot, *without_a_quarter(m))
     assert (found.verdict, found.confirmed) == ("adequate", True)
+
+
+def test_the_scan_says_what_every_row_says(learned: Fit) -> None:
+    """Sums over the rows of a reading change nothing: here against signatures row by row."""
+    scan, solution = Scan(learned), learned.solution
+    J, C, r = solution.jacobian, solution.covariance, -solution.residual
+    compared = 0
+    for effect in learned.model.mechanism.effects():
+        variants = effect.variants(learned.conditions)
+        if variants is None or variants.basis.shape[2] > 2:
+            continue
+        reduction, share, _ = scan.reductions(variants, variants.basis[:2])
+        rows = learned.model.mechanism.reading_of_row
+        for k, basis in enumerate(variants.basis[:2]):
+            S = signature(variants.acts, basis, learned.at, learned.model.names, rows)
+            S = S / learned.row_sd[:, None]
+            left = S.T @ S - S.T @ J @ C @ J.T @ S
+            if share[k] < INVISIBLE_SHARE or np.linalg.cond(left) > 1e8:
+                continue
+            assert reduction[k] == pytest.approx(S.T @ r @ np.linalg.solve(left, S.T @ r), rel=1e-5)
+            compared += 1
+    assert compared > 10
