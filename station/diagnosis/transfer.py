@@ -2,7 +2,8 @@
 
 Where the machine stands and how its tool is made may differ, so the parameters of the mechanism are fitted
 again, on three quarters of the new readings at a time; the effects stay as they were learned.  Everything is
-judged by the quarter left out, once without the effects and once with them.
+judged by the quarter left out, once without the effects and once with them.  Where a joint has not been, its
+curve is not applied.
 """
 
 from __future__ import annotations
@@ -74,12 +75,9 @@ def transfer(part: ModelPart, robot: AnyRobot, readings: Measurements, source: s
     inside = np.ones(len(readings), dtype=bool)
     within = inside.copy()
     for i in joints:
-        angle = readings.theta[:, [i]]
-        inside &= visited.inside(
-            angle, [[(np.radians(a), np.radians(b)) for a, b in part.ranges.visited_deg[i]]]
-        )
+        inside &= _been(part, readings, i)
         low, high = np.radians(part.ranges.joints_deg[i])
-        within &= (angle[:, 0] >= low) & (angle[:, 0] <= high)
+        within &= (readings.theta[:, i] >= low) & (readings.theta[:, i] <= high)
     needed = FEWEST_AN_UNKNOWN * len(mechanism.parameters)
     if inside.sum() < needed:
         raise InputRefused(
@@ -93,6 +91,12 @@ def transfer(part: ModelPart, robot: AnyRobot, readings: Measurements, source: s
     beyond = None if (inside == within).all() else _both(mechanism, terms, part, within & sound)
     labels = tuple(t.effect.label for t in terms)
     return Transfer(len(readings), off, int((inside & sound).sum()), labels, alone, applied, beyond)
+
+
+def _been(part: ModelPart, readings: Measurements, joint: int) -> NDArray[np.bool_]:
+    """(K,) whether a joint (index) stands where it was when the model was learned."""
+    stretches = [(np.radians(a), np.radians(b)) for a, b in part.ranges.visited_deg[joint]]
+    return visited.inside(readings.theta[:, [joint]], [stretches])
 
 
 def _off(mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelPart) -> tuple[Outlier, ...]:
@@ -135,7 +139,13 @@ class _Frozen:
         p = np.array(
             [learned.get(q.name, x) for q, x in zip(mechanism.parameters, start, strict=True)], dtype=float
         )
-        self.bases = self.model.bases(self.model.conditions(p, first=False))
+        bases = self.model.bases(self.model.conditions(p, first=False))
+        self.bases = [
+            basis * _been(part, m, term.acts.joint)[:, None]
+            if term.effect.local and term.acts.joint is not None
+            else basis
+            for term, basis in zip(terms, bases, strict=True)
+        ]
 
     def fitted(self) -> Real:
         """(P,) parameters of the mechanism.  :raises InputRefused: no convergence."""

@@ -67,7 +67,8 @@ class Effect(ABC):
     """Whether one place can have it more than once, with other hidden parameters."""
     by_approach: ClassVar[bool] = False
     """Whether it moves the arm differently with the sense of the joint's last motion."""
-
+    local: ClassVar[bool] = False
+    """Whether it says nothing of angles where its joint has not been."""
     covers: ClassVar[tuple[str, ...]] = ()
     """Effects of the same joint that are a part of this one."""
 

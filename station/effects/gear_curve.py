@@ -38,6 +38,7 @@ class GearCurve(Effect):
     )
     remedy = "Keep the curve in the model; check the reducer of the joint if it is larger than its sisters'."
     experiment = "Turn the joint alone through its range in fine steps."
+    local = True
     covers = ("gear_cyclic", "encoder_eccentricity")
 
     @property
