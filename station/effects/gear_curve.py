@@ -72,7 +72,7 @@ class GearCurve(Effect):
         basis = curve_basis(angle, len(amplitudes))
         variance = np.einsum("ki,ki->k", basis @ covariance, basis)
         known = variance <= KNOWN * np.median(variance)
-        angle = angle[known]
+        angle, span = angle[known], np.radians(hidden["to_deg"] - hidden["from_deg"])
         basis = fast_basis(angle, len(amplitudes))
         curve = basis @ amplitudes
         sd = np.sqrt(np.mean(np.einsum("ki,ki->k", basis @ covariance, basis)))
@@ -84,7 +84,8 @@ class GearCurve(Effect):
             amplitude = float(np.hypot(*(wave @ amplitudes)))
             spread = float(np.sqrt(np.trace(wave @ covariance @ wave.T) / 2.0))
             out.append(Quantity(f"amplitude{number}_deg", np.degrees(amplitude), np.degrees(spread), "deg"))
-            out.append(Quantity(f"per_rev{number}", n, 0.0, "1/rev"))
+            # Cramer-Rao bound of a frequency seen all over a range (Rife and Boorstyn, IEEE IT-20, 1974)
+            out.append(Quantity(f"per_rev{number}", n, np.sqrt(12.0) * spread / amplitude / span, "1/rev"))
         return tuple(out)
 
 

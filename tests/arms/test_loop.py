@@ -61,6 +61,7 @@ def test_many_waves_become_a_curve_that_holds_where_the_joint_has_been() -> None
     result = found(UR_LIKE, 3, j2=harmonic_drive)
     assert result.diagnosis.confirmed
     assert result.effects[0].term.effect.label == "gear_cyclic curve of joint 2"
+    assert all(q.sd > 0.0 for q in result.effects[0].parameters)
     base, last = result.stages[1], result.stages[-1]
     assert base.confirm_rms_mm is not None and last.confirm_rms_mm is not None
     assert last.confirm_rms_mm < 0.25 * base.confirm_rms_mm
