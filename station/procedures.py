@@ -8,6 +8,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from station.diagnostic_run import diagnostic
+from station.errors import InputRefused
 from station.five_bar import FiveBar
 from station.identification import Identification, identify
 from station.measurements import from_readings
@@ -16,7 +17,7 @@ from station.plans import make_plan
 from station.published_run import MAX_PASSES, PublishedRun
 from station.records import PlanName, Procedure, Reading, Remembered, Walk
 from station.robot import Robot
-from station.verified_run import fresh_stops, result_of
+from station.verified_run import fresh_stops, not_identified, result_of
 
 DAYS_PER_YEAR = 365.25
 
@@ -49,7 +50,10 @@ def measured_and_verified(plan: PlanName, robot: Robot, memory: Remembered | Non
     """The measurement model on a chosen plan, then fresh places that took no part in the fit."""
     readings: list[Reading] = yield Walk("Measuring", 1, make_plan(plan, robot).stops)
     age_days = memory.age_days if memory else 0.0
-    fit = fit_of(robot, readings, memory, age_days)
+    try:
+        fit = fit_of(robot, readings, memory, age_days)
+    except InputRefused as refusal:
+        return not_identified(str(refusal))
     fresh: list[Reading] = yield Walk("Verifying at fresh places", 2, fresh_stops(fit))
     result = replace(result_of(fit, readings, fresh), lasting=memory_of(fit).as_json())
     if memory is None or fit.memory is None:

@@ -125,6 +125,26 @@ def result_of(fit: Identification, readings: list[Reading], fresh: list[Reading]
     )
 
 
+def not_identified(refusal: str) -> CalibrationResult:
+    """Of readings that no machine within the tolerances gives.
+
+    The station took them itself: the model lacks something, or the robot file is of another machine.
+    """
+    return CalibrationResult(
+        verdict="fail",
+        reason=refusal,
+        method="measurement model",
+        zero_offsets=(),
+        parameters=(),
+        weak_direction={},
+        before={},
+        after={},
+        iterations=(),
+        residuals=(),
+        lack_of_fit=refusal,
+    )
+
+
 def prediction_fault(check: Verification) -> str:
     """Why fresh readings do not confirm the model; empty when they do, on finite numbers."""
     if not np.isfinite(check.p_value):

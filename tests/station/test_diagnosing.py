@@ -141,6 +141,24 @@ def test_lack_of_fit_is_judged_at_once_after_any_calibration(tmp_path: Path, pla
     store.close()
 
 
+@pytest.mark.parametrize("plan", ["rapid", "full"])
+def test_an_effect_too_large_for_any_fit_is_a_lack_of_fit_too(tmp_path: Path, plan: PlanName) -> None:
+    """Nothing can be said of the zero offsets then, but what to do next."""
+    readings, result = run(machine({"kind": "link_length", "joint": 1, "link": "L", "mm": 6.0}), plan)
+    assert (result.verdict, result.zero_offsets, result.lasting) == ("fail", (), None)
+    assert result.lack_of_fit == result.reason
+    assert "run the diagnosis" in result.reason
+    store = Store(tmp_path / "station.db")
+    kept = store.create(CalibrationRequest("R1", plan, "ada"), ROBOT)
+    store.add_readings(kept, readings)
+    assert store.finish(kept, State.SUCCEEDED, result) is State.SUCCEEDED
+    found = store.calibration(kept)
+    assert (found["verdict"], found["zero_offsets"], found["lack_of_fit"]) == ("fail", [], result.reason)
+    with pytest.raises(NotApplicable):
+        check_apply(store, kept)
+    store.close()
+
+
 def test_readings_of_another_robot_are_refused() -> None:
     procedure = start_procedure("diagnostic", ROBOT)
     readings = measure(machine(), next(procedure), 0)

@@ -6,7 +6,7 @@ import { navigate } from "../router";
 import { ConfirmedButton } from "./confirm";
 import { OperatorField } from "./operator-field";
 
-export function FindCause({ result: { robot_serial, work_order, lack_of_fit } }: { result: Calibration }) {
+export function FindCause({ result: { robot_serial, work_order, lack_of_fit, zero_offsets } }: { result: Calibration }) {
   const idle = connected.value && !station.value?.run && operator.value.trim() !== "";
   const walk = async () => {
     keepOperator();
@@ -24,7 +24,9 @@ export function FindCause({ result: { robot_serial, work_order, lack_of_fit } }:
             <strong class="alarm warn">◆ The model does not account for these readings</strong>
           </h2>
           <p>
-            Something is missing from it, and the zero offsets may be wrong by more than they say: {lack_of_fit}.
+            {zero_offsets?.length
+              ? `Something is missing from it, and the zero offsets may be wrong by more than they say: ${lack_of_fit}.`
+              : "No machine within the tolerances gives them: something is missing from the model, or the robot file is of another machine."}
           </p>
         </>
       )}
