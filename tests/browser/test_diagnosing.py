@@ -8,10 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Locator, Page, Route, expect
 
 from tests.browser.conftest import LARGE, ROOT, SMALL, Serve, Station
 from tests.browser.steps import add_run, violations
+from tests.diagnosis.machines import Emulated, to_csv
 
 RIGS = ROOT / "drivers/emulated/rigs"
 FAST = 1000.0
@@ -135,6 +136,23 @@ def test_every_ordering_is_drawn_and_kept_in_the_address(page: Page, serve: Serv
         assert wide <= 0
     page.reload()
     expect(travel).to_have_attribute("aria-pressed", "true")
+
+
+def test_an_ordering_chosen_before_the_drawing_has_come_is_drawn(page: Page, station: Station) -> None:
+    """What draws comes with the first chart; until then several may have been asked for."""
+    walk = to_csv(Emulated({"kind": "backlash", "joint": 1, "width_deg": 0.02}).walk())
+    answer = station.api.post("/datasets", files={"file": ("walk.csv", walk)}).raise_for_status()
+    held: list[Route] = []
+    page.route("**/ordering-drawing-*.js", lambda route: held.append(route))
+    page.goto(f"{station.url}/diagnosis/{answer.json()['id']}?by=travel")
+    choices = page.get_by_role("group", name="Order the residual by")
+    for name in ("Time", "Order"):
+        choices.get_by_role("button", name=name, exact=True).click()
+    assert held
+    for route in held:
+        route.continue_()
+    for chart in page.get_by_role("region", name="Residual").locator("figure").all():
+        expect(chart.locator("svg path").nth(PLACES - 1)).to_be_attached()
 
 
 def test_a_run_whose_model_does_not_fit_says_so_at_the_top(page: Page, serve: Serve) -> None:

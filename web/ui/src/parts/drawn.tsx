@@ -6,28 +6,26 @@ interface Props {
   label: string;
   /** Drawn again whenever this changes. */
   on: string;
-  /** Draws into the place; answers how to take it away. */
-  draw: (place: HTMLElement) => Promise<() => void>;
+  /** Fetches what draws into a place and answers how to take it away. */
+  load: () => Promise<(place: HTMLElement) => () => void>;
 }
 
 /** A place for a chart.  What draws it comes when it is needed, not with the page. */
-export function Drawn({ label, on, draw }: Props) {
+export function Drawn({ label, on, load }: Props) {
   const place = useRef<HTMLDivElement>(null);
   const trouble = useSignal(false);
   useEffect(() => {
     let remove = () => {};
     let gone = false;
-    if (place.current) {
-      draw(place.current).then(
-        (taken) => {
-          trouble.value = false;
-          if (gone) taken();
-          else remove = taken;
-        },
-        // the station went down before it had sent what draws
-        () => (trouble.value = true),
-      );
-    }
+    load().then(
+      (draw) => {
+        trouble.value = false;
+        // of two that were asked for one after the other only the last may draw here
+        if (!gone && place.current) remove = draw(place.current);
+      },
+      // the station went down before it had sent what draws
+      () => (trouble.value = true),
+    );
     return () => {
       gone = true;
       remove();

@@ -19,7 +19,7 @@ export function ResidualChart({ id, residuals }: { id: number; residuals: Residu
       <Drawn
         label="Chart of the residuals against their limits"
         on={`${id} ${residuals.length}`}
-        draw={(place) => import("./residual-drawing").then(({ draw }) => draw(place, residuals))}
+        load={() => import("./residual-drawing").then(({ draw }) => (place) => draw(place, residuals))}
       />
     </section>
   );

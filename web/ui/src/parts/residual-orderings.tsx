@@ -75,11 +75,13 @@ function Chart({ id, items, ordering, title, series, limit_mm }: ChartProps) {
       <Drawn
         label={`${title}: ${series.map(({ name }) => name).join(", ")}, by ${ordering.text.toLowerCase()}`}
         on={`${id} ${ordering.id}`}
-        draw={(place) =>
-          import("./ordering-drawing").then(({ drawOrdering, drawPlaces }) =>
-            ordering.id === PLACE
-              ? drawPlaces(place, items, series[0])
-              : drawOrdering(place, items, ordering, series, limit_mm),
+        load={() =>
+          import("./ordering-drawing").then(
+            ({ drawOrdering, drawPlaces }) =>
+              (place) =>
+                ordering.id === PLACE
+                  ? drawPlaces(place, items, series[0])
+                  : drawOrdering(place, items, ordering, series, limit_mm),
           )
         }
       />
