@@ -173,14 +173,19 @@ def vars_of(q: Quantity) -> dict[str, Any]:
 
 def position_error_summary(mean: Real, jacobian: Real, covariance: Real) -> dict[str, float]:
     """rms over the grid of the position error field, and its largest value."""
-    field = position_error_field(mean, jacobian, covariance)
-    return {"rms": float(np.sqrt(np.mean(field**2))), "max": float(field.max())}
+    return rms_and_max(position_error_field(mean, jacobian, covariance))
+
+
+def rms_and_max(error_mm: Real) -> dict[str, float]:
+    """Of position errors (G,), mm."""
+    return {"rms": float(np.sqrt(np.mean(error_mm**2))), "max": float(error_mm.max())}
 
 
 def position_error_field(mean: Real, jacobian: Real, covariance: Real) -> Real:
     """(G,) sqrt(|mean|^2 + trace(J C J')) at each place of a grid, mm."""
     finite = np.isfinite(np.diag(covariance))
     J, C = jacobian[:, :, finite], covariance[np.ix_(finite, finite)]
+    # as one flat product, and in place: of a long log they are large
     variance = (J.reshape(-1, len(C)) @ C).reshape(J.shape)
     variance *= J
     variance = variance.sum(axis=(1, 2))

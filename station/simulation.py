@@ -12,7 +12,7 @@ from typing import Any, Literal
 import numpy as np
 
 from drivers.emulated.spec import MachineSpec
-from drivers.emulated.virtual import VirtualRig
+from drivers.emulated.virtual import VirtualReading, VirtualRig
 from station.kinematics import Complex, Real, inverse
 from station.measurements import Measurements, number
 from station.records import Stop
@@ -66,7 +66,7 @@ class SimulatedMachine:
 
     def visit(self, theta_deg: Real, labels: Sequence[str] | None = None, samples: int = 1) -> Measurements:
         """Readings at drive angles theta_deg (K, 2), in order, each the mean of `samples` of the head."""
-        taken = self._rig.walk([(float(a), float(b)) for a, b in theta_deg], samples=samples)
+        taken = self._taken(theta_deg, samples)
         places = labels if labels is not None else [str(k) for k in range(len(taken))]
         return Measurements(
             ids=tuple(range(1, len(taken) + 1)),
@@ -82,8 +82,10 @@ class SimulatedMachine:
 
     def stand(self, theta_deg: Real) -> Complex:
         """(K,) mm, where the platform truly stands at drive angles theta_deg (K, 2), come to in order."""
-        taken = self._rig.walk([(float(a), float(b)) for a, b in theta_deg])
-        return np.array([complex(*r.true_point_mm) for r in taken])
+        return np.array([complex(*r.true_point_mm) for r in self._taken(theta_deg)])
+
+    def _taken(self, theta_deg: Real, samples: int = 1) -> list[VirtualReading]:
+        return self._rig.walk([(float(a), float(b)) for a, b in theta_deg], samples=samples)
 
     def walk(self, stops: Sequence[Stop], samples: int = 1) -> Measurements:
         """The stops of a plan."""

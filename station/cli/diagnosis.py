@@ -143,18 +143,17 @@ def _print(findings: Findings) -> None:
     console.print(table)
     if findings.diagnosis.measurements.guessed:
         console.print(guesses.in_words(findings.diagnosis.measurements))
-    before, after = findings.position_errors
-    over = kinds.extent(findings.fit)
-    console.print(
-        f"Position error over {over}, predicted: {before['rms']:.4f} mm rms before, "
-        f"{after['rms']:.4f} mm after; largest {before['max']:.4f} and {after['max']:.4f} mm."
-    )
-    if findings.true_position_errors is not None:
-        before, after = findings.true_position_errors
-        console.print(
-            f"Position error against the tracker: {before['rms']:.4f} mm rms before, "
-            f"{after['rms']:.4f} mm after; largest {before['max']:.4f} and {after['max']:.4f} mm."
-        )
+    predicted = f"over {kinds.extent(findings.fit)}, predicted"
+    for what, errors in (
+        (predicted, findings.position_errors),
+        ("against the tracker", findings.true_position_errors),
+    ):
+        if errors is not None:
+            before, after = errors
+            console.print(
+                f"Position error {what}: {before['rms']:.4f} mm rms before, {after['rms']:.4f} mm after; "
+                f"largest {before['max']:.4f} and {after['max']:.4f} mm."
+            )
     for hint in findings.diagnosis.hints:
         console.print(f"Hint: {hint.text} ({100 * hint.strength:.0f} %)")
     for outlier in findings.diagnosis.outliers:

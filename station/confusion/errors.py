@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from station.conditions import temperature_rise
 from station.confusion.machines import Drawn
 from station.diagnosis.diagnose import Diagnosis
 from station.diagnosis.document import Findings
@@ -36,7 +37,8 @@ def before_and_after(robot: Robot, drawn: Drawn, found: Diagnosis) -> BeforeAndA
     checks = found.confirmations[0], found.confirmations[trusted]
     place = robot.workspace_grid(*GRID)
     approach = np.random.default_rng(0).choice([-1.0, 1.0], (len(place), 2))
-    warm = np.full(len(place), _rise(drawn))
+    rise = temperature_rise(drawn.fresh, found.base.model.reference)
+    warm = np.full(len(place), 0.0 if rise is None else rise[-1])
     position = []
     for model in models:
         commands = IdentifiedMachine.of(model).commands(
@@ -48,12 +50,6 @@ def before_and_after(robot: Robot, drawn: Drawn, found: Diagnosis) -> BeforeAndA
         position.append(_rms_um(np.abs(drawn.machine.stand(stops)[1::2] - place)))
     reading = [_rms_um(check.error_mm[kept]) for check in checks]
     return BeforeAndAfter((reading[0], reading[1]), (position[0], position[1]))
-
-
-def _rise(drawn: Drawn) -> float:
-    """K, of the last fresh reading above the first of the walk."""
-    first, last = drawn.walk.temperature_c, drawn.fresh.temperature_c
-    return 0.0 if first is None or last is None else float(last[-1] - first[0])
 
 
 def _rms_um(error_mm: Real) -> float:

@@ -6,7 +6,7 @@ import os
 from collections import Counter
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from multiprocessing import get_context
 
 import numpy as np
@@ -39,7 +39,7 @@ class Outcome:
     """Explained and confirmed, whatever the cause."""
     hinted: bool
     """The strongest hint points to what is outside the catalogue."""
-    errors: BeforeAndAfter | None
+    errors: BeforeAndAfter | None = None
     """None where nothing was diagnosed."""
 
 
@@ -83,11 +83,11 @@ def _one(kinds: tuple[str, ...], seed: int) -> Outcome:
     try:
         found = diagnose(robot, drawn.walk, drawn.fresh)
     except InputRefused as refusal:
-        return Outcome(_clear(drawn), f"refused: {str(refusal)[:40]}", False, False, False, False, None)
-    return judge(drawn, found, before_and_after(robot, drawn, found))
+        return Outcome(_clear(drawn), f"refused: {str(refusal)[:40]}", False, False, False, False)
+    return replace(judge(drawn, found), errors=before_and_after(robot, drawn, found))
 
 
-def judge(drawn: Drawn, found: Diagnosis, errors: BeforeAndAfter) -> Outcome:
+def judge(drawn: Drawn, found: Diagnosis) -> Outcome:
     """Compare what was found with what is in the machine."""
     sets = [{f.term.key, *(t.key for t in f.aliases)} for f in found.trace.findings]
     wanted = list(drawn.truth)
@@ -108,7 +108,6 @@ def judge(drawn: Drawn, found: Diagnosis, errors: BeforeAndAfter) -> Outcome:
         alone=right and all(len(s) == 1 for s in sets),
         explained=explained,
         hinted=bool(found.hints) and [found.hints[0].depends_on] == [OUTSIDE.get(e) for e, _ in wanted],
-        errors=errors,
     )
 
 

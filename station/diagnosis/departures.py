@@ -188,11 +188,11 @@ def added(rest: Rest, on: str, columns: Real, beside: Real | None = None) -> Dep
     new = rest.spread(columns)
     new /= np.maximum(np.linalg.norm(new, axis=0), 1e-300)
     u, s, _ = np.linalg.svd(perpendicular(new, taken), full_matrices=False)
-    along = u[:, s > LOST].T @ left
-    size = len(along)
+    new = u[:, s > LOST]
+    along, size = new.T @ left, new.shape[1]
     # noise is what the readings' own rows scatter by: how generous a tolerance is says nothing of it
-    rest_of_rows = (left - u[:, s > LOST] @ along)[: rest.rows]
-    used = np.sum(taken[: rest.rows] ** 2) + np.sum(u[: rest.rows, s > LOST] ** 2)
+    rest_of_rows = (left - new @ along)[: rest.rows]
+    used = np.sum(taken[: rest.rows] ** 2) + np.sum(new[: rest.rows] ** 2)
     dof = rest.rows - float(used)
     noise = float(rest_of_rows @ rest_of_rows) / max(dof, 1.0)
     if size == 0 or dof < 1.0 or noise == 0.0:

@@ -135,10 +135,10 @@ def diagnose(
 def _confirmed(found: Trace, fresh: Measurements) -> tuple[Trace, tuple[Confirmation, ...]]:
     """Every stage against the fresh readings; they also settle between look-alikes left open by the walk."""
     base = found.stages[0].fit
+    mechanism = base.model.mechanism
     checks = tuple(_check(base, stage, fresh) for stage in found.stages)
-    if not found.findings or not found.adequate or checks[-1].confirmed or is_long(base.model.mechanism):
+    if not found.findings or not found.adequate or checks[-1].confirmed or is_long(mechanism):
         return found, checks
-    mechanism = found.stages[0].fit.model.mechanism
     for at, finding in enumerate(found.findings):
         for alias in finding.aliases:
             try:

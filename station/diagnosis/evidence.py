@@ -78,7 +78,7 @@ def relearned(
     toward, pull = normal @ x - J.T @ fit.solution.residual, held @ mean
     spread = np.concatenate([np.full(size, np.inf), model.spread])
     bands = _bands(terms, size)
-    dof = len(J) - int(np.sum(np.isinf(spread) & ~root.any(axis=0)))
+    dof = fit.dof - sum(term.size for term, _ in added if term.spread is None)
     for _ in range(MOST_ROUNDS):
         spread, at = learned_spread(normal / noise + held, toward / noise + pull, spread, bands)
         residual = fit.solution.residual + J @ (at - x)

@@ -12,7 +12,7 @@ from station import weak_direction as five_bar_direction
 from station.diagnosis.identified import IdentifiedMachine
 from station.diagnosis.model import Fit
 from station.five_bar import FiveBar
-from station.identification import position_error_summary
+from station.identification import position_error_field, rms_and_max
 from station.kinematics import Real
 from station.measurements import Measurements
 from station.noise import Noise
@@ -53,10 +53,8 @@ def position_errors(base: Fit, last: Fit, sd_factor: float) -> tuple[dict[str, f
     apart = (base.residual_mm - last.residual_mm).reshape(readings, -1)
     jacobian = (last.solution.jacobian * last.row_sd[:, None]).reshape(readings, -1, unknowns)
     covariance = last.solution.covariance * sd_factor**2
-    return (
-        position_error_summary(apart, jacobian, covariance),
-        position_error_summary(np.zeros_like(apart), jacobian, covariance),
-    )
+    unknown = position_error_field(np.zeros_like(apart), jacobian, covariance)
+    return rms_and_max(np.hypot(np.linalg.norm(apart, axis=1), unknown)), rms_and_max(unknown)
 
 
 def extent(fit: Fit) -> str:

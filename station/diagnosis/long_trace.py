@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from contextlib import suppress
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -66,17 +67,12 @@ def long_trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[
 
 
 def _grow(fits: list[Fit], findings: list[Finding], prior: Prior, effects: Sequence[Effect]) -> None:
+    refitted = partial(long_log.with_candidate, prior=prior)
     mechanism = fits[0].model.mechanism
     measurements = mechanism.measurements
     most = min(EFFECTS_A_JOINT * measurements.joints, len(measurements) // READINGS_AN_EFFECT)
     while not judge(fits[-1], mechanism.row_sd).settled and len(findings) < max(MOST_EFFECTS, most):
-        chosen = next_effect(
-            fits[-1],
-            lambda scan, c: long_log.with_candidate(scan, c, prior),
-            effects,
-            SIGNIFICANT,
-            hopeful=0.0,
-        )
+        chosen = next_effect(fits[-1], refitted, effects, SIGNIFICANT, hopeful=0.0)
         if chosen is None:
             return
         findings.append(chosen[0])

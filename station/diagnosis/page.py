@@ -70,29 +70,21 @@ def _errors(findings: Findings) -> Section:
                 rows,
                 f"Measured less predicted, {UM}",
             ),
-            Table(
-                ("commands by", "rms", "largest"),
-                _two(findings.position_errors),
-                f"Predicted position error over {kinds.extent(findings.fit)}, mm",
-            ),
-            *(
-                [
-                    Table(
-                        ("position by", "rms", "largest"),
-                        _two(findings.true_position_errors),
-                        "True position error, against the tracker, mm",
-                    )
-                ]
-                if findings.true_position_errors
-                else []
-            ),
+            *_position_errors(findings),
         ),
     )
 
 
-def _two(errors: tuple[dict[str, float], dict[str, float]]) -> list[tuple[str, str, str]]:
-    names = ("base model", "last model")
-    return [(name, f"{e['rms']:.3f}", f"{e['max']:.3f}") for name, e in zip(names, errors, strict=True)]
+def _position_errors(findings: Findings) -> Iterator[Table]:
+    predicted = f"Predicted position error over {kinds.extent(findings.fit)}, mm"
+    for by, errors, caption in (
+        ("commands by", findings.position_errors, predicted),
+        ("position by", findings.true_position_errors, "True position error, against the tracker, mm"),
+    ):
+        if errors is not None:
+            named = zip(("base model", "last model"), errors, strict=True)
+            rows = [(name, f"{e['rms']:.3f}", f"{e['max']:.3f}") for name, e in named]
+            yield Table((by, "rms", "largest"), rows, caption)
 
 
 def _um(value: float | None) -> str:

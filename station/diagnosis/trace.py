@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -83,13 +84,14 @@ def trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[Effec
 
     :raises NotConvergedError: the base model does not converge.
     """
+    refitted = partial(_with_candidate, prior=prior)
     stages = [_settled(base, prior, specified_sd, None)]
     findings: list[Finding] = []
     odd = odd_readings(stages[0].fit)
     while not odd and not stages[-1].adequacy.settled and len(findings) < MOST_EFFECTS:
         # where only the repeats are worse than specified, a cause must be plainer
         level = ALPHA if stages[-1].adequacy.passed else SIGNIFICANT
-        chosen = next_effect(stages[-1].fit, _nonlinear(prior), effects, level, HOPEFUL)
+        chosen = next_effect(stages[-1].fit, refitted, effects, level, HOPEFUL)
         if chosen is None:
             break
         finding, better = chosen
@@ -123,20 +125,18 @@ def significant(p_value: float, tests: int, level: float) -> bool:
     return p_value * tests < level
 
 
-def _nonlinear(prior: Prior) -> Refitted:
-    def refitted(scan: Scan, c: Candidate) -> Fit:
-        current = scan.fit
-        model = replace(current.model, terms=(*current.model.terms, c.term()))
-        # not from the current fit: without the effect the base parameters may have gone far astray
-        return fit(model, prior, current.row_sd)
-
-    return refitted
+def _with_candidate(scan: Scan, candidate: Candidate, prior: Prior) -> Fit:
+    current = scan.fit
+    model = replace(current.model, terms=(*current.model.terms, candidate.term()))
+    # not from the current fit: without the effect the base parameters may have gone far astray
+    return fit(model, prior, current.row_sd)
 
 
 def _reconsidered(
     findings: list[Finding], full: Fit, prior: Prior, effects: Sequence[Effect]
 ) -> list[Finding]:
     """Each earlier finding once more, beside all the others: it was chosen while they disturbed it."""
+    refitted = partial(_with_candidate, prior=prior)
     best = full
     findings = list(findings)
     for k in range(len(findings) - 1):
@@ -146,7 +146,7 @@ def _reconsidered(
         except NotConvergedError:
             continue
         scan = Scan(without)
-        chosen = _add(scan, _nonlinear(prior), scan.candidates(_others(effects, others)), HOPEFUL)
+        chosen = _add(scan, refitted, scan.candidates(_others(effects, others)), HOPEFUL)
         if chosen is not None and chosen[1].cost <= best.cost:
             findings[k], best = chosen
     return _polished(findings, best, prior)

@@ -8,6 +8,7 @@ from station.conditions import temperature_rise
 from station.diagnosis.identified import IdentifiedMachine, Situation
 from station.diagnosis.model import Fit
 from station.five_bar import FiveBar
+from station.identification import rms_and_max
 from station.measurements import Measurements
 
 PositionError = dict[str, float]
@@ -37,8 +38,4 @@ def true_position_errors(
     before, after = (
         np.abs(IdentifiedMachine.of(fit).positions(tracked.theta, situation) - stood) for fit in (base, last)
     )
-    return _summary(before), _summary(after)
-
-
-def _summary(error: np.ndarray) -> PositionError:
-    return {"rms": float(np.sqrt(np.mean(error**2))), "max": float(error.max())}
+    return rms_and_max(before), rms_and_max(after)

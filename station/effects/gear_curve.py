@@ -103,9 +103,13 @@ def _per_turn(size: int) -> Real:
 
 def curve_basis(angle: Real, size: int) -> Real:
     """(K, size) cosine and sine of each wave at an angle (K,), rad."""
-    count = size // 2
-    step = HIGHEST / count
-    return np.asarray(waves(angle, step, step, count).transpose(1, 0, 2).reshape(len(angle), -1))
+    return _columns(angle, _per_turn(size))
+
+
+def _columns(angle: Real, per_turn: Real) -> Real:
+    """(K, 2 W) cosine and sine of an angle (K,) times per_turn (W,): 1, 2, ... times its first."""
+    turned = waves(angle, per_turn[0], per_turn[0], len(per_turn))
+    return np.asarray(turned.transpose(1, 0, 2).reshape(len(angle), -1))
 
 
 def fast_basis(angle: Real, size: int) -> Real:
@@ -114,8 +118,7 @@ def fast_basis(angle: Real, size: int) -> Real:
     Below four cycles a turn a curve is the arm's geometry as much as its gears.
     """
     basis = curve_basis(angle, size)
-    slowest = waves(angle, 1.0, 1.0, SLOWEST - 1).transpose(1, 0, 2).reshape(len(angle), -1)
-    slow = np.column_stack([slowest, np.ones(len(angle))])
+    slow = np.column_stack([_columns(angle, np.arange(1.0, SLOWEST)), np.ones(len(angle))])
     return np.asarray(basis - slow @ np.linalg.lstsq(slow, basis, rcond=1e-6)[0])
 
 

@@ -22,7 +22,7 @@ def test_a_cause_found_makes_readings_and_true_positions_better(kind: str) -> No
     drawn = draw(ROBOT, (kind,), 12)
     found = diagnose(ROBOT, drawn.walk, drawn.fresh)
     errors = before_and_after(ROBOT, drawn, found)
-    assert judge(drawn, found, errors).right
+    assert judge(drawn, found).right
     assert errors.reading_um[1] < 1.4 < errors.reading_um[0]
     assert errors.position_um[1] < 0.5 * errors.position_um[0]
 
@@ -31,7 +31,7 @@ def test_a_machine_with_another_cause_is_not_right() -> None:
     drawn = draw(ROBOT, ("backlash",), 12)
     other = draw(ROBOT, ("scale_gain",), 12)
     found = diagnose(ROBOT, other.walk, other.fresh)
-    assert not judge(drawn, found, before_and_after(ROBOT, other, found)).right
+    assert not judge(drawn, found).right
 
 
 def test_one_machine_of_each_kind_makes_a_page(tmp_path: Path) -> None:
