@@ -15,7 +15,7 @@ from station.measurement_file import Columns
 Triple = tuple[float, float, float]
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
-MODEL = "serial-dh"
+ARM_MODEL = "serial-dh"
 
 
 @dataclass(frozen=True)
@@ -61,7 +61,7 @@ class Arm:
         return {
             "robot": {
                 "serial": self.serial,
-                "model": MODEL,
+                "model": ARM_MODEL,
                 "convention": self.convention,
                 "a_mm": self.a,
                 "d_mm": self.d,

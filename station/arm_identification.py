@@ -7,7 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from station import outliers, separability
 from station.arm import Arm
 from station.conditions import reference_of
 from station.diagnosis.model import Fit, Model, fit
@@ -17,8 +16,9 @@ from station.kinematics import Real
 from station.least_squares import NotConvergedError
 from station.measurements import Measurements
 from station.mechanism import by_reading
-from station.outliers import Outlier
+from station.outliers import Outlier, check_outlier_share, find_outliers
 from station.records import Quantity
+from station.separability import describe_separability
 from station.serial_arm import SerialArm
 
 
@@ -54,7 +54,7 @@ class ArmIdentification:
         mechanism, solution = self.fit.model.mechanism, self.fit.solution
         return {
             "parameters": [vars_of(q) for q in self.parameters],
-            "weak_direction": separability.describe(mechanism, solution, self.sd_factor),
+            "weak_direction": describe_separability(mechanism, solution, self.sd_factor),
             "singular_values": solution.singular_values.tolist(),
             "residual": {
                 "rms_mm": float(np.sqrt(np.mean(self.errors_mm**2))),
@@ -79,8 +79,8 @@ def identify_arm(robot: Arm, readings: Measurements) -> ArmIdentification:
             f"Only {len(mechanism.measured)} numbers were measured for {unknowns} unknowns; "
             "measure more poses."
         )
-    found = outliers.find(mechanism, lambda sd: _fit(mechanism, sd).solution, mechanism.row_sd)
-    outliers.check_share(found, len(readings))
+    found = find_outliers(mechanism, lambda sd: _fit(mechanism, sd).solution, mechanism.row_sd)
+    check_outlier_share(found, len(readings))
     named = {o.reading for o in found}
     kept = mechanism.of(readings.take(np.array([i not in named for i in readings.ids])))
     return ArmIdentification(_fit(kept, kept.row_sd), found)

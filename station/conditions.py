@@ -88,7 +88,7 @@ def temperature_rise(m: Measurements, reference: Reference) -> Real | None:
     return np.asarray(m.temperature_c - reference.temperature_c)
 
 
-def before(m: Measurements, reference: Reference | None) -> Real:
+def readings_before(m: Measurements, reference: Reference | None) -> Real:
     """(K, n + 1) joint angles and distance before each reading, NaN where unknown."""
     came_from = np.array(m.came_from)
     if reference is not None:

@@ -9,10 +9,10 @@ from typing import Any
 
 import numpy as np
 
-from station import measurement_file
 from station.diagnosis.diagnose import diagnose
 from station.diagnosis.document import Findings
 from station.diagnostic_walk import fresh_stops
+from station.measurement_file import readings_to_csv
 from station.measurements import Measurements, from_readings
 from station.plans import make_plan
 from station.records import CalibrationResult, Reading, Walk
@@ -110,7 +110,7 @@ def reason(findings: Findings) -> str:
 
 def _described(readings: list[Reading]) -> dict[str, Any]:
     """What a document was made from, as its `data` says."""
-    text = measurement_file.to_csv(readings).encode()
+    text = readings_to_csv(readings).encode()
     return {"file": "first walk", "readings": len(readings), "sha256": hashlib.sha256(text).hexdigest()}
 
 

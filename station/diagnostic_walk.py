@@ -20,7 +20,7 @@ FRESH_INSET_MM = 15.0
 SIDES = ((1, 1), (-1, -1), (1, -1), (-1, 1))
 
 
-def grid(robot: Robot, inset_mm: float) -> Complex:
+def diagnostic_grid(robot: Robot, inset_mm: float) -> Complex:
     """(45,) places, row by row, mm; kept `inset_mm` from the workspace's edge."""
     (x0, x1), (y0, y1) = robot.workspace_x, robot.workspace_y
     x = np.linspace(x0 + inset_mm, x1 - inset_mm, COLUMNS)
@@ -28,7 +28,7 @@ def grid(robot: Robot, inset_mm: float) -> Complex:
     return np.asarray((x[None, :] + 1j * y[:, None]).ravel())
 
 
-def visits() -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+def diagnostic_visits() -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     """Order of places (120,) and wanted approach signs (120, 2), 0 where the way decides; always the same."""
     rows = np.arange(COLUMNS * ROWS).reshape(ROWS, COLUMNS)
     there = np.concatenate([row[:: (-1) ** k] for k, row in enumerate(rows)])

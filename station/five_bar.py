@@ -9,8 +9,14 @@ from functools import cached_property
 
 import numpy as np
 
-from station import conditions, plausibility
-from station.conditions import Conditions, Reference
+from station.conditions import (
+    Conditions,
+    Reference,
+    last_motion,
+    net_travel,
+    readings_before,
+    temperature_rise,
+)
 from station.effects import Effect, five_bar_catalogue
 from station.error_model import (
     NAMES,
@@ -24,6 +30,7 @@ from station.error_model import (
 from station.kinematics import Complex, Geometry, Real, inverse
 from station.measurements import Index, Measurements
 from station.mechanism import Observation, Parameter
+from station.plausibility import check_distances, check_poses
 from station.robot import Robot
 
 SCALE_SD_MM = (3.0 + 0.35) / 3.0 * 1e-3
@@ -82,8 +89,8 @@ class FiveBar:
 
     def check(self) -> None:
         """:raises InputRefused: poses or distances that cannot be of this robot."""
-        plausibility.check_poses(self.robot, self.measurements)
-        plausibility.check_distances(self.robot, self.measurements)
+        check_poses(self.robot, self.measurements)
+        check_distances(self.robot, self.measurements)
 
     def effects(self) -> tuple[Effect, ...]:
         """Every effect at every place of a five-bar with its scale."""
@@ -137,16 +144,16 @@ class FiveBar:
         m = self.measurements
         theta = m.theta + p[:2]
         at = pose(perturbed(self.nominal, p[:SIZE]), theta)
-        came_from = conditions.before(m, None if first else reference)
+        came_from = readings_before(m, None if first else reference)
         return Conditions(
             t_s=m.t_s,
             theta=theta,
             drive_angle=m.theta - np.radians(self.robot.zero_at_deg),
             approach=m.approach.astype(float),
             travel=self.observe(p, m.theta).value,
-            slider_direction=conditions.last_motion(m, distance_by_joint(at), came_from),
-            slider_net=conditions.net_travel(m, came_from),
-            temperature_rise=conditions.temperature_rise(m, reference),
+            slider_direction=last_motion(m, distance_by_joint(at), came_from),
+            slider_net=net_travel(m, came_from),
+            temperature_rise=temperature_rise(m, reference),
             payload_kg=m.payload_kg,
             lengths=lengths(self.robot),
             pull=pull(at.w),

@@ -13,7 +13,7 @@ from station.kinematics import Geometry, Real
 from station.mechanism import Observation
 
 
-def observe(geometry: Geometry, p: Real, theta: Real) -> Observation:
+def observe_four_unknowns(geometry: Geometry, p: Real, theta: Real) -> Observation:
     """(K,) head readings at p (5,) and feedback angles theta (K, 2), with derivatives."""
     at = pose(Geometry(geometry.e, geometry.L, geometry.l, geometry.cd + complex(p[2], p[3])), theta + p[:2])
     by_joint = distance_by_joint(at)

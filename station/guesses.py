@@ -27,7 +27,7 @@ def with_guesses(m: Measurements) -> Measurements:
     return replace(m, guessed=tuple(guessed))
 
 
-def in_words(m: Measurements) -> str:
+def guesses_in_words(m: Measurements) -> str:
     """What was guessed, for people."""
     return f"Not recorded, but guessed from the rows themselves: {' and '.join(m.guessed)}."
 

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 
-from station import noise, outliers, weak_direction
 from station.errors import InputRefused
 from station.five_bar import GRID, FiveBar
 from station.kinematics import Real
@@ -19,9 +18,12 @@ from station.least_squares import NotConvergedError, Prior, Solution, solve
 from station.measurements import Measurements
 from station.mechanism import Mechanism
 from station.memory import GATE_P, Memory, contradiction_p
+from station.noise import Noise, estimate_noise, lack_of_fit
+from station.outliers import Outlier, check_outlier_share, find_outliers
 from station.plausibility import check_distances, check_places, check_poses
 from station.records import Quantity
 from station.robot import Robot
+from station.weak_direction import describe_weak_direction
 
 LACK_OF_FIT_P = 1e-3
 IMPOSSIBLE_SDS = 20.0
@@ -52,11 +54,11 @@ class Identification:
     measurements: Measurements
     """The readings that took part; outliers are gone."""
     solution: Solution
-    noise: noise.Noise
+    noise: Noise
     sd_factor: float
     """What the posterior covariance was inflated by because the model does not fit (1 when it does)."""
     lack_of_fit_p: float
-    outliers: tuple[outliers.Outlier, ...]
+    outliers: tuple[Outlier, ...]
     memory: MemoryUse | None
     """None when there was none."""
 
@@ -149,7 +151,7 @@ class Identification:
             "modes": [vars_of(q) for q in self.modes()],
             "parameters": [vars_of(q) for q in quantities],
             "coverage_factor": self.noise.coverage_factor,
-            "weak_direction": weak_direction.describe(self),
+            "weak_direction": describe_weak_direction(self),
             "singular_values": [float(s) for s in self.solution.singular_values],
             "residual": {
                 "rms_mm": float(np.sqrt(np.mean(residual**2))),
@@ -221,14 +223,14 @@ def identify(robot: Robot, measurements: Measurements, memory: Memory | None = N
 
 
 def _fit(
-    mechanism: FiveBar, kept: Measurements, prior: Prior, left_out: tuple[outliers.Outlier, ...]
+    mechanism: FiveBar, kept: Measurements, prior: Prior, left_out: tuple[Outlier, ...]
 ) -> Identification:
     row_sd = mechanism.row_sd
     solution = _solve(mechanism, prior, row_sd)
-    estimate = noise.estimate(kept, solution.residual, row_sd)
+    estimate = estimate_noise(kept, solution.residual, row_sd)
     if estimate.source == "repeats":
         solution = _solve(mechanism, prior, estimate.row_sd)
-    p_value, ratio = noise.lack_of_fit(solution, estimate, prior.free, kept)
+    p_value, ratio = lack_of_fit(solution, estimate, prior.free, kept)
     return Identification(
         mechanism=mechanism,
         measurements=kept,
@@ -241,13 +243,11 @@ def _fit(
     )
 
 
-def _without_outliers(
-    robot: Robot, measurements: Measurements
-) -> tuple[Measurements, tuple[outliers.Outlier, ...]]:
+def _without_outliers(robot: Robot, measurements: Measurements) -> tuple[Measurements, tuple[Outlier, ...]]:
     mechanism = FiveBar(robot, measurements)
     prior = tolerance_prior(mechanism)
-    found = outliers.find(mechanism, lambda sd: _solve(mechanism, prior, sd), mechanism.row_sd)
-    outliers.check_share(found, len(measurements))
+    found = find_outliers(mechanism, lambda sd: _solve(mechanism, prior, sd), mechanism.row_sd)
+    check_outlier_share(found, len(measurements))
     if not found:
         return measurements, ()
     named = {o.reading for o in found}

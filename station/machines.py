@@ -8,12 +8,11 @@ from typing import Any, Literal
 
 import numpy as np
 
-from station import arm, measurement_file
-from station.arm import Arm
+from station.arm import ARM_MODEL, Arm
 from station.errors import InputRefused
 from station.five_bar import FiveBar
 from station.guesses import with_guesses
-from station.measurement_file import FIVE_BAR, Columns
+from station.measurement_file import FIVE_BAR, Columns, read_measurements
 from station.measurements import Measurements
 from station.robot import FIVE_BAR_MODEL, Robot, read_sections
 from station.serial_arm import SerialArm
@@ -37,11 +36,11 @@ def robot_of(data: dict[str, Any], *, source: str = "robot") -> AnyRobot:
     """From a robot file's sections.  :raises InputRefused:"""
     section = data.get("robot")
     model = section.get("model") if isinstance(section, dict) else None
-    if model == arm.MODEL:
+    if model == ARM_MODEL:
         return Arm.from_dict(data, source=source)
     if model not in (None, FIVE_BAR_MODEL):
         raise InputRefused(
-            f"{source}: [robot.model] {model!r} is not known; known are {FIVE_BAR_MODEL} and {arm.MODEL}."
+            f"{source}: [robot.model] {model!r} is not known; known are {FIVE_BAR_MODEL} and {ARM_MODEL}."
         )
     return Robot.from_dict(data, source=source)
 
@@ -58,7 +57,7 @@ def read_readings(robot: AnyRobot, path: Path, measured: Measured = "position") 
 
     :raises InputRefused: anything malformed, with row, column and what to do.
     """
-    readings = measurement_file.read(path, columns_of(robot))
+    readings = read_measurements(path, columns_of(robot))
     if not isinstance(robot, Arm):
         return readings
     if measured == "range":

@@ -106,7 +106,7 @@ class Table:
         return self.numbers(column)
 
 
-def read(path: Path, columns: Columns = FIVE_BAR) -> Measurements:
+def read_measurements(path: Path, columns: Columns = FIVE_BAR) -> Measurements:
     """Read a measurement file.
 
     :raises InputRefused: anything malformed, with row, column and what to do.
@@ -115,10 +115,12 @@ def read(path: Path, columns: Columns = FIVE_BAR) -> Measurements:
         content = path.read_bytes()
     except OSError as error:
         raise InputRefused(f"{path} cannot be read: {error.strerror}.") from error
-    return parse(content, columns, source=path.name)
+    return parse_measurements(content, columns, source=path.name)
 
 
-def parse(content: bytes, columns: Columns = FIVE_BAR, *, source: str = "measurement file") -> Measurements:
+def parse_measurements(
+    content: bytes, columns: Columns = FIVE_BAR, *, source: str = "measurement file"
+) -> Measurements:
     """The same from the file's bytes (an upload).  :raises InputRefused:"""
     return _measurements(read_table(content, columns.required, columns.optional, source), columns)
 
@@ -295,7 +297,7 @@ HEADER = (
 )  # fmt: skip
 
 
-def to_csv(readings: Iterable[Reading]) -> str:
+def readings_to_csv(readings: Iterable[Reading]) -> str:
     """The readings of a run as a measurement file; optional columns only where something is in them."""
     rows: list[Sequence[object]] = [
         (

@@ -52,7 +52,7 @@ def pure_error(measurements: Measurements, whitened: Real) -> tuple[float, int]:
     return float(np.sum((whitened - mean[group]) ** 2)), int(np.sum(counts - 1))
 
 
-def estimate(measurements: Measurements, whitened: Real, row_sd: Real) -> Noise:
+def estimate_noise(measurements: Measurements, whitened: Real, row_sd: Real) -> Noise:
     """Scale the specified row_sd (K,) to the repeats when there are enough of them."""
     square, dof = pure_error(measurements, whitened)
     if dof < MINIMUM_DOF or square == 0.0:

@@ -51,7 +51,7 @@ Fit = Callable[[Real], Solution]
 """Row standard deviations (R,) -> fit of all readings whitened with them."""
 
 
-def find(mechanism: Mechanism, fit: Fit, row_sd: Real) -> tuple[Outlier, ...]:
+def find_outliers(mechanism: Mechanism, fit: Fit, row_sd: Real) -> tuple[Outlier, ...]:
     """The outlying readings against a robust fit; `row_sd` (R,) is what the rows should scatter by.
 
     Plain least squares bends towards gross readings until good ones look wrong, so the fit is
@@ -73,7 +73,7 @@ def find(mechanism: Mechanism, fit: Fit, row_sd: Real) -> tuple[Outlier, ...]:
     return _named(mechanism, residual, t, scale, row_sd)
 
 
-def off(mechanism: Mechanism, solution: Solution, row_sd: Real) -> tuple[Outlier, ...]:
+def outliers_of_fit(mechanism: Mechanism, solution: Solution, row_sd: Real) -> tuple[Outlier, ...]:
     """The outlying readings against a fit that the majority already decided."""
     residual = -solution.residual
     t = residual / np.sqrt(_left(solution))
@@ -129,7 +129,7 @@ def _apart(mechanism: Mechanism, residual: Real, k: int, suspects: Index) -> flo
     return float(np.abs(residual[k] - residual[sound if sound.size else companions].mean()))
 
 
-def check_share(left_out: tuple[Outlier, ...], readings: int) -> None:
+def check_outlier_share(left_out: tuple[Outlier, ...], readings: int) -> None:
     """:raises InputRefused: more than a tenth of the readings (at least one) would be left out."""
     if len(left_out) > max(1, int(LARGEST_SHARE * readings)):
         names = ", ".join(str(o.reading) for o in left_out)

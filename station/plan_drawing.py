@@ -12,7 +12,7 @@ from station.robot import Robot
 COLUMNS, ROWS = 61, 13
 
 
-def as_text(plan: Plan, robot: Robot) -> str:
+def plan_as_text(plan: Plan, robot: Robot) -> str:
     """The workspace as a frame of characters, each place as the number of its readings."""
     (x0, x1), (y0, y1) = robot.workspace_x, robot.workspace_y
     cells = [[" "] * COLUMNS for _ in range(ROWS)]
@@ -33,7 +33,7 @@ def readings_at(plan: Plan) -> Counter[tuple[float, float]]:
     return Counter(stop.target_mm for stop in plan.stops)
 
 
-def page(plan: Plan) -> Page:
+def plan_page(plan: Plan) -> Page:
     """Places, order and predicted accuracy as a self-contained page."""
     at = readings_at(plan)
     field = plan.predicted["map"]

@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from station import diagnostic_walk
+from station.diagnostic_walk import diagnostic_grid, diagnostic_visits
 from station.errors import InputRefused
 from station.exchange import choose
 from station.five_bar import GRID, FiveBar
@@ -97,8 +97,8 @@ def make_plan(name: PlanName, robot: Robot, dtheta: Real | None = None) -> Plan:
         places = _choose(robot, _candidates(robot), FULL_PLACES)
         order, approach = _both_sides(places)
     elif name == "diagnostic":
-        places = diagnostic_walk.grid(robot, INSET_MM)
-        order, approach = diagnostic_walk.visits()
+        places = diagnostic_grid(robot, INSET_MM)
+        order, approach = diagnostic_visits()
     else:
         n = positions_per_edge(robot)
         places = boundary_positions(robot.workspace_x, robot.workspace_y, n)

@@ -42,7 +42,7 @@ class Tied:
         return f"{self.name} (looks like {', '.join(self.looks_like)})"
 
 
-def describe(mechanism: Mechanism, solution: Solution, sd_factor: float) -> dict[str, Any]:
+def describe_separability(mechanism: Mechanism, solution: Solution, sd_factor: float) -> dict[str, Any]:
     """{singular_ratio, text, sd_deg, blind, remedies}: the contract's `weak_direction`.
 
     sd_deg is the largest standard uncertainty of a zero offset that is not tied; `blind` names the tied.

@@ -12,9 +12,8 @@ from functools import cached_property
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from station import conditions
 from station.arm import Arm
-from station.conditions import Conditions, Reference
+from station.conditions import Conditions, Reference, temperature_rise
 from station.dh import LINK_ERRORS, Reach, reach
 from station.effects import Effect, arm_catalogue
 from station.errors import InputRefused
@@ -181,7 +180,7 @@ class SerialArm:
             travel=self.observe(p, m.theta).value if self.by_range else unknown,
             slider_direction=unknown,
             slider_net=unknown,
-            temperature_rise=conditions.temperature_rise(m, reference),
+            temperature_rise=temperature_rise(m, reference),
             payload_kg=m.payload_kg,
             lengths={name: float(mm) for name, mm in lengths.items() if mm},
             pull=np.zeros_like(theta),

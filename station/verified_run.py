@@ -15,7 +15,7 @@ from station.identification import Identification
 from station.kinematics import Real, inverse
 from station.measurements import Measurements, from_readings
 from station.records import CalibrationResult, Reading, Stop
-from station.weak_direction import describe
+from station.weak_direction import describe_weak_direction
 
 FRESH_PLACES = 8
 FRESH_INSET_MM = 15.0
@@ -160,7 +160,7 @@ def prediction_fault(check: Verification) -> str:
 
 def weak_direction_of(fit: Identification) -> dict[str, Any]:
     """The least known direction in words, and what would help most."""
-    return with_best_remedy(describe(fit))
+    return with_best_remedy(describe_weak_direction(fit))
 
 
 def with_best_remedy(words: dict[str, Any]) -> dict[str, Any]:

@@ -14,7 +14,7 @@ Stretches = list[tuple[float, float]]
 """Of one joint, ascending, rad."""
 
 
-def of(theta: Real) -> list[Stretches]:
+def visited_ranges(theta: Real) -> list[Stretches]:
     """The stretches of each joint of theta (K, n), rad: neighbouring cells with enough readings as one."""
     return [_stretches(angle) for angle in theta.T]
 
@@ -32,7 +32,7 @@ def _stretches(angle: Real) -> Stretches:
     return out
 
 
-def inside(theta: Real, stretches: list[Stretches]) -> np.ndarray:
+def inside_visited(theta: Real, stretches: list[Stretches]) -> np.ndarray:
     """(K,) whether all joints of theta (K, n) stand where they have been."""
     within = np.ones(len(theta), dtype=bool)
     for angle, own in zip(theta.T, stretches, strict=True):
@@ -40,6 +40,6 @@ def inside(theta: Real, stretches: list[Stretches]) -> np.ndarray:
     return within
 
 
-def as_degrees(stretches: Stretches) -> Stretches:
+def visited_in_degrees(stretches: Stretches) -> Stretches:
     """The same in degrees."""
     return [(float(np.degrees(low)), float(np.degrees(high))) for low, high in stretches]

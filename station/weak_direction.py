@@ -45,7 +45,7 @@ class Posterior(Protocol):
     def covariance(self) -> Real: ...
 
 
-def describe(fit: Posterior) -> dict[str, Any]:
+def describe_weak_direction(fit: Posterior) -> dict[str, Any]:
     """{singular_ratio, text, sd_deg, blind, remedies}: the contract's `weak_direction`.
 
     sd_deg is the standard uncertainty of the zero offsets along the weak direction; each remedy

@@ -7,8 +7,8 @@ from typing import Annotated, Any, Literal, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, JsonValue, StringConstraints
 
-from station import robot
 from station.records import PlanName, Reading, State
+from station.robot import Robot as RobotFile
 
 Serial = Annotated[
     str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64, pattern=r"^[\w.\-/]+$")
@@ -40,7 +40,7 @@ class DatasetFields(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
     robot_serial: Serial = Field(
-        default=robot.Robot.default().serial, description="without a file kept here: the paper's robot"
+        default=RobotFile.default().serial, description="without a file kept here: the paper's robot"
     )
     operator: Name = "REST"
     work_order: Name | None = None

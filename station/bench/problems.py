@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from station import four_unknowns
 from station.error_model import perturbed
 from station.five_bar import SCALE_SD_MM, FiveBar
+from station.four_unknowns import observe_four_unknowns
 from station.identification import tolerance_prior
 from station.kinematics import Geometry, Real, forward
 from station.least_squares import Prior, Residuals, Solution, solve
@@ -62,7 +62,7 @@ def four_by_60() -> Problem:
     theta, distance, sd = data.theta, data.distance, np.full(READINGS, SCALE_SD_MM)
 
     def residuals(x: Real) -> tuple[Real, Real]:
-        at = four_unknowns.observe(nominal, x, theta)
+        at = observe_four_unknowns(nominal, x, theta)
         return (at.value - distance) / SCALE_SD_MM, at.by_parameter / SCALE_SD_MM
 
     def distances(x: Real) -> tuple[Real, Geometry, float]:

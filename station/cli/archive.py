@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from station.measurement_file import to_csv
+from station.measurement_file import readings_to_csv
 from station.settings import database_path, load_settings
 from station.store import Store
 
@@ -23,7 +23,7 @@ _config = click.option(
 def export_command(home: Path, calibration_id: int, config: Path | None) -> None:
     """One run's readings as a measurement file on standard output."""
     with closing(Store(database_path(load_settings(config), home))) as store:
-        click.echo(to_csv(store.readings(calibration_id)), nl=False)
+        click.echo(readings_to_csv(store.readings(calibration_id)), nl=False)
 
 
 @click.command("backup")

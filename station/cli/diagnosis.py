@@ -8,7 +8,6 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station import guesses
 from station.cli.numerics import check_folders, describe, measured_option, write_json, write_text
 from station.diagnosis import kinds
 from station.diagnosis.cross_validation import without_a_quarter
@@ -19,6 +18,7 @@ from station.diagnosis.page import page, shown
 from station.diagnosis.solve import range_text, solve_targets
 from station.diagnosis.targets import commands_csv, read_targets
 from station.diagnosis.transfer import transfer
+from station.guesses import guesses_in_words
 from station.machines import Measured, read_readings, read_robot, robot_of
 
 _file = click.Path(path_type=Path)
@@ -142,7 +142,7 @@ def _print(findings: Findings) -> None:
         table.add_row(s.model, str(s.unknowns), *("" if v is None else f"{v * 1e3:.2f}" for v in sizes_mm))
     console.print(table)
     if findings.diagnosis.measurements.guessed:
-        console.print(guesses.in_words(findings.diagnosis.measurements))
+        console.print(guesses_in_words(findings.diagnosis.measurements))
     predicted = f"over {kinds.extent(findings.fit)}, predicted"
     for what, errors in (
         (predicted, findings.position_errors),

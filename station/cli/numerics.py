@@ -12,11 +12,11 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station import plan_drawing
 from station.arm import Arm
 from station.arm_identification import ArmIdentification, identify_arm
 from station.identification import Identification, identify
 from station.machines import Measured, read_readings, read_robot
+from station.plan_drawing import plan_as_text, plan_page
 from station.plans import make_plan
 from station.records import PlanName, Quantity
 from station.robot import Robot
@@ -144,7 +144,7 @@ def plan_command(
     if json_file:
         write_json(json_file, content)
     if html_file:
-        write_text(html_file, plan_drawing.page(plan).to_html())
+        write_text(html_file, plan_page(plan).to_html())
     table = Table("stop", "position", "x mm", "y mm", "theta1 deg", "theta2 deg", "approach")
     for k, stop in enumerate(plan.stops):
         table.add_row(
@@ -156,5 +156,5 @@ def plan_command(
         )
     console = Console()
     console.print(table)
-    click.echo(plan_drawing.as_text(plan, robot))
+    click.echo(plan_as_text(plan, robot))
     console.print(plan.summary())

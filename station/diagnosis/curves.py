@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from station import visited
 from station.diagnosis.model import Fit
 from station.effects.gear_curve import GearCurve, curve_basis, fast_basis
 from station.kinematics import Real
+from station.visited import visited_ranges
 
 STEP_DEG = 0.5
 BIN_DEG = 2.0
@@ -58,7 +58,8 @@ def _curve(fit: Fit, k: int, effect: GearCurve, sd_factor: float) -> Curve:
     amplitudes, covariance = fit.amplitudes(k)
     theta = fit.conditions.theta[:, i]
     parts = [
-        np.arange(np.degrees(low), np.degrees(high), STEP_DEG) for low, high in visited.of(theta[:, None])[0]
+        np.arange(np.degrees(low), np.degrees(high), STEP_DEG)
+        for low, high in visited_ranges(theta[:, None])[0]
     ]
     angle = np.radians(np.concatenate(parts))
     size = len(amplitudes)

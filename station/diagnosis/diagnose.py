@@ -8,7 +8,6 @@ from typing import Literal
 
 import numpy as np
 
-from station import outliers
 from station.conditions import reference_of
 from station.diagnosis.confirm import FEWEST, Confirmation, confirm
 from station.diagnosis.departures import Rest, of_fit, rest_of
@@ -24,6 +23,7 @@ from station.least_squares import NotConvergedError
 from station.machines import AnyMechanism, AnyRobot, mechanism_of
 from station.measurements import Measurements
 from station.mechanism import Mechanism
+from station.outliers import Outlier
 from station.plausibility import check_places
 
 Verdict = Literal["adequate", "explained", "partly_explained", "unexplained"]
@@ -46,7 +46,7 @@ class Diagnosis:
     robot: AnyRobot
     measurements: Measurements
     """The readings that took part."""
-    outliers: tuple[outliers.Outlier, ...]
+    outliers: tuple[Outlier, ...]
     trace: Trace
     fresh: Measurements | None
     confirmations: tuple[Confirmation, ...]

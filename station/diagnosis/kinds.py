@@ -7,8 +7,6 @@ from typing import Any
 
 import numpy as np
 
-from station import separability
-from station import weak_direction as five_bar_direction
 from station.diagnosis.identified import IdentifiedMachine
 from station.diagnosis.model import Fit
 from station.five_bar import FiveBar
@@ -16,6 +14,8 @@ from station.identification import position_error_field, rms_and_max
 from station.kinematics import Real
 from station.measurements import Measurements
 from station.noise import Noise
+from station.separability import describe_separability
+from station.weak_direction import describe_weak_direction
 
 
 @dataclass(frozen=True)
@@ -34,9 +34,9 @@ def weak_direction(fit: Fit, noise: Noise, sd_factor: float) -> dict[str, Any]:
     """The contract's `weak_direction`, with the effects in the model."""
     mechanism, size = fit.model.mechanism, fit.model.base_size
     if not isinstance(mechanism, FiveBar):
-        return separability.describe(mechanism, fit.solution, sd_factor)
+        return describe_separability(mechanism, fit.solution, sd_factor)
     covariance = fit.solution.covariance[:size, :size] * sd_factor**2
-    return five_bar_direction.describe(
+    return describe_weak_direction(
         BasePosterior(mechanism, mechanism.measurements, noise, sd_factor, fit.x[:2], covariance)
     )
 

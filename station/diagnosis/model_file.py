@@ -11,7 +11,6 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
-from station import visited
 from station.diagnosis.diagnose import Diagnosis
 from station.diagnosis.identified import IdentifiedMachine, Situation
 from station.diagnosis.model import Fit, Term
@@ -20,6 +19,7 @@ from station.errors import InputRefused
 from station.kinematics import Real
 from station.machines import robot_of
 from station.robot import Robot
+from station.visited import visited_in_degrees, visited_ranges
 
 SCHEMA = "station.model/1"
 MANY = 100
@@ -109,7 +109,7 @@ def model_json(diagnosis: Diagnosis, fit: Fit, sd_factor: float) -> dict[str, An
         ],
         "ranges": {
             "joints_deg": [_span(a) for a in degrees.T],
-            "visited_deg": [visited.as_degrees(stretches) for stretches in visited.of(m.theta)],
+            "visited_deg": [visited_in_degrees(stretches) for stretches in visited_ranges(m.theta)],
             "travel_mm": _span(m.distance) if np.isfinite(m.distance).all() else None,
             "time_s": [float(m.t_s.min()), float(m.t_s.max())],
         },

@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 from markupsafe import Markup
 
-from station import guesses
 from station.diagnosis import kinds
 from station.diagnosis.curves import Curve, curves
 from station.diagnosis.document import Findings, FoundEffect
 from station.diagnosis.model import Fit
+from station.guesses import guesses_in_words
 from station.kinematics import Real
 from station.mechanism import by_reading
 from station.records import Quantity
@@ -62,7 +62,7 @@ def _errors(findings: Findings) -> Section:
             f"Noise of one reading {noise.sigma_mm * MICROMETRES:.2f} {UM}, {origin}. "
             "“Place left out”: each place predicted from all others. "
             "“Fresh”: readings taken afterwards, predicted with everything frozen.",
-            *([guesses.in_words(measurements)] if measurements.guessed else []),
+            *([guesses_in_words(measurements)] if measurements.guessed else []),
         ),
         (
             Table(

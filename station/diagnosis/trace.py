@@ -12,7 +12,6 @@ from functools import partial
 
 import numpy as np
 
-from station import outliers
 from station.diagnosis.adequacy import ALPHA, Adequacy, judge
 from station.diagnosis.departures import by_searched, turned
 from station.diagnosis.model import Fit, Model, Term, fit
@@ -20,7 +19,7 @@ from station.diagnosis.scan import Candidate, Scan
 from station.effects import Effect, doubtful
 from station.kinematics import Real
 from station.least_squares import NotConvergedError, Prior
-from station.outliers import Outlier
+from station.outliers import Outlier, outliers_of_fit
 
 MOST_EFFECTS = 3
 WORTH = 0.03
@@ -211,7 +210,7 @@ def odd_readings(found: Fit) -> tuple[Outlier, ...]:
     Many others, or a few together at an end, are an effect.
     """
     measurements = found.model.mechanism.measurements
-    odd = outliers.off(found.model.mechanism, found.solution, found.row_sd)
+    odd = outliers_of_fit(found.model.mechanism, found.solution, found.row_sd)
     n = len(measurements)
     in_doubt = doubtful((term.effect for term in found.model.terms), found.conditions)
     doubted = {measurements.ids[k] for k in np.flatnonzero(in_doubt)}

@@ -14,7 +14,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from station import outliers, visited
 from station.conditions import Reference
 from station.diagnosis.cross_validation import folds
 from station.diagnosis.model import Model, Term
@@ -26,7 +25,8 @@ from station.least_squares import NotConvergedError, Solution, solve
 from station.machines import AnyMechanism, AnyRobot, mechanism_of
 from station.measurements import Measurements
 from station.mechanism import by_reading
-from station.outliers import Outlier
+from station.outliers import Outlier, check_outlier_share, find_outliers
+from station.visited import inside_visited
 
 FEWEST_AN_UNKNOWN = 4
 
@@ -96,13 +96,13 @@ def transfer(part: ModelPart, robot: AnyRobot, readings: Measurements, source: s
 def _been(part: ModelPart, readings: Measurements, joint: int) -> NDArray[np.bool_]:
     """(K,) whether a joint (index) stands where it was when the model was learned."""
     stretches = [(np.radians(a), np.radians(b)) for a, b in part.ranges.visited_deg[joint]]
-    return visited.inside(readings.theta[:, [joint]], [stretches])
+    return inside_visited(readings.theta[:, [joint]], [stretches])
 
 
 def _off(mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelPart) -> tuple[Outlier, ...]:
     frozen = _Frozen(mechanism, terms, part)
-    found = outliers.find(mechanism, frozen.solved, mechanism.row_sd)
-    outliers.check_share(found, len(mechanism.measurements))
+    found = find_outliers(mechanism, frozen.solved, mechanism.row_sd)
+    check_outlier_share(found, len(mechanism.measurements))
     return found
 
 

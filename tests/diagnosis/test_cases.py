@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from station import measurement_file
 from station.diagnosis.diagnose import diagnose
 from station.diagnosis.document import Findings
+from station.measurement_file import read_measurements
 from station.robot import Robot
 from tests.numerics.machines import DATA, needs_data
 
@@ -30,8 +30,8 @@ def answers() -> dict[str, Any]:
 
 @cache
 def findings(name: str) -> Findings:
-    learned = measurement_file.read(CASES / f"{name}.csv")
-    fresh = measurement_file.read(CASES / f"{name}.fresh.csv")
+    learned = read_measurements(CASES / f"{name}.csv")
+    fresh = read_measurements(CASES / f"{name}.fresh.csv")
     return Findings(diagnose(Robot.default(), learned, fresh))
 
 

@@ -8,11 +8,11 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from station import measurement_file
 from station.errors import InputRefused
 from station.five_bar import FiveBar
 from station.identification import identify
 from station.kinematics import inverse
+from station.measurement_file import read_measurements
 from station.plans import make_plan
 from station.procedures import start_procedure
 from station.robot import Robot
@@ -26,7 +26,7 @@ GRID = ROBOT.workspace_grid(7, 4)
 @pytest.mark.parametrize("case", ["case01", "case02", "case03"])
 def test_clean_files_give_the_truth_within_their_uncertainty(case: str) -> None:
     answers = json.loads((DATA / "undeclared/answers.json").read_text())[case]
-    fit = identify(ROBOT, measurement_file.read(DATA / f"undeclared/{case}.csv"))
+    fit = identify(ROBOT, read_measurements(DATA / f"undeclared/{case}.csv"))
     assert fit.adequate
     assert fit.outliers == ()
     for q, truth in zip(fit.quantities()[:2], answers["zero_offsets_deg"], strict=True):

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from station import measurement_file
 from station.cli.numerics import identify_command
 from station.errors import InputRefused
 from station.identification import identify
+from station.measurement_file import parse_measurements, read_measurements, readings_to_csv
 from station.records import Reading
 from station.robot import Robot
 
@@ -100,19 +100,19 @@ def test_broken_files_are_refused_with_place_and_remedy(kind: str, tmp_path: Pat
     file = tmp_path / "broken.csv"
     file.write_bytes(content)
     with pytest.raises(InputRefused) as refusal:
-        identify(Robot.default(), measurement_file.read(file))
+        identify(Robot.default(), read_measurements(file))
     assert expected in str(refusal.value)
     assert "\n" not in str(refusal.value)
 
 
 def test_a_missing_file_is_refused(tmp_path: Path) -> None:
     with pytest.raises(InputRefused, match="cannot be read"):
-        measurement_file.read(tmp_path / "absent.csv")
+        read_measurements(tmp_path / "absent.csv")
 
 
 def test_unknown_columns_are_ignored_with_a_warning(caplog: pytest.LogCaptureFixture) -> None:
     with caplog.at_level(logging.WARNING):
-        read = measurement_file.parse(text([f"{r},x" for r in ROWS], HEADER + ",colour"))
+        read = parse_measurements(text([f"{r},x" for r in ROWS], HEADER + ",colour"))
     assert len(read) == 6
     assert "column colour is not known" in caplog.text
 
@@ -122,7 +122,7 @@ def test_what_was_written_is_read_back() -> None:
         Reading(k + 1, 1.5 * k, (0.1 * k, 180.0 - k), (1, -1), 10.0 + k, f"P{k}", samples_mm=(1.0, 2.0))
         for k in range(5)
     ]
-    back = measurement_file.parse(measurement_file.to_csv(readings).encode())
+    back = parse_measurements(readings_to_csv(readings).encode())
     assert back.ids == (1, 2, 3, 4, 5)
     assert np.degrees(back.theta[:, 1]) == pytest.approx([180, 179, 178, 177, 176])
     assert back.distance.tolist() == [10, 11, 12, 13, 14]
@@ -132,7 +132,7 @@ def test_what_was_written_is_read_back() -> None:
 
 def test_ids_may_be_words_and_quotes_are_allowed() -> None:
     rows = [r.replace(r.split(",")[0] + ",", f'"r-{i}",', 1) for i, r in enumerate(ROWS)]
-    assert measurement_file.parse(b"\xef\xbb\xbf" + text(rows)).ids == tuple(f"r-{i}" for i in range(6))
+    assert parse_measurements(b"\xef\xbb\xbf" + text(rows)).ids == tuple(f"r-{i}" for i in range(6))
 
 
 def test_the_command_exits_2_with_one_line(tmp_path: Path) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from station import plan_drawing
+from station.plan_drawing import plan_as_text, plan_page
 from station.plans import make_plan
 from station.robot import Robot
 
@@ -12,7 +12,7 @@ ROBOT = Robot.default()
 
 
 def test_the_terminal_shows_each_place_with_its_readings() -> None:
-    drawn = plan_drawing.as_text(make_plan("paper", ROBOT), ROBOT)
+    drawn = plan_as_text(make_plan("paper", ROBOT), ROBOT)
     top, bottom = drawn.splitlines()[1], drawn.splitlines()[-3]
     assert [top[1], top[31], top[61]] == ["1", "1", "1"]
     assert [bottom[1], bottom[31], bottom[61]] == ["1", "1", "1"]
@@ -20,7 +20,7 @@ def test_the_terminal_shows_each_place_with_its_readings() -> None:
 
 
 def test_the_page_needs_nothing_from_outside() -> None:
-    page = plan_drawing.page(make_plan("full", ROBOT)).to_html()
+    page = plan_page(make_plan("full", ROBOT)).to_html()
     assert "<svg" in page
     assert "http://" not in page.replace("http://www.w3.org", "")
     assert "https://" not in page

@@ -18,8 +18,8 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner, Result
 
-from station import measurement_file
 from station.cli import main
+from station.measurement_file import readings_to_csv
 from station.records import CalibrationRequest, Reading, State
 from station.robot import Robot
 from station.store import Store
@@ -80,7 +80,7 @@ def test_import_keeps_a_file_as_a_run_and_passes_only_what_fresh_readings_confir
     readings, _ = run(machine(BACKLASH))
     walk, fresh = (tmp_path / "walk.csv", tmp_path / "fresh.csv")
     for number, file in enumerate((walk, fresh), start=1):
-        file.write_text(measurement_file.to_csv(r for r in readings if r.walk == number))
+        file.write_text(readings_to_csv(r for r in readings if r.walk == number))
     confirmed = station(tmp_path, "import", str(walk), "--confirm", str(fresh), "--serial", "FB-5")
     assert (confirmed.exit_code, confirmed.output[:33]) == (0, "Run 1: pass, backlash of joint 1 ")
     alone = station(tmp_path, "import", str(walk), "--serial", "FB-5")

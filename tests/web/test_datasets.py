@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from station import dataset, measurement_file
-from station.measurement_file import parse_readings
+from station import dataset
+from station.measurement_file import parse_readings, readings_to_csv
 from tests.station.test_diagnosing import BACKLASH, machine, run
 from tests.web.conftest import Service
 from tests.web.test_problems import problem_of
@@ -21,7 +21,7 @@ LIST = "/api/v1/calibrations"
 def files_of(*effects: dict[str, Any]) -> tuple[bytes, bytes]:
     """A walk and its fresh readings as measurement files."""
     readings, _ = run(machine(*effects))
-    walk, fresh = (measurement_file.to_csv(r for r in readings if r.walk == n).encode() for n in (1, 2))
+    walk, fresh = (readings_to_csv(r for r in readings if r.walk == n).encode() for n in (1, 2))
     return walk, fresh
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from station import measurement_file
+from station.measurement_file import parse_measurements
 from tests.web.conftest import Service
 
 COLUMNS = {
@@ -24,7 +24,7 @@ def test_the_csv_reads_back_as_a_measurement_file(service: Service) -> None:
     answer = service.client.get(f"/api/v1/calibrations/{run}/readings.csv")
     assert answer.headers["content-type"].startswith("text/csv")
     assert f"calibration-{run}-readings.csv" in answer.headers["content-disposition"]
-    assert len(measurement_file.parse(answer.content)) == 6
+    assert len(parse_measurements(answer.content)) == 6
 
 
 def test_a_run_that_is_not_there_has_no_readings(service: Service) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Response
 
-from station import measurement_file
+from station.measurement_file import readings_to_csv
 from web.bodies import ReadingAnswer, ReadingList
 from web.problems import documented
 from web.routes.parts import CalibrationId, TheRuntime
@@ -30,6 +30,6 @@ def download_readings(calibration_id: CalibrationId, runtime: TheRuntime) -> Csv
     """The measurement file itself."""
     name = f"calibration-{calibration_id}-readings.csv"
     return CsvResponse(
-        measurement_file.to_csv(runtime.store.readings(calibration_id)),
+        readings_to_csv(runtime.store.readings(calibration_id)),
         headers={"Content-Disposition": f'attachment; filename="{name}"'},
     )
