@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections import defaultdict, deque
 from collections.abc import Callable
 
-from drivers.protocols import AxisStatus, DeviceError
+from drivers.errors import DeviceError
+from drivers.protocols import AxisStatus
 
 
 class _Mock:

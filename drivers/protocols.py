@@ -11,22 +11,6 @@ from dataclasses import dataclass
 from typing import Protocol, runtime_checkable
 
 
-class DeviceError(Exception):
-    """A device did not do what was asked; the text is one clear sentence for the operator."""
-
-
-class LinkLost(DeviceError):
-    """Nothing answers on the line: cable, power or address."""
-
-
-class GarbledReply(DeviceError):
-    """Something answered, but not what the protocol allows (length, check sum, format)."""
-
-
-class DeviceFault(DeviceError):
-    """The device works and reports a fault of its own: alarm, signal loss, refused command."""
-
-
 @dataclass(frozen=True, slots=True)
 class AxisStatus:
     """One look at a drive."""
@@ -112,23 +96,3 @@ class ServoAxis(Device, Protocol):
         :raises DeviceError: refused, moving, or read back different.
         """
         ...
-
-
-@dataclass(frozen=True, slots=True)
-class JointScaling:
-    """Between a drive's pulses and a joint angle: theta = zero_at_deg + sign * pulses / per_deg."""
-
-    counts_per_rev: int
-    ratio: float
-    zero_at_deg: float
-    sign: int
-
-    @property
-    def pulses_per_deg(self) -> float:
-        return self.counts_per_rev * self.ratio / 360.0
-
-    def to_pulses(self, theta_deg: float) -> int:
-        return round(self.sign * (theta_deg - self.zero_at_deg) * self.pulses_per_deg)
-
-    def to_deg(self, pulses: int) -> float:
-        return self.zero_at_deg + self.sign * pulses / self.pulses_per_deg

@@ -37,3 +37,12 @@ class KeyReused(Exception):
             f"This idempotency key already belongs to run {calibration_id} with another request."
         )
         self.calibration_id = calibration_id
+
+
+class StepFailed(Exception):
+    """A stop could not be measured; one sentence that names it."""
+
+
+def sentence(text: str) -> str:
+    """With a capital letter, the rest as it is."""
+    return text[:1].upper() + text[1:]

@@ -8,14 +8,12 @@ from typing import Any, Literal
 
 import numpy as np
 
-from station.arm import ARM_MODEL, Arm
+from station.effects import Effect, arm_catalogue, five_bar_catalogue
 from station.errors import InputRefused
-from station.five_bar import FiveBar
-from station.guesses import with_guesses
-from station.measurement_file import FIVE_BAR, Columns, read_measurements
-from station.measurements import Measurements
-from station.robot import FIVE_BAR_MODEL, Robot, read_sections
-from station.serial_arm import SerialArm
+from station.five_bar import FIVE_BAR_MODEL, FiveBar, Robot, read_sections
+from station.mechanism import Mechanism
+from station.records import FIVE_BAR, Columns, Measurements, read_measurements, with_guesses
+from station.serial_arm import ARM_MODEL, Arm, SerialArm
 
 AnyRobot = Robot | Arm
 AnyMechanism = FiveBar | SerialArm
@@ -70,3 +68,10 @@ def read_readings(robot: AnyRobot, path: Path, measured: Measured = "position") 
 def mechanism_of(robot: AnyRobot, measurements: Measurements) -> AnyMechanism:
     """The robot under these readings."""
     return SerialArm(robot, measurements) if isinstance(robot, Arm) else FiveBar(robot, measurements)
+
+
+def effects_of(mechanism: Mechanism) -> tuple[Effect, ...]:
+    """The catalogue of a machine: every effect at every place where it can act."""
+    if isinstance(mechanism, SerialArm):
+        return arm_catalogue(mechanism.robot.joints, by_range=mechanism.by_range)
+    return five_bar_catalogue()

@@ -11,7 +11,7 @@ import platformdirs
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 from pydantic_core import ErrorDetails
 
-from drivers.protocols import JointScaling
+from drivers.scaling import JointScaling
 from station.errors import InputRefused
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]

@@ -9,7 +9,7 @@ from pathlib import Path
 from fastapi import FastAPI
 
 from station import __version__
-from station.runtime import Runtime
+from station.service import Runtime
 from web import headers, pages, problems
 from web.live import LiveFeed
 from web.routes import calibrations, datasets, diagnoses, health, live, readings, robots, station, stop

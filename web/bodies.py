@@ -7,8 +7,8 @@ from typing import Annotated, Any, Literal, get_args
 
 from pydantic import BaseModel, ConfigDict, Field, JsonValue, StringConstraints
 
+from station.five_bar import Robot as RobotFile
 from station.records import PlanName, Reading, State
-from station.robot import Robot as RobotFile
 
 Serial = Annotated[
     str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64, pattern=r"^[\w.\-/]+$")

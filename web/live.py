@@ -15,7 +15,7 @@ from typing import Any
 
 from pydantic_core import to_json
 
-from station.orchestrator import LiveEvent, Orchestrator
+from station.service import LiveEvent, Orchestrator
 from web.aside import aside
 from web.bodies import Station
 

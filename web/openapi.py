@@ -6,7 +6,7 @@ import json
 from pathlib import Path
 from typing import cast
 
-from station.runtime import Runtime
+from station.service import Runtime
 from web.app import create_app
 
 FILE = Path(__file__).with_name("openapi.json")

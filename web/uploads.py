@@ -14,7 +14,7 @@ from starlette.exceptions import HTTPException
 from starlette.requests import ClientDisconnect
 from starlette.types import Message
 
-from station.dataset import Upload
+from station.run_kinds import Upload
 
 CSV, FORM = "text/csv", "multipart/form-data"
 LARGEST_BYTES = 2_000_000

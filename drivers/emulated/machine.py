@@ -16,7 +16,7 @@ from random import Random
 from threading import RLock
 from typing import Literal
 
-from drivers.emulated.effects.base import Effect, JointNumber, Lengths, Scene
+from drivers.emulated.imperfections.base import Effect, JointNumber, Lengths, Scene
 from drivers.emulated.motion import Motion, braking, standing, trapezoid
 from drivers.emulated.spec import MachineSpec
 

@@ -6,7 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
-from drivers.emulated.effects import AnyEffect
+from drivers.emulated.imperfections import AnyEffect
 
 Pair = tuple[float, float]
 Positive = Annotated[float, Field(gt=0)]

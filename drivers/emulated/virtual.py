@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from drivers.emulated.effects.base import JointNumber
+from drivers.emulated.imperfections.base import JointNumber
 from drivers.emulated.machine import Machine
 from drivers.emulated.spec import MachineSpec
 

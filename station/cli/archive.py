@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from station.measurement_file import readings_to_csv
+from station.records import readings_to_csv
 from station.settings import database_path, load_settings
 from station.store import Store
 

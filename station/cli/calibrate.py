@@ -10,10 +10,9 @@ import click
 
 from station.cli.machine_options import machine_options, read_settings
 from station.cli.one_run import one_run
-from station.orchestrator import Submitted
+from station.five_bar import Robot
 from station.records import CalibrationRequest, PlanName
-from station.robot import Robot
-from station.runtime import Runtime
+from station.service import Runtime, Submitted
 
 
 @click.command("calibrate")

@@ -8,7 +8,7 @@ import click
 from rich.progress import Progress
 
 from station.cli.numerics import write_text
-from station.confusion.matrix import KINDS, markdown, run
+from station.studies.confusion import KINDS, markdown, run
 
 
 @click.command("confusion")

@@ -9,17 +9,23 @@ from rich.console import Console
 from rich.table import Table
 
 from station.cli.numerics import check_folders, describe, measured_option, write_json, write_text
-from station.diagnosis import kinds
-from station.diagnosis.cross_validation import without_a_quarter
-from station.diagnosis.diagnose import diagnose
-from station.diagnosis.document import Findings
-from station.diagnosis.model_file import read_model, read_part
-from station.diagnosis.page import page, shown
-from station.diagnosis.solve import range_text, solve_targets
-from station.diagnosis.targets import commands_csv, read_targets
-from station.diagnosis.transfer import transfer
-from station.guesses import guesses_in_words
+from station.diagnosis import (
+    Findings,
+    commands_csv,
+    diagnose,
+    extent,
+    page,
+    range_text,
+    read_model,
+    read_part,
+    read_targets,
+    shown,
+    solve_targets,
+    transfer,
+    without_a_quarter,
+)
 from station.machines import Measured, read_readings, read_robot, robot_of
+from station.records import guesses_in_words
 
 _file = click.Path(path_type=Path)
 
@@ -143,7 +149,7 @@ def _print(findings: Findings) -> None:
     console.print(table)
     if findings.diagnosis.measurements.guessed:
         console.print(guesses_in_words(findings.diagnosis.measurements))
-    predicted = f"over {kinds.extent(findings.fit)}, predicted"
+    predicted = f"over {extent(findings.fit)}, predicted"
     for what, errors in (
         (predicted, findings.position_errors),
         ("against the tracker", findings.true_position_errors),

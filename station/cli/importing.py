@@ -8,10 +8,10 @@ from pathlib import Path
 
 import click
 
-from station.dataset import Upload, import_dataset
 from station.errors import InputRefused
+from station.five_bar import Robot
 from station.records import CalibrationRequest
-from station.robot import Robot
+from station.run_kinds import Upload, import_dataset
 from station.settings import database_path, load_settings
 from station.store import Store
 

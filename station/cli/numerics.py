@@ -12,14 +12,12 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station.arm import Arm
-from station.arm_identification import ArmIdentification, identify_arm
-from station.identification import Identification, identify
+from station.five_bar import Robot
+from station.identification import ArmIdentification, Identification, identify, identify_arm
 from station.machines import Measured, read_readings, read_robot
-from station.plan_drawing import plan_as_text, plan_page
-from station.plans import make_plan
+from station.plans import make_plan, plan_as_text, plan_page
 from station.records import PlanName, Quantity
-from station.robot import Robot
+from station.serial_arm import Arm
 
 existing = click.Path(path_type=Path)
 measured_option = click.option(

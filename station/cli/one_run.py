@@ -16,9 +16,8 @@ from rich.console import Console
 from station.cli.machine_options import logging_to
 from station.cli.progress import progress
 from station.errors import NotApplicable
-from station.orchestrator import Submitted
 from station.records import State
-from station.runtime import Runtime
+from station.service import Runtime, Submitted
 from station.settings import Settings
 
 _STOP_LIMIT_S = 15.0

@@ -8,8 +8,8 @@ from contextlib import contextmanager
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
-from station.events import LiveEvent
-from station.orchestrator import Orchestrator
+from station.motion import LiveEvent
+from station.service import Orchestrator
 
 
 @contextmanager

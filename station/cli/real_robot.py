@@ -6,9 +6,9 @@ from pathlib import Path
 
 import click
 
-from station.arm import Arm
 from station.machines import read_robot
-from station.real_robot import study, write
+from station.serial_arm import Arm
+from station.studies.real_robot import study, write
 
 _file = click.Path(path_type=Path)
 

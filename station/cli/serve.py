@@ -5,7 +5,6 @@ from __future__ import annotations
 import logging
 import signal
 import socket
-from importlib import import_module
 from pathlib import Path
 from threading import Thread
 from types import FrameType
@@ -15,11 +14,9 @@ import uvicorn
 
 from station.cli.machine_options import logging_to, machine_options, read_settings
 from station.errors import InputRefused
-from station.orchestrator import Orchestrator
-from station.runtime import Runtime
+from station.service import Orchestrator, Runtime
+from web.app import create_app
 
-_APPLICATION = "web.app"
-"""Named, not imported: `station` knows nothing of the web beyond who to hand its runtime to."""
 _GRACE_S = 3
 
 
@@ -43,7 +40,7 @@ def serve_command(
     logs = logging_to(home, terminal=logging.WARNING)
     listener = _listen(host or settings.service.host, settings.service.port if port is None else port)
     with logs, listener, Runtime.open(settings, home, emulate) as runtime:
-        application = import_module(_APPLICATION).create_app(runtime)
+        application = create_app(runtime)
         server = _Server(
             uvicorn.Config(
                 application, log_config=None, access_log=False, timeout_graceful_shutdown=_GRACE_S

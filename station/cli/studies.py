@@ -8,10 +8,9 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station.bench.study import bench
 from station.cli.numerics import check_folders, write_json, write_text
-from station.reproduce.page import page
-from station.reproduce.study import study
+from station.studies.bench import bench
+from station.studies.reproduce import make_page, run_study
 
 _file = click.Path(dir_okay=False, path_type=Path)
 SEEDS = 200
@@ -25,11 +24,11 @@ def reproduce_command(json_file: Path | None, html_file: Path | None, seeds: int
     """The paper's tables and figures beside ours."""
     check_folders(json_file, html_file)
     console = Console()
-    content = study(seeds, console)
+    content = run_study(seeds, console)
     if json_file:
         write_json(json_file, content)
     if html_file:
-        write_text(html_file, page(content).to_html())
+        write_text(html_file, make_page(content).to_html())
     console.print(
         f"kappa_1 = {content['kappa_1']:.2f}, kappa_m = {content['kappa_m']:.2f} (f = {content['f']})"
     )

@@ -1,45 +1,27 @@
 """The catalogue: one small unit an effect (method.md section 3).
 
-Adding an effect is one new file and one line in the catalogue of each machine that can have it.
+A new effect is one new file and one line in the catalogue of each machine that can have it.
 """
 
 from __future__ import annotations
 
-from station.effects.backlash import Backlash
-from station.effects.base import Acts, Effect, Variants, doubtful, signature
-from station.effects.compliance import Compliance
-from station.effects.count_slip import CountSlip
-from station.effects.cyclic import EncoderEccentricity, GearCyclic
-from station.effects.gear_curve import GearCurve
-from station.effects.lengths import JointClearance, LinkLength
-from station.effects.scale import ScaleBow, ScaleCyclic, ScaleGain, ScaleHysteresis
-from station.effects.time import Drift, ThermalGrowth, ThermalLinks
-from station.effects.transmission_gain import TransmissionGain
+from station.effects.base import Acts, Effect, Variants, doubtful, signature, weight
+from station.effects.catalogue import arm_catalogue, five_bar_catalogue
+from station.effects.cyclic import OVERSAMPLING, waves
+from station.effects.gear_curve import GearCurve, curve_basis, fast_basis
 
-__all__ = ["Acts", "Effect", "Variants", "arm_catalogue", "doubtful", "five_bar_catalogue", "signature"]
-
-PER_JOINT = (Backlash, GearCyclic, EncoderEccentricity, TransmissionGain, Compliance, CountSlip)
-
-
-def five_bar_catalogue() -> tuple[Effect, ...]:
-    """Every effect at every place of a five-bar with its scale."""
-    numbers = (1, 2)
-    return (
-        *(effect(joint) for effect in PER_JOINT for joint in numbers),
-        *(LinkLength(joint, f"{kind}{joint}") for kind in "Ll" for joint in numbers),
-        *(JointClearance(joint) for joint in numbers),
-        ScaleGain(),
-        ScaleBow(),
-        ScaleCyclic(),
-        ScaleHysteresis(),
-        Drift(),
-        ThermalGrowth(),
-        ThermalLinks(),
-    )
-
-
-def arm_catalogue(joints: int, *, by_range: bool) -> tuple[Effect, ...]:
-    """Every effect at every joint of a serial arm; with distances also those of the instrument."""
-    effects = (*PER_JOINT, GearCurve)
-    at_joints = tuple(effect(joint) for effect in effects for joint in range(1, joints + 1))
-    return (*at_joints, ThermalLinks(), *((ScaleGain(), Drift(), ThermalGrowth()) if by_range else ()))
+__all__ = [
+    "OVERSAMPLING",
+    "Acts",
+    "Effect",
+    "GearCurve",
+    "Variants",
+    "arm_catalogue",
+    "curve_basis",
+    "doubtful",
+    "fast_basis",
+    "five_bar_catalogue",
+    "signature",
+    "waves",
+    "weight",
+]

@@ -15,11 +15,8 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from station.conditions import Conditions
-from station.kinematics import Real
-from station.measurements import Index
-from station.mechanism import Observation
-from station.records import Quantity
+from station.mechanism import Conditions, Observation
+from station.records import Index, Quantity, Real
 
 
 @dataclass(frozen=True)

@@ -6,10 +6,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from station.conditions import Conditions
 from station.effects.base import Acts, Effect, Variants, scaled
-from station.kinematics import Real
-from station.records import Quantity
+from station.mechanism import Conditions
+from station.records import Quantity, Real
 
 EDGE = 2
 """A step with fewer readings on one side is a matter for the outliers."""

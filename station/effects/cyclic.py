@@ -6,10 +6,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from station.conditions import Conditions
 from station.effects.base import Acts, Effect, Variants, amplitude_and_phase
-from station.kinematics import Real
-from station.records import Quantity
+from station.mechanism import Conditions
+from station.records import Quantity, Real
 
 OVERSAMPLING = 3.0
 """Search steps per independent frequency."""

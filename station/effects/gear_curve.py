@@ -6,12 +6,10 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from station.conditions import Conditions
 from station.effects.base import Acts, Effect, Variants
 from station.effects.cyclic import waves
-from station.kinematics import Real
-from station.measurements import Index
-from station.records import Quantity
+from station.mechanism import Conditions
+from station.records import Index, Quantity, Real
 
 HIGHEST = 64
 """Cycles a turn."""

@@ -6,10 +6,9 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from station.conditions import Conditions
 from station.effects.base import Acts, Effect, Variants, one, scaled
-from station.kinematics import Real
-from station.records import Quantity
+from station.mechanism import Conditions
+from station.records import Quantity, Real
 
 
 class LinkLength(Effect):

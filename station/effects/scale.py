@@ -7,11 +7,10 @@ from collections.abc import Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from station.conditions import Conditions
 from station.effects.base import ON_READING, Effect, Variants, amplitude_and_phase, one, scaled
 from station.effects.cyclic import OVERSAMPLING, wave, waves
-from station.kinematics import Real
-from station.records import Quantity
+from station.mechanism import Conditions
+from station.records import Quantity, Real
 
 
 class ScaleGain(Effect):

@@ -6,11 +6,10 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from station.conditions import Conditions
 from station.effects.base import ON_READING, Acts, Effect, Variants, one, scaled
 from station.errors import InputRefused
-from station.kinematics import Real
-from station.records import Quantity
+from station.mechanism import Conditions
+from station.records import Quantity, Real
 
 
 class Drift(Effect):

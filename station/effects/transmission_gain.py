@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from station.conditions import Conditions
 from station.effects.base import Acts, Effect, Variants, one, scaled
-from station.kinematics import Real
-from station.records import Quantity
+from station.mechanism import Conditions
+from station.records import Quantity, Real
 
 
 class TransmissionGain(Effect):

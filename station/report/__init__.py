@@ -1,1 +1,19 @@
-"""Self-contained report pages: sections of text, tables and charts, no foreign host."""
+"""Charts and pages of reports."""
+
+from __future__ import annotations
+
+from station.report.page import Chart, Page, Section, Table
+from station.report.svg import Series, bar, line, place_map, scatter, standalone
+
+__all__ = [
+    "Chart",
+    "Page",
+    "Section",
+    "Series",
+    "Table",
+    "bar",
+    "line",
+    "place_map",
+    "scatter",
+    "standalone",
+]

@@ -12,7 +12,7 @@ from playwright.sync_api import Locator, Page, Route, expect
 
 from tests.browser.conftest import LARGE, ROOT, SMALL, Serve, Station
 from tests.browser.steps import add_run, violations
-from tests.diagnosis.machines import Emulated, to_csv
+from tests.station.diagnosis.machines import Emulated, to_csv
 
 RIGS = ROOT / "drivers/emulated/rigs"
 FAST = 1000.0

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import pytest
 
+from drivers.errors import LinkLost
 from drivers.mock import MockAxis, MockScale
-from drivers.protocols import LinearScale, LinkLost, ServoAxis
+from drivers.protocols import LinearScale, ServoAxis
 
 
 def test_scale_reads_what_it_is_told_and_fails_when_told() -> None:

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import pytest
 
-from station.orchestrator import Orchestrator, ProcedureFactory
+from station.service.orchestrator import Orchestrator, ProcedureFactory
 from station.settings import LimitSettings, Settings
-from station.store import Store
+from station.store.store import Store
 from tests.station.fakes import Rig, make_rig, two_walks
 
 SETTINGS = Settings(limits=LimitSettings(settle_s=0.1, samples=2))

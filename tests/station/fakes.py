@@ -8,11 +8,14 @@ from threading import Event
 
 import numpy as np
 
-from drivers.protocols import AxisStatus, DeviceError, LinkLost
-from station.devices import Devices
-from station.kinematics import forward, inverse
-from station.records import CalibrationResult, PlanName, Procedure, Quantity, Reading, Stop, Walk
-from station.robot import Robot
+from drivers.errors import DeviceError, LinkLost
+from drivers.protocols import AxisStatus
+from station.five_bar.kinematics import forward, inverse
+from station.five_bar.robot_file import Robot
+from station.motion.devices import Devices
+from station.records.quantity import Quantity
+from station.records.reading import Reading
+from station.records.run import CalibrationResult, PlanName, Procedure, Stop, Walk
 
 GEOMETRY = Robot.default().geometry
 HOME_DEG = (0.0, 180.0)

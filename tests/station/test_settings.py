@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from drivers.protocols import JointScaling
-from station.devices import build_devices
+from drivers.scaling import JointScaling
 from station.errors import InputRefused
+from station.motion.devices import build_devices
 from station.settings import Settings, load_settings, station_home
 
 REAL = """

@@ -13,9 +13,9 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 
-from station.orchestrator import Orchestrator
-from station.runtime import Runtime
-from station.store import Store
+from station.service.orchestrator import Orchestrator
+from station.service.runtime import Runtime
+from station.store.store import Store
 from tests.station.conftest import SETTINGS
 from tests.station.fakes import Rig, make_rig, two_walks
 from web.app import create_app

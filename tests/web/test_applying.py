@@ -10,13 +10,13 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 
-from station.orchestrator import Orchestrator
-from station.procedures import start_procedure
-from station.runtime import Runtime
-from station.store import Store
+from station.run_kinds.calibrate import start_procedure
+from station.service.orchestrator import Orchestrator
+from station.service.runtime import Runtime
+from station.store.store import Store
 from tests.station.conftest import SETTINGS
 from tests.station.fakes import make_rig
-from tests.station.test_applying import OFFSETS, ROBOT
+from tests.station.run_kinds.test_apply import OFFSETS, ROBOT
 from tests.web.conftest import LIMIT_S, Service
 from web.app import create_app
 

@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from station import dataset
-from station.measurement_file import parse_readings, readings_to_csv
-from tests.station.test_diagnosing import BACKLASH, machine, run
+from station.records.measurement_file import parse_readings, readings_to_csv
+from station.run_kinds import import_file as dataset
+from tests.station.run_kinds.test_diagnose import BACKLASH, machine, run
 from tests.web.conftest import Service
 from tests.web.test_problems import problem_of
 from web import uploads
@@ -179,7 +179,7 @@ def test_a_failure_while_storing_leaves_nothing_half_stored(
     def broken(*_: object) -> None:
         raise RuntimeError("disk full")
 
-    monkeypatch.setattr("station.store.pack_document", broken)
+    monkeypatch.setattr("station.store.store.pack_document", broken)
     problem_of(send(service, *worn), 500)
     nothing_is_stored(service)
 

@@ -7,9 +7,9 @@ from collections.abc import Iterable
 import numpy as np
 import pytest
 
-from station.records import CalibrationRequest, State
-from tests.station.test_diagnosing import BACKLASH, ROBOT, machine, run
-from tests.station.test_separating import FAST_WARMING
+from station.records.run import CalibrationRequest, State
+from tests.station.run_kinds.test_diagnose import BACKLASH, ROBOT, machine, run
+from tests.station.run_kinds.test_separate import FAST_WARMING
 from tests.web.conftest import Service
 
 LIST = "/api/v1/calibrations"

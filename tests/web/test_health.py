@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from drivers.protocols import LinkLost
+from drivers.errors import LinkLost
 from tests.web.conftest import Service
 from web.routes import health
 

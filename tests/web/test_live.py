@@ -10,8 +10,8 @@ from typing import Any, cast
 import pytest
 from starlette.websockets import WebSocketDisconnect
 
-from station.events import LiveEvent
-from station.orchestrator import Orchestrator
+from station.motion.events import LiveEvent
+from station.service.orchestrator import Orchestrator
 from tests.web.conftest import Service
 from web.live import LiveFeed
 

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from station.store import Store
+from station.store.store import Store
 from tests.web.conftest import BODY, Service
 
 RUNS = "/api/v1/calibrations"

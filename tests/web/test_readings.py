@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from station.measurement_file import parse_measurements
+from station.records.measurement_file import parse_measurements
 from tests.web.conftest import Service
 
 COLUMNS = {

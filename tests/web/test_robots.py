@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tests.station.test_remembering import LASTING, finish
+from tests.station.run_kinds.test_memory import LASTING, finish
 from tests.web.conftest import Service
 
 ROBOT = "/api/v1/robots/R1"

@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from station.diagnosis.diagnose import diagnose
-from station.diagnosis.identified import IdentifiedMachine, Situation
-from station.kinematics import Complex, Real
-from tests.diagnosis.machines import ROBOT, Emulated, to_csv
-from tests.diagnosis.test_solve import BACKLASH, rms, true_error_mm
+from station.diagnosis.closed_loop import diagnose
+from station.model.identified_machine import IdentifiedMachine, Situation
+from station.records.types import Complex, Real
+from tests.station.diagnosis.learned.test_commands import BACKLASH, rms, true_error_mm
+from tests.station.diagnosis.machines import ROBOT, Emulated, to_csv
 from tests.web.conftest import Service
 from tests.web.test_problems import problem_of
 

@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from drivers.protocols import LinkLost
+from drivers.errors import LinkLost
 from tests.web.conftest import LIMIT_S, Service
 from web.routes import stop as stop_route
 

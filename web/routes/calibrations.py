@@ -8,10 +8,9 @@ from typing import Annotated, Any, Literal
 from fastapi import APIRouter, Query, Response
 from starlette.exceptions import HTTPException
 
-from station.application import application
 from station.records import CalibrationRequest, State, Submitted
-from station.runtime import Runtime
-from station.store_rows import Page
+from station.service import Runtime
+from station.store import Page, application
 from web.aside import aside
 from web.bodies import ApplyBody, Calibration, CalibrationBody, CalibrationList, CalibrationSummary
 from web.problems import documented

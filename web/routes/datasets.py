@@ -9,8 +9,8 @@ from fastapi import APIRouter, Query, Request, Response
 from fastapi.exceptions import RequestValidationError
 from pydantic import ValidationError
 
-from station.dataset import import_dataset
 from station.records import CalibrationRequest
+from station.run_kinds import import_dataset
 from web.aside import aside
 from web.bodies import CalibrationSummary, DatasetFields
 from web.problems import documented

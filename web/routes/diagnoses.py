@@ -9,17 +9,11 @@ import numpy as np
 from fastapi import APIRouter
 from fastapi.responses import HTMLResponse
 
-from station.diagnosis.document import Findings
-from station.diagnosis.model_file import model_of
-from station.diagnosis.page import page
-from station.diagnosis.residuals import residuals
-from station.diagnosis.solve import range_text, solve_targets
-from station.diagnosis.targets import targets_of
-from station.diagnostic_run import diagnosed
+from station.diagnosis import Findings, model_of, page, range_text, residuals, solve_targets, targets_of
 from station.errors import NotApplicable
 from station.records import Reading
-from station.runtime import Runtime
-from station.separating_run import planned
+from station.run_kinds import diagnosed, planned
+from station.service import Runtime
 from web.bodies import (
     JointCommand,
     ResidualList,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Response
 
-from station.measurement_file import readings_to_csv
+from station.records import readings_to_csv
 from web.bodies import ReadingAnswer, ReadingList
 from web.problems import documented
 from web.routes.parts import CalibrationId, TheRuntime

@@ -1,0 +1,292 @@
+"""Leadshine EL7-RS servo drives in PR mode (positioning by register writes) on a `ModbusBus`.
+
+Registers are from the EL7-RS manual and field projects with it; the status register 0B05h is taken
+to have the bit layout documented for 1003h of the maker's CS2RS family.  32-bit values are high
+word first.  A move is one frame: the path-0 block 6200h..6207h, whose last word is the trigger.
+"""
+
+from __future__ import annotations
+
+import math
+import time
+from contextlib import suppress
+from enum import IntFlag
+
+from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
+from drivers.lines import ModbusBus, UnansweredWrite
+from drivers.protocols import AxisStatus
+from drivers.scaling import JointScaling
+
+CONTROL_MODE = 0x0003
+ALARM_RESET = 0x0033
+DIGITAL_INPUT_1 = 0x0401
+DIGITAL_OUTPUTS = (0x0415, 0x0417, 0x0419, 0x041B, 0x041D)
+ALARM = 0x0B02
+MOTION_STATUS = 0x0B05
+TRIGGER = 0x6002
+OUTPUT_STATUS = 0x602F
+FEEDBACK = 0x602C
+PATH_0 = 0x6200
+
+MODE_PR = 6
+SERVO_ON_ALWAYS = 0x0083
+RESET_PRESENT_ALARM = 0x1111
+RUN_PATH_0 = 0x0010
+DECLARE_ZERO = 0x0021
+QUICK_STOP = 0x0040
+MOVE_ABSOLUTE = 0x0001
+OUTPUT_IS_ALARM = 0x01
+OUTPUT_IS_SERVO_ON = 0x12
+
+_RAMP_MS_PER_1000_RPM = 100
+_MAX_RPM = 3000
+_IN_POSITION_PULSES = 20
+_ENABLE_TIMEOUT_S = 2.0
+_RESET_TIMEOUT_S = 1.0
+_POLL_S = 0.01
+_STOP_ATTEMPTS = 3
+_RPM_PER_DEG_S = 1 / 6
+
+
+class MotionStatus(IntFlag):
+    """Bits of 0B05h."""
+
+    FAULT = 1 << 0
+    ENABLED = 1 << 1
+    RUNNING = 1 << 2
+    COMMAND_COMPLETE = 1 << 4
+    PATH_COMPLETE = 1 << 5
+    HOMED = 1 << 6
+
+
+class LeadshineEL7:
+    """One drive as a `ServoAxis`; may be called from any thread."""
+
+    def __init__(self, bus: ModbusBus, unit: int, scaling: JointScaling, *, name: str) -> None:
+        self._bus = bus
+        self._unit = unit
+        self._scaling = scaling
+        self._name = name
+        self._target_pulses: int | None = None
+        self._servo_on_bit = 0
+        self._alarm_bit = 0
+
+    @property
+    def name(self) -> str:
+        return self._name
+
+    def connect(self) -> None:
+        """Open the line, check that the drive is in PR mode, learn which output says "servo on".
+
+        :raises DeviceError: with what is wrong and what to check
+        """
+        self._bus.open(self)
+        try:
+            mode = self._read(CONTROL_MODE)
+            if mode != MODE_PR:
+                raise DeviceFault(
+                    f"{self._title} is in control mode {mode}; set P00.01 to {MODE_PR} (PR mode)"
+                    " and switch it off and on."
+                )
+            functions = [self._read(address) for address in DIGITAL_OUTPUTS]
+            if OUTPUT_IS_SERVO_ON not in functions:
+                raise DeviceFault(
+                    f"{self._title} has no output for servo-on;"
+                    f" set one of P04.10 to P04.14 to {OUTPUT_IS_SERVO_ON:02X}h."
+                )
+            self._servo_on_bit = 1 << functions.index(OUTPUT_IS_SERVO_ON)
+            self._alarm_bit = 1 << functions.index(OUTPUT_IS_ALARM) if OUTPUT_IS_ALARM in functions else 0
+        except DeviceError:
+            self._bus.release(self)
+            raise
+
+    def make_safe(self) -> None:
+        """Stop; the axis stays powered, since an arm without torque would fall."""
+        with suppress(DeviceError):  # the caller has other axes to stop and cannot do more here
+            self.quick_stop()
+
+    def close(self) -> None:
+        self._bus.release(self)
+
+    def enable(self) -> None:
+        """Power the axis and wait until it says so.
+
+        :raises DeviceFault: an alarm stands, or the drive does not switch on in time
+        :raises LinkLost: no reply
+        """
+        self._refuse_on_alarm(self.status())
+        with suppress(UnansweredWrite):  # the wait below finds out whether it took
+            self._bus.write_one(self._unit, DIGITAL_INPUT_1, SERVO_ON_ALWAYS)
+        deadline_s = time.monotonic() + _ENABLE_TIMEOUT_S
+        while not (status := self.status()).enabled:
+            self._refuse_on_alarm(status)
+            if time.monotonic() > deadline_s:
+                raise DeviceFault(
+                    f"{self._title} does not switch on; check its power stage and safety input."
+                )
+            time.sleep(_POLL_S)
+
+    def move_to(self, theta_deg: float, speed_deg_s: float) -> None:
+        """Start an absolute move and return at once (one frame on the wire, never sent twice).
+
+        :raises DeviceFault: not enabled, in alarm, out of range, refused, or overtaken by a stop
+        :raises LinkLost: the reply is missing and the state read back does not show the move
+        """
+        asked_at = self._bus.stops
+        target = self._pulses(theta_deg)
+        rpm = self._rpm(speed_deg_s)
+        status = self.status()
+        self._refuse_on_alarm(status)
+        if not status.enabled:
+            raise DeviceFault(f"{self._title} is not switched on.")
+        block = [
+            MOVE_ABSOLUTE,
+            *_words(target),
+            rpm,
+            _RAMP_MS_PER_1000_RPM,
+            _RAMP_MS_PER_1000_RPM,
+            0,
+            RUN_PATH_0,
+        ]
+        try:
+            self._bus.write(self._unit, PATH_0, block, stops_seen=asked_at)
+        except UnansweredWrite as error:
+            if not self._shows_move_to(target):
+                raise LinkLost(f"{self._title} did not confirm its move and does not show it.") from error
+        self._target_pulses = target
+
+    def status(self) -> AxisStatus:
+        """One look at the drive; in position means: at the target of this object's latest move.
+
+        :raises DeviceError:
+        """
+        motion = MotionStatus(self._read(MOTION_STATUS))
+        outputs = self._read(OUTPUT_STATUS)
+        alarm = None
+        if MotionStatus.FAULT in motion or outputs & self._alarm_bit:
+            alarm = self._read(ALARM) or None  # it may have been reset between two reads
+        moving = MotionStatus.RUNNING in motion
+        return AxisStatus(
+            enabled=bool(outputs & self._servo_on_bit),
+            moving=moving,
+            in_position=MotionStatus.PATH_COMPLETE in motion and not moving and self._is_at_target(),
+            alarm=alarm,
+        )
+
+    def feedback_deg(self) -> float:
+        """The encoder's joint angle.  :raises DeviceError:"""
+        return self._scaling.to_deg(self._feedback_pulses())
+
+    def reset_alarm(self) -> None:
+        """Clear the present alarm.
+
+        :raises DeviceFault: it stays
+        :raises LinkLost: no reply
+        """
+        with suppress(UnansweredWrite):  # the alarm register tells
+            self._bus.write_one(self._unit, ALARM_RESET, RESET_PRESENT_ALARM)
+        deadline_s = time.monotonic() + _RESET_TIMEOUT_S
+        while (status := self.status()).alarm is not None:
+            if time.monotonic() > deadline_s:
+                self._refuse_on_alarm(status)
+            time.sleep(_POLL_S)
+
+    def quick_stop(self) -> None:
+        """Stop now, ahead of any queued request on the line.
+
+        This is the one write that is repeated when its reply is lost: stopping twice is stopping.
+
+        :raises DeviceError: no attempt was confirmed
+        """
+        self._target_pulses = None
+        for attempt in range(1, _STOP_ATTEMPTS + 1):
+            try:
+                self._bus.write_one(self._unit, TRIGGER, QUICK_STOP, urgent=True)
+            except (LinkLost, GarbledReply) as error:
+                if attempt == _STOP_ATTEMPTS:
+                    raise LinkLost(
+                        f"{self._title} did not confirm its stop; use the emergency stop."
+                    ) from error
+            else:
+                return
+
+    def preset(self, theta_deg: float) -> None:
+        """Declare the present place to be `theta_deg`.
+
+        The drive can only declare its zero, so `theta_deg` must be the joint's `zero_at_deg`
+        (within half a pulse): move to where the arm truly stands at that angle, then preset.
+
+        :raises DeviceFault: another angle, moving, or read back different
+        :raises LinkLost: no reply
+        """
+        if abs(theta_deg - self._scaling.zero_at_deg) * self._scaling.pulses_per_deg > 0.5:
+            raise DeviceFault(
+                f"{self._title} can only be declared to stand at {self._scaling.zero_at_deg:g} deg,"
+                f" where its drive's zero is, not at {theta_deg:g} deg."
+            )
+        if self.status().moving:
+            raise DeviceFault(f"{self._title} is moving; its zero can be set at standstill only.")
+        with suppress(UnansweredWrite):  # the position read back tells
+            self._bus.write_one(self._unit, TRIGGER, DECLARE_ZERO)
+        self._target_pulses = None
+        pulses = self._feedback_pulses()
+        if abs(pulses) > _IN_POSITION_PULSES:
+            raise DeviceFault(
+                f"{self._title} stands at {pulses} pulses after its zero was set; it was not taken."
+            )
+
+    @property
+    def _title(self) -> str:
+        return self._name[:1].upper() + self._name[1:]
+
+    def _read(self, address: int) -> int:
+        return self._bus.read(self._unit, address, 1)[0]
+
+    def _feedback_pulses(self) -> int:
+        return _signed(self._bus.read(self._unit, FEEDBACK, 2))
+
+    def _is_at_target(self) -> bool:
+        """The complete bit alone may still be that of the previous move."""
+        target = self._target_pulses  # a stop may take it away meanwhile
+        return target is not None and abs(self._feedback_pulses() - target) <= _IN_POSITION_PULSES
+
+    def _shows_move_to(self, target: int) -> bool:
+        """After a lost reply: whether the drive holds this target and runs towards it or is there."""
+        if _signed(self._bus.read(self._unit, PATH_0 + 1, 2)) != target:
+            return False
+        running = MotionStatus(self._read(MOTION_STATUS)) & MotionStatus.RUNNING
+        return bool(running) or abs(self._feedback_pulses() - target) <= _IN_POSITION_PULSES
+
+    def _pulses(self, theta_deg: float) -> int:
+        if not math.isfinite(theta_deg):
+            raise DeviceFault(f"{self._title} was asked to move to {theta_deg}.")
+        pulses = self._scaling.to_pulses(theta_deg)
+        if not -(2**31) <= pulses < 2**31:
+            raise DeviceFault(
+                f"{self._title} cannot be told {theta_deg:g} deg; that is more pulses than it counts."
+            )
+        return pulses
+
+    def _rpm(self, speed_deg_s: float) -> int:
+        """Motor speed: link speed times gear ratio, deg/s to revolutions per minute."""
+        rpm = speed_deg_s * self._scaling.ratio * _RPM_PER_DEG_S
+        if not 0 < rpm <= _MAX_RPM:
+            most = _MAX_RPM / self._scaling.ratio / _RPM_PER_DEG_S
+            raise DeviceFault(
+                f"{self._title} was asked for {speed_deg_s:g} deg/s; 0 to {most:g} is possible."
+            )
+        return max(1, round(rpm))
+
+    def _refuse_on_alarm(self, status: AxisStatus) -> None:
+        if status.alarm is not None:
+            raise DeviceFault(f"{self._title} shows alarm {status.alarm:X}h; find its cause, then reset it.")
+
+
+def _words(value: int) -> tuple[int, int]:
+    """A signed 32-bit value as two registers, high word first."""
+    return (value >> 16) & 0xFFFF, value & 0xFFFF
+
+
+def _signed(words: list[int]) -> int:
+    value = words[0] << 16 | words[1]
+    return value - (1 << 32) if value & (1 << 31) else value

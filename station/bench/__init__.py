@@ -1,1 +1,0 @@
-"""`station bench`: how fast and how small, peers measured in the same run."""

@@ -1,0 +1,86 @@
+"""Joint commands for target positions under an identified model, every effect on the position included."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from station.diagnosis.learned.model_file import LearnedModel
+from station.diagnosis.learned.targets import APPROACH, Targets
+from station.five_bar import Unreachable
+from station.model import NotInvertible, Situation, Term
+from station.records import Real
+
+EDGE = 0.05
+"""Share of the learned joint range by which a command may lie outside it: the walk was commanded before
+the zero offsets were known, and turns that far beside the workspace."""
+
+
+def solve_targets(model: LearnedModel, targets: Targets) -> Real:
+    """(K, 2) joint commands, rad in the drives' nominal frame.
+
+    :raises InputRefused: a target out of reach or outside what the effects were learned on, or without
+        the approach, temperature or payload that an effect needs, with row and column.
+    """
+    machine = model.machine
+    for term in machine.terms:
+        _check_given(term, targets)
+    count = len(targets)
+    rise: Real = np.zeros(count)
+    if targets.temperature_c is not None and model.temperature_c is not None:
+        rise = targets.temperature_c - model.temperature_c
+    payload = np.zeros(count) if targets.payload_kg is None else targets.payload_kg
+    try:
+        theta = machine.commands(targets.place, Situation(targets.approach, rise, payload))
+    except Unreachable as error:
+        k = int(error.indices[0])
+        raise targets.refuse(k, "x_mm, y_mm", f"{error} Targets must be within the workspace.") from error
+    except NotInvertible as error:
+        raise targets.refuse(0, "x_mm, y_mm", f"no command was found: {error}.") from error
+    _check_range(model, theta, targets)
+    return theta
+
+
+def _check_given(term: Term, targets: Targets) -> None:
+    """An effect that depends on what the file does not say cannot be compensated."""
+    effect = term.effect
+    if "by_payload" in term.hidden and targets.payload_kg is None:
+        what = f"is missing, but {effect.label} was learned with payloads; give kg."
+        raise targets.refuse(0, "payload_kg", what)
+    if effect.by_approach:
+        i = (effect.joint or 1) - 1
+        missing = np.flatnonzero(targets.approach[:, i] == 0)
+        if missing.size:
+            what = f"is missing or 0, but {effect.label} depends on it; give -1 or 1."
+            raise targets.refuse(int(missing[0]), APPROACH[i], what)
+
+
+def _check_range(model: LearnedModel, theta: Real, targets: Targets) -> None:
+    """Effects of a joint hold where they were learned, no further."""
+    degrees = np.degrees(theta)
+    for term in model.machine.terms:
+        i = term.acts.joint
+        if i is None:
+            continue
+        low, high = model.joint_range_deg[i]
+        margin = EDGE * (high - low)
+        outside = np.flatnonzero((degrees[:, i] < low - margin) | (degrees[:, i] > high + margin))
+        if outside.size:
+            k = int(outside[0])
+            what = (
+                f"joint {i + 1} would go to {degrees[k, i]:.2f} deg, but {term.effect.label} was learned "
+                f"from {low:.2f} to {high:.2f} deg only; choose a target inside or repeat the walk wider."
+            )
+            raise targets.refuse(k, "x_mm, y_mm", what)
+
+
+def range_text(model: LearnedModel) -> str:
+    """What the model was learned on, in words."""
+    first, second = model.joint_range_deg
+    effects = ", ".join(t.effect.label for t in model.machine.terms) or "no effect"
+    text = (
+        f"Learned on joint 1 from {first[0]:.2f} to {first[1]:.2f} deg and joint 2 from {second[0]:.2f} to "
+        f"{second[1]:.2f} deg, with {effects}."
+    )
+    if model.temperature_c is not None:
+        text += f" Where no temperature is given it is {model.temperature_c:g} C."
+    return text

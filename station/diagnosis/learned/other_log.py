@@ -1,0 +1,175 @@
+"""Effects learned on one log, applied unchanged to another: do they hold, or were they a story about one log?
+
+Where the machine stands and how its tool is made may differ, so the parameters of the mechanism are fitted
+again, on three quarters of the new readings at a time; the effects stay as they were learned.  Everything is
+judged by the quarter left out, once without the effects and once with them.  Where a joint has not been, its
+curve is not applied.
+"""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.diagnosis.learned.model_file import ModelPart, terms_of
+from station.diagnosis.tests_of_fit import folds
+from station.errors import InputRefused
+from station.fitting import (
+    NotConvergedError,
+    Outlier,
+    Solution,
+    check_outlier_share,
+    find_outliers,
+    solve,
+    tolerance_prior,
+)
+from station.machines import AnyMechanism, AnyRobot, effects_of, mechanism_of
+from station.mechanism import Reference, by_reading
+from station.model import Model, Term
+from station.records import Measurements, Real, inside_visited
+
+FEWEST_AN_UNKNOWN = 4
+
+
+@dataclass(frozen=True, slots=True)
+class Errors:
+    """Of readings that took no part in the fit, mm."""
+
+    rms_mm: float
+    median_mm: float
+    max_mm: float
+
+
+@dataclass(frozen=True)
+class Transfer:
+    """What the effects of one log do for another."""
+
+    readings: int
+    outliers: tuple[Outlier, ...]
+    """Readings off by so much that no model of this machine predicts them; left out of everything below."""
+    inside: int
+    """How many stand where every joint with an effect has been when it was learned."""
+    effects: tuple[str, ...]
+    alone: Errors
+    """The mechanism by itself, readings inside."""
+    applied: Errors
+    """With the effects, the same readings."""
+    beyond: tuple[Errors, Errors] | None
+    """The same pair within the outer limits of the learned range, gaps included; None when there are none."""
+
+    def as_json(self) -> dict[str, Any]:
+        return asdict(self)
+
+
+def transfer(part: ModelPart, robot: AnyRobot, readings: Measurements, source: str) -> Transfer:
+    """Apply the effects of a learned model to readings of the same machine.
+
+    :raises InputRefused: nothing to apply, or too few readings inside the learned range.
+    """
+    mechanism = mechanism_of(robot, readings)
+    mechanism.check()
+    terms = terms_of(part, effects_of(mechanism), source)
+    if not terms:
+        raise InputRefused(f"Model {source} has no effects: there is nothing to apply.")
+    joints = sorted({t.acts.joint for t in terms if t.acts.joint is not None})
+    inside = np.ones(len(readings), dtype=bool)
+    within = inside.copy()
+    for i in joints:
+        inside &= _been(part, readings, i)
+        low, high = np.radians(part.ranges.joints_deg[i])
+        within &= (readings.theta[:, i] >= low) & (readings.theta[:, i] <= high)
+    needed = FEWEST_AN_UNKNOWN * len(mechanism.parameters)
+    if inside.sum() < needed:
+        raise InputRefused(
+            f"Only {int(inside.sum())} of {len(readings)} readings stand where the effects were learned; "
+            f"{needed} are needed to judge them."
+        )
+    off = _off(mechanism.of(readings.take(inside)), terms, part)
+    named = {o.reading for o in off}
+    sound = np.array([i not in named for i in readings.ids])
+    alone, applied = _both(mechanism, terms, part, inside & sound)
+    beyond = None if (inside == within).all() else _both(mechanism, terms, part, within & sound)
+    labels = tuple(t.effect.label for t in terms)
+    return Transfer(len(readings), off, int((inside & sound).sum()), labels, alone, applied, beyond)
+
+
+def _been(part: ModelPart, readings: Measurements, joint: int) -> NDArray[np.bool_]:
+    """(K,) whether a joint (index) stands where it was when the model was learned."""
+    stretches = [(np.radians(a), np.radians(b)) for a, b in part.ranges.visited_deg[joint]]
+    return inside_visited(readings.theta[:, [joint]], [stretches])
+
+
+def _off(mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelPart) -> tuple[Outlier, ...]:
+    frozen = _Frozen(mechanism, terms, part)
+    found = find_outliers(mechanism, frozen.solved, mechanism.row_sd)
+    check_outlier_share(found, len(mechanism.measurements))
+    return found
+
+
+def _both(
+    mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelPart, chosen: NDArray[np.bool_]
+) -> tuple[Errors, Errors]:
+    some = mechanism.of(mechanism.measurements.take(chosen))
+    return _held_out(some, (), part), _held_out(some, terms, part)
+
+
+def _held_out(mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelPart) -> Errors:
+    """Every fold predicted by the mechanism as fitted to the others, the terms frozen."""
+    m = mechanism.measurements
+    fold = folds(m)
+    error = np.empty(len(m))
+    for f in np.unique(fold):
+        learned = _Frozen(mechanism.of(m.take(fold != f)), terms, part)
+        out = _Frozen(mechanism.of(m.take(fold == f)), terms, part)
+        error[fold == f] = out.errors(learned.fitted())
+    return Errors(float(np.sqrt(np.mean(error**2))), float(np.median(error)), float(error.max()))
+
+
+class _Frozen:
+    """A mechanism with effects that are not fitted."""
+
+    def __init__(self, mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelPart) -> None:
+        m = mechanism.measurements
+        reference = Reference(part.reference.temperature_c, m.theta[-1], float(m.distance[-1]))
+        self.mechanism = mechanism
+        self.model = Model(mechanism, reference, terms)
+        self.amplitudes = np.array([a for term in part.terms for a in term.amplitudes] if terms else [])
+        learned = dict(zip(part.names, part.values, strict=True))
+        start = mechanism.start
+        p = np.array(
+            [learned.get(q.name, x) for q, x in zip(mechanism.parameters, start, strict=True)], dtype=float
+        )
+        bases = self.model.bases(self.model.conditions(p, first=False))
+        self.bases = [
+            basis * _been(part, m, term.acts.joint)[:, None]
+            if term.effect.local and term.acts.joint is not None
+            else basis
+            for term, basis in zip(terms, bases, strict=True)
+        ]
+
+    def fitted(self) -> Real:
+        """(P,) parameters of the mechanism.  :raises InputRefused: no convergence."""
+        return self.solved(self.mechanism.row_sd).x
+
+    def solved(self, sd: Real) -> Solution:
+        """The fit with rows that scatter by sd (R,).  :raises InputRefused: no convergence."""
+        size = self.model.base_size
+
+        def residuals(p: Real) -> tuple[Real, Real]:
+            at = self.model.observe(np.concatenate([p, self.amplitudes]), self.bases)
+            return (at.value - self.mechanism.measured) / sd, at.by_parameter[:, :size] / sd[:, None]
+
+        try:
+            return solve(residuals, self.mechanism.start, tolerance_prior(self.mechanism))
+        except NotConvergedError as error:
+            raise InputRefused(
+                f"The mechanism does not converge on these readings ({error}); are they of the same machine?"
+            ) from error
+
+    def errors(self, p: Real) -> Real:
+        """(K,) mm"""
+        at = self.model.observe(np.concatenate([p, self.amplitudes]), self.bases)
+        return by_reading(self.mechanism, at.value - self.mechanism.measured)

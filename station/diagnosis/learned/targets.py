@@ -1,0 +1,111 @@
+"""Target positions as a CSV file or as the rows of a request, and the joint commands that go back."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Protocol
+
+import numpy as np
+
+from station.errors import FieldRefused, InputRefused
+from station.records import Complex, Real, Table, approaches, read_table
+
+REQUIRED = ("x_mm", "y_mm")
+APPROACH = ("approach1", "approach2")
+OPTIONAL = (*APPROACH, "temperature_c", "payload_kg")
+
+
+class Source(Protocol):
+    """Where targets come from, and can say so."""
+
+    def refuse(self, row: int, column: str, what: str) -> InputRefused:
+        """A refusal that names the place."""
+
+
+class Rows:
+    """The targets of a request."""
+
+    def refuse(self, row: int, column: str, what: str) -> InputRefused:
+        """Names the target by its index; of several columns the field is the first."""
+        field = f"targets.{row}.{column.partition(',')[0]}"
+        return FieldRefused(field, f"Target {row}, {column}: {what}")
+
+
+@dataclass(frozen=True)
+class Targets:
+    """K places to bring P to."""
+
+    source: Source
+    place: Complex
+    """(K,) mm"""
+    approach: Real
+    """(K, 2) sign of each joint's last motion, 0 not given."""
+    temperature_c: Real | None
+    payload_kg: Real | None
+
+    def __len__(self) -> int:
+        return len(self.place)
+
+    def refuse(self, row: int, column: str, what: str) -> InputRefused:
+        """Says where it was given."""
+        return self.source.refuse(row, column, what)
+
+
+def targets_of(rows: Sequence[Mapping[str, float | None]]) -> Targets:
+    """The rows of a request, checked one by one already, with the columns of the file.
+
+    :raises InputRefused: a temperature or payload that only some of them have.
+    """
+    source = Rows()
+
+    def optional(column: str) -> Real | None:
+        missing = [k for k, row in enumerate(rows) if row[column] is None]
+        if len(missing) == len(rows):
+            return None
+        if missing:
+            raise source.refuse(missing[0], column, "is missing, but other targets have it; give it for all.")
+        return numbers(column)
+
+    def numbers(column: str) -> Real:
+        return np.array([row[column] for row in rows], dtype=float)
+
+    return Targets(
+        source,
+        numbers("x_mm") + 1j * numbers("y_mm"),
+        np.column_stack([numbers(name) for name in APPROACH]),
+        optional("temperature_c"),
+        optional("payload_kg"),
+    )
+
+
+def read_targets(path: Path) -> tuple[Table, Targets]:
+    """:raises InputRefused: anything malformed, with row and column."""
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise InputRefused(f"{path} cannot be read: {error.strerror}.") from error
+    table = read_table(content, REQUIRED, OPTIONAL, path.name)
+    targets = Targets(
+        table,
+        table.numbers("x_mm") + 1j * table.numbers("y_mm"),
+        np.column_stack([approaches(table, name) for name in APPROACH]),
+        table.optional_numbers("temperature_c"),
+        table.optional_numbers("payload_kg"),
+    )
+    return table, targets
+
+
+def commands_csv(table: Table, theta: Real) -> str:
+    """The known columns of the targets as given, then theta1_deg, theta2_deg of theta (K, 2), rad."""
+    kept = [name for name in (*REQUIRED, *OPTIONAL) if table.has(name)]
+    given = [table.text(name) for name in kept]
+    out = io.StringIO()
+    writer = csv.writer(out, lineterminator="\n")
+    writer.writerow([*kept, "theta1_deg", "theta2_deg"])
+    for k, angles in enumerate(np.degrees(theta)):
+        writer.writerow([*(cells[k] for cells in given), *(f"{a:.6f}" for a in angles)])
+    return out.getvalue()

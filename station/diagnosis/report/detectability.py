@@ -1,0 +1,82 @@
+"""What these readings could not have shown: the smallest visible size of every effect not found."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from scipy.special import fdtri, ncfdtrinc
+
+from station.diagnosis.search import INVISIBLE_SHARE, SIGNIFICANT, Scan
+from station.effects import Effect, Variants
+from station.model import Fit
+
+POWER = 0.8
+
+
+@dataclass(frozen=True, slots=True)
+class Detectable:
+    """One effect that was not found."""
+
+    effect: str
+    joint: int | None
+    label: str
+    parameter: str | None
+    minimum_detectable: float | None
+    """Size found in four of five such walks; None when these readings cannot show the effect at all."""
+    unit: str | None
+    text: str
+
+    def as_json(self) -> dict[str, Any]:
+        return asdict(self)
+
+
+def detectable(fit: Fit, effects: Sequence[Effect]) -> tuple[Detectable, ...]:
+    """For every effect of the catalogue that is not in the fit."""
+    present = {term.effect.label for term in fit.model.terms}
+    scan = Scan(fit)
+    return tuple(_one(scan, effect, len(effects)) for effect in effects if effect.label not in present)
+
+
+def _one(scan: Scan, effect: Effect, tests: int) -> Detectable:
+    variants = effect.variants(scan.fit.conditions)
+    if variants is None:
+        text = "these readings were not taken in a way that could show it"
+        return Detectable(effect.id, effect.joint, effect.label, None, None, None, text)
+    if variants.spread is not None:
+        return _of_many(scan, effect, variants, tests)
+    _, share, information = scan.reductions(variants, variants.basis)
+    visible = share >= INVISIBLE_SHARE
+    if not visible.any():
+        text = "invisible in these readings: geometry and zero offsets take up its signature"
+        return Detectable(effect.id, effect.joint, effect.label, None, None, None, text)
+    size = variants.basis.shape[2]
+    # variants compared differ in the values of their hidden parameters only, not in what they act on
+    kind = variants.hidden[int(np.argmax(visible))].keys()
+    alike = [k for k, hidden in enumerate(variants.hidden) if visible[k] and hidden.keys() == kind]
+    typical = sorted(alike, key=lambda k: information[k])[len(alike) // 2]
+    amplitude = np.zeros(size)
+    amplitude[0] = np.sqrt(_noncentrality(scan, variants, size, tests) / information[typical])
+    shown = effect.quantities(variants.hidden[typical], amplitude, np.zeros((size, size)))[0]
+    text = "" if len(alike) == 1 else "typical of what was searched"
+    return Detectable(effect.id, effect.joint, effect.label, shown.name, abs(shown.value), shown.unit, text)
+
+
+def _of_many(scan: Scan, effect: Effect, variants: Variants, tests: int) -> Detectable:
+    """Of many amplitudes together: the shape that shows best."""
+    values, vectors = np.linalg.eigh(scan.information(variants)[0])
+    amplitudes = vectors[:, -1] * np.sqrt(_noncentrality(scan, variants, 1, tests) / values[-1])
+    size = len(amplitudes)
+    shown = effect.quantities(variants.hidden[0], amplitudes, np.zeros((size, size)))[0]
+    text = "of the shape that shows best"
+    return Detectable(effect.id, effect.joint, effect.label, shown.name, abs(shown.value), shown.unit, text)
+
+
+def _noncentrality(scan: Scan, variants: Variants, size: int, tests: int) -> float:
+    """Of the F test at which it is passed with `POWER`, look-elsewhere and Holm included."""
+    dof = max(scan.fit.dof - size, 1)
+    level = SIGNIFICANT / (tests * variants.trials)
+    critical = float(fdtri(size, dof, 1.0 - level))
+    return float(ncfdtrinc(size, dof, 1.0 - POWER, critical))

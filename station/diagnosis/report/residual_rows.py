@@ -1,0 +1,82 @@
+"""The residual of every reading, model by model, beside all that it may be ordered by: data of charts."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from station.diagnosis.report.document import Findings
+from station.identification import LIMIT_SDS
+
+
+@dataclass(frozen=True, slots=True)
+class ResidualRow:
+    """One reading that took part."""
+
+    reading: int | str
+    position: str
+    x_mm: float
+    """Where P stood by the base model."""
+    y_mm: float
+    t_s: float
+    theta1_deg: float
+    """Actual joint angle, zero offset included."""
+    theta2_deg: float
+    approach1: int
+    approach2: int
+    travel_mm: float
+    temperature_rise_k: float | None
+    before_mm: float
+    """Measured less base model."""
+    by_effect_mm: tuple[float, ...]
+    """What each effect accounts for, in the order in which they were added."""
+    after_mm: float
+    """What the last model leaves."""
+    limit_mm: float
+    """What noise alone hardly exceeds."""
+
+
+@dataclass(frozen=True, slots=True)
+class Residuals:
+    """Of the readings learned on."""
+
+    effects: tuple[str, ...]
+    """Labels, in the order in which they were added."""
+    rows: tuple[ResidualRow, ...]
+
+
+def residuals(findings: Findings, positions: Mapping[int | str, str]) -> Residuals:
+    """Row by row; `positions` names the place of each reading."""
+    d = findings.diagnosis
+    base, m = d.base, d.measurements
+    at = base.model.mechanism.places(base.x[: base.model.base_size])
+    left = np.array([stage.fit.residual_mm for stage in d.trace.stages])
+    taken = left[:-1] - left[1:]
+    theta = np.degrees(base.conditions.theta)
+    rise = base.conditions.temperature_rise
+    limit = LIMIT_SDS * d.last.row_sd
+    return Residuals(
+        tuple(finding.term.effect.label for finding in d.trace.findings),
+        tuple(
+            ResidualRow(
+                reading=m.ids[k],
+                position=positions[m.ids[k]],
+                x_mm=float(at[k, 0]),
+                y_mm=float(at[k, 1]),
+                t_s=float(m.t_s[k]),
+                theta1_deg=float(theta[k, 0]),
+                theta2_deg=float(theta[k, 1]),
+                approach1=int(m.approach[k, 0]),
+                approach2=int(m.approach[k, 1]),
+                travel_mm=float(base.conditions.travel[k]),
+                temperature_rise_k=None if rise is None else float(rise[k]),
+                before_mm=float(left[0, k]),
+                by_effect_mm=tuple(taken[:, k].tolist()),
+                after_mm=float(left[-1, k]),
+                limit_mm=float(limit[k]),
+            )
+            for k in range(len(m))
+        ),
+    )

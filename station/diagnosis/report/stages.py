@@ -1,0 +1,134 @@
+"""Errors of every model on the way: the paper's, the base model, then one per effect added."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.diagnosis.closed_loop import Diagnosis
+from station.diagnosis.tests_of_fit import predicted_by_others
+from station.errors import InputRefused
+from station.fitting import NotConvergedError, Prior, Solution, solve
+from station.mechanism import Mechanism, by_reading
+from station.model import Term
+from station.records import Real
+
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True, slots=True)
+class StageErrors:
+    """Measured less predicted under one model: readings learned, each place left out in turn, fresh ones."""
+
+    model: str
+    unknowns: int
+    """Of geometry, mechanism and effects; reading offsets are not counted."""
+    fit_rms_mm: float
+    holdout_rms_mm: float
+    holdout_max_mm: float
+    confirm_rms_mm: float | None
+    confirm_max_mm: float | None
+
+    def as_json(self) -> dict[str, Any]:
+        return asdict(self)
+
+
+def stage_errors(diagnosis: Diagnosis) -> tuple[StageErrors, ...]:
+    """Paper, base, and one more per effect found."""
+    stages = [_simplest(diagnosis)]
+    names = ["base", *(finding.term.effect.label for finding in diagnosis.trace.findings)]
+    for k, (stage, name) in enumerate(zip(diagnosis.trace.stages, names, strict=True)):
+        fit = stage.fit
+        fresh = None
+        if diagnosis.confirmations:
+            fresh = diagnosis.confirmations[k].error_mm[kept_fresh(diagnosis)]
+        stages.append(
+            _errors(
+                name if k == 0 else f"+ {name}",
+                base_unknowns(fit.model.mechanism) + sum(len_of(term) for term in fit.model.terms),
+                fit.solution,
+                fit.row_sd,
+                fit.model.mechanism,
+                fresh,
+            )
+        )
+    return tuple(stages)
+
+
+def kept_fresh(diagnosis: Diagnosis) -> Mask:
+    """(K,) fresh readings that took part in the confirmation of the last model."""
+    if diagnosis.fresh is None:
+        return np.zeros(0, dtype=bool)
+    left_out = diagnosis.confirmations[-1].left_out
+    return np.array([i not in left_out for i in diagnosis.fresh.ids])
+
+
+def base_unknowns(mechanism: Mechanism) -> int:
+    """Number of parameters of geometry and mechanism."""
+    return sum(not p.name.startswith("rho0") for p in mechanism.parameters)
+
+
+def len_of(term: Term) -> int:
+    """Number of a term's parameters, the searched ones included."""
+    return len(term.effect.quantities(term.hidden, np.ones(term.size), np.eye(term.size)))
+
+
+def _errors(
+    model: str,
+    unknowns: int,
+    solution: Solution,
+    row_sd: Real,
+    mechanism: Mechanism,
+    fresh_mm: Real | None,
+) -> StageErrors:
+    fit_mm = by_reading(mechanism, solution.residual * row_sd)
+    out_mm = by_reading(mechanism, predicted_by_others(solution, mechanism) * row_sd)
+    return StageErrors(
+        model,
+        unknowns,
+        _rms(fit_mm),
+        _rms(out_mm),
+        float(out_mm.max()),
+        None if fresh_mm is None else _rms(fresh_mm),
+        None if fresh_mm is None else float(fresh_mm.max()),
+    )
+
+
+def _simplest(diagnosis: Diagnosis) -> StageErrors:
+    """The simplest model of the machine: the rest of it stays nominal, nothing is known before."""
+    mechanism = diagnosis.base.model.mechanism
+    name, names = mechanism.simplest
+    free = np.flatnonzero([p.name in names for p in mechanism.parameters])
+    start = mechanism.start
+    row_sd = diagnosis.base.row_sd
+
+    def full(q: Real) -> Real:
+        p = start.copy()
+        p[free] = q
+        return p
+
+    def residuals(q: Real) -> tuple[Real, Real]:
+        at = mechanism.observe(full(q), mechanism.theta)
+        return (at.value - mechanism.measured) / row_sd, at.by_parameter[:, free] / row_sd[:, None]
+
+    try:
+        solution = solve(residuals, diagnosis.base.x[free], Prior(start[free], np.zeros((0, len(free)))))
+    except NotConvergedError as error:
+        raise InputRefused(
+            f"Not even the {len(names)} unknowns of the {name} model converge on these readings ({error}); "
+            "check the robot file and that angles and distances belong together."
+        ) from error
+    fresh_mm = None
+    if diagnosis.fresh is not None:
+        fresh = mechanism.of(diagnosis.fresh)
+        rows = fresh.measured - fresh.observe(full(solution.x), fresh.theta).value
+        fresh_mm = by_reading(fresh, rows)[kept_fresh(diagnosis)]
+    unknowns = sum(not n.startswith("rho0") for n in names)
+    return _errors(name, unknowns, solution, row_sd, mechanism, fresh_mm)
+
+
+def _rms(errors: Real) -> float:
+    return float(np.sqrt(np.mean(errors**2)))

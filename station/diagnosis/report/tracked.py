@@ -1,0 +1,40 @@
+"""The true position error, where a tracker measured the position of P beside the distance."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from station.fitting import rms_and_max
+from station.five_bar import FiveBar
+from station.mechanism import temperature_rise
+from station.model import Fit, IdentifiedMachine, Situation
+from station.records import Measurements
+
+PositionError = dict[str, float]
+"""rms and max, mm"""
+
+
+def true_position_errors(
+    base: Fit, last: Fit, walk: Measurements, fresh: Measurements | None
+) -> tuple[PositionError, PositionError] | None:
+    """Where the models say that P stood, against the tracker, before and after; None without one.
+
+    Of the fresh readings, or without tracked ones of the walk.  The tracker takes part in no fit; its
+    frame is the robot's.
+    """
+    tracked = next((m for m in (fresh, walk) if m is not None and m.tracker is not None), None)
+    if tracked is None or not isinstance(last.model.mechanism, FiveBar):
+        return None
+    rise = temperature_rise(tracked, last.model.reference)
+    nothing = np.zeros(len(tracked))
+    situation = Situation(
+        tracked.approach.astype(float),
+        nothing if rise is None else rise,
+        nothing if tracked.payload_kg is None else tracked.payload_kg,
+    )
+    assert tracked.tracker is not None
+    stood = tracked.tracker @ [1.0, 1.0j]
+    before, after = (
+        np.abs(IdentifiedMachine.of(fit).positions(tracked.theta, situation) - stood) for fit in (base, last)
+    )
+    return rms_and_max(before), rms_and_max(after)

@@ -1,0 +1,291 @@
+"""From residual to cause: add the effect that explains most, fit everything again, until it fits.
+
+Winner and look-alikes are told apart by refitting the full nonlinear model with each of them: an
+alias is whatever explains the readings as well, no more and no less (docs/decisions/0005).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+
+import numpy as np
+
+from station.diagnosis.search.scan import Candidate, Scan
+from station.diagnosis.tests_of_fit import ALPHA, Adequacy, by_searched, judge, turned
+from station.effects import Effect, doubtful
+from station.fitting import NotConvergedError, Outlier, Prior, outliers_of_fit
+from station.model import Fit, Model, Term, fit
+from station.records import Real
+
+MOST_EFFECTS = 3
+WORTH = 0.03
+"""Of the rest's square, what an effect must take to be worth a place in the model."""
+SIGNIFICANT = 0.01
+"""Family-wise over the catalogue (Holm: the smallest p is held against the whole count)."""
+RIVALS = 40.0
+"""A candidate this much worse (chi-square) in the linear scan is not worth a nonlinear fit."""
+HOPEFUL = 0.02
+"""Unless it takes all but this share: a large effect is not quite linear."""
+MOST_RIVALS = 6
+MOST_POLISHING = 8
+ODD_SHARE = 0.03
+END_SHARE = 0.12
+"""Of the walk, in which readings off to one side together look like a step and not like slips of the head."""
+ALIAS = 11.0
+"""Chi-square by which a look-alike may be worse and still be the cause (true cause kept in 99.9 %)."""
+
+
+Refitted = Callable[[Scan, Candidate], Fit]
+"""What the scanned fit becomes with a candidate in it."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One effect added, and what could not be told apart from it."""
+
+    term: Term
+    p_value: float
+    aliases: tuple[Term, ...]
+    """Without the winner, best first."""
+
+
+@dataclass(frozen=True)
+class Stage:
+    """One model on the way, with its fit and judgement."""
+
+    fit: Fit
+    adequacy: Adequacy
+
+
+@dataclass(frozen=True)
+class Trace:
+    """The way from the base model to the last one."""
+
+    stages: tuple[Stage, ...]
+    """Base first, then one per effect added."""
+    findings: tuple[Finding, ...]
+    outliers: tuple[Outlier, ...]
+    """Few single readings off the last model: the trace ends there, to be begun again without them."""
+    left_out: tuple[Outlier, ...] = ()
+    """Of a long log: readings that were off the model and are in no fit any more."""
+
+    @property
+    def adequate(self) -> bool:
+        return self.stages[-1].adequacy.passed
+
+
+def trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[Effect]) -> Trace:
+    """Fit, judge, scan, add, again.
+
+    :raises NotConvergedError: the base model does not converge.
+    """
+    refitted = partial(_with_candidate, prior=prior)
+    stages = [_settled(base, prior, specified_sd, None)]
+    findings: list[Finding] = []
+    odd = odd_readings(stages[0].fit)
+    while not odd and not stages[-1].adequacy.settled and len(findings) < MOST_EFFECTS:
+        # where only the repeats are worse than specified, a cause must be plainer
+        level = ALPHA if stages[-1].adequacy.passed else SIGNIFICANT
+        chosen = next_effect(stages[-1].fit, refitted, effects, level, HOPEFUL)
+        if chosen is None:
+            break
+        finding, better = chosen
+        findings.append(finding)
+        stages.append(_settled(better.model, prior, specified_sd, better))
+        if len(findings) > 1:
+            findings = _reconsidered(findings, stages[-1].fit, prior, effects)
+            stages = _staged(base, findings, prior, specified_sd, stages[0])
+        odd = odd_readings(stages[-1].fit)
+    return Trace(tuple(stages), tuple(findings), odd)
+
+
+def next_effect(
+    found: Fit, refitted: Refitted, effects: Sequence[Effect], level: float, hopeful: float
+) -> tuple[Finding, Fit] | None:
+    """The effect that explains most of what a fit leaves, and the fit with it; None if it is not worth it.
+
+    effects: the catalogue; level: of the test over all of it; hopeful: see `HOPEFUL`.
+    """
+    scan = Scan(found)
+    candidates = scan.candidates(_others(effects, found.model.terms))
+    if not candidates or not significant(candidates[0].p_value, len(effects), level):
+        return None
+    if candidates[0].reduction < WORTH * found.cost:
+        return None
+    return _add(scan, refitted, candidates, hopeful)
+
+
+def significant(p_value: float, tests: int, level: float) -> bool:
+    """The smallest of so many p-values, family-wise (Holm)."""
+    return p_value * tests < level
+
+
+def _with_candidate(scan: Scan, candidate: Candidate, prior: Prior) -> Fit:
+    current = scan.fit
+    model = replace(current.model, terms=(*current.model.terms, candidate.term()))
+    # not from the current fit: without the effect the base parameters may have gone far astray
+    return fit(model, prior, current.row_sd)
+
+
+def _reconsidered(
+    findings: list[Finding], full: Fit, prior: Prior, effects: Sequence[Effect]
+) -> list[Finding]:
+    """Each earlier finding once more, beside all the others: it was chosen while they disturbed it."""
+    refitted = partial(_with_candidate, prior=prior)
+    best = full
+    findings = list(findings)
+    for k in range(len(findings) - 1):
+        others = tuple(f.term for j, f in enumerate(findings) if j != k)
+        try:
+            without = fit(replace(full.model, terms=others), prior, full.row_sd)
+        except NotConvergedError:
+            continue
+        scan = Scan(without)
+        chosen = _add(scan, refitted, scan.candidates(_others(effects, others)), HOPEFUL)
+        if chosen is not None and chosen[1].cost <= best.cost:
+            findings[k], best = chosen
+    return _polished(findings, best, prior)
+
+
+def _polished(findings: list[Finding], found: Fit, prior: Prior) -> list[Finding]:
+    """All searched parameters together (Gauss-Newton): two close periods shift one another.
+
+    found: fit with the terms of the findings, in any order.
+    """
+    model = replace(found.model, terms=tuple(f.term for f in findings))
+    try:
+        best = fit(model, prior, found.row_sd)
+        for _ in range(MOST_POLISHING):
+            better = fit(_stepped(best), prior, found.row_sd)
+            if better.cost > best.cost - 1.0:
+                break
+            best = better
+    except NotConvergedError:
+        return findings
+    return [replace(f, term=term) for f, term in zip(findings, best.model.terms, strict=True)]
+
+
+def _stepped(found: Fit) -> Model:
+    """The model with its searched parameters where one linear step puts them."""
+    searched = list(by_searched(found.model, found.x, found.conditions))
+    if not searched:
+        return found.model
+    own = np.column_stack([column for *_, column in searched]) / found.row_sd[:, None]
+    step = Scan(found).step(own)
+    model = found.model
+    for (k, name, _), by in zip(searched, step, strict=True):
+        term = model.terms[k]
+        low, high = term.effect.refined(term.hidden, found.conditions)[name]
+        model = turned(model, k, name, float(np.clip(by, low - term.hidden[name], high - term.hidden[name])))
+    return model
+
+
+def _staged(
+    base: Model, findings: list[Finding], prior: Prior, specified_sd: Real, first: Stage
+) -> list[Stage]:
+    """The way anew: the base model, then one more of the findings each."""
+    terms = [f.term for f in findings]
+    models = [replace(base, terms=tuple(terms[: k + 1])) for k in range(len(terms))]
+    return [first, *(_settled(model, prior, specified_sd, None) for model in models)]
+
+
+def with_alias(found: Trace, at: int, alias: Term, prior: Prior, specified_sd: Real) -> Trace:
+    """The same way with a look-alike in the place of finding number `at`."""
+    old = found.findings[at]
+    others = (old.term, *(t for t in old.aliases if t is not alias))
+    findings = list(found.findings)
+    findings[at] = Finding(alias, old.p_value, others)
+    first = found.stages[0]
+    stages = _staged(first.fit.model, findings, prior, specified_sd, first)
+    return replace(found, stages=tuple(stages), findings=tuple(findings))
+
+
+def odd_readings(found: Fit) -> tuple[Outlier, ...]:
+    """Single readings off the model: first those of which an effect in it can say nothing.
+
+    Many others, or a few together at an end, are an effect.
+    """
+    measurements = found.model.mechanism.measurements
+    odd = outliers_of_fit(found.model.mechanism, found.solution, found.row_sd)
+    n = len(measurements)
+    in_doubt = doubtful((term.effect for term in found.model.terms), found.conditions)
+    doubted = {measurements.ids[k] for k in np.flatnonzero(in_doubt)}
+    if any(o.reading in doubted for o in odd):
+        return tuple(o for o in odd if o.reading in doubted)
+    if len(odd) > max(1, int(ODD_SHARE * n)):
+        return ()
+    if len(odd) > 1 and len({o.residual_mm > 0 for o in odd}) == 1:
+        named = {o.reading for o in odd}
+        rank = np.argsort(np.argsort(measurements.t_s, kind="stable"))
+        at = rank[[i in named for i in measurements.ids]]
+        if at.max() < END_SHARE * n or at.min() >= (1.0 - END_SHARE) * n:
+            return ()
+    return odd
+
+
+def _settled(model: Model, prior: Prior, specified_sd: Real, better: Fit | None) -> Stage:
+    """Fit with the noise that the repeats of this very model show, if they are better than specified."""
+    found = fit(model, prior, specified_sd) if better is None else better
+    for _ in range(2):
+        adequacy = judge(found, specified_sd)
+        sd = found.row_sd * adequacy.pure_factor
+        if np.isnan(adequacy.pure_factor) or (sd > specified_sd).any():
+            sd = specified_sd
+        if np.allclose(sd, found.row_sd, rtol=0.02):
+            break
+        found = fit(model, prior, sd)
+    return Stage(found, judge(found, specified_sd))
+
+
+def _add(
+    scan: Scan, refitted: Refitted, candidates: list[Candidate], hopeful: float
+) -> tuple[Finding, Fit] | None:
+    """Refit with the best candidates, keep the best, name those that do as well."""
+    current = scan.fit
+    refined = [scan.refine(c) for c in candidates[: 2 * MOST_RIVALS] if c.visible]
+    if not refined:
+        return None
+    best = max(refined, key=lambda c: c.reduction)
+    unit = _noise_square(current.cost - best.reduction, current.dof - best.size)
+    worst = max(current.cost - best.reduction + RIVALS * unit, hopeful * current.cost)
+    rivals = [c for c in refined if current.cost - c.reduction < worst]
+    fits: list[tuple[float, Candidate, Fit]] = []
+    for c in sorted(rivals, key=lambda c: -c.reduction)[:MOST_RIVALS]:
+        try:
+            refit = refitted(scan, c)
+        except NotConvergedError:
+            continue
+        fits.append((_score(refit, c), c, refit))
+    if not fits:
+        return None
+    fits.sort(key=lambda item: item[0])
+    _, winner, better = fits[0]
+    unit = _noise_square(better.cost, better.dof - winner.size)
+    aliases: dict[tuple[str, int | None], Term] = {}
+    for _, c, refit in fits[1:]:
+        if (refit.cost - better.cost) / unit < ALIAS + 2.0 * (winner.freedom - c.freedom):
+            aliases.setdefault(c.term().key, c.term())
+    aliases.pop(winner.term().key, None)
+    return Finding(winner.term(), winner.p_value, tuple(aliases.values())), better
+
+
+def _noise_square(cost: float, dof: int) -> float:
+    return max(cost, 1e-12) / max(dof, 1)
+
+
+def _score(refit: Fit, c: Candidate) -> float:
+    """Minus twice the log likelihood with unknown noise, plus the price of freedom and of the search."""
+    n = len(refit.row_sd)
+    return (
+        n * float(np.log(max(refit.cost, 1e-12))) + 2.0 * c.freedom + 2.0 * float(np.log(c.variants.trials))
+    )
+
+
+def _others(effects: Sequence[Effect], terms: tuple[Term, ...]) -> list[Effect]:
+    """Effects not in the model yet, and those that may be in it twice."""
+    present = {term.effect for term in terms}
+    covered = {(name, term.effect.joint) for term in terms for name in term.effect.covers}
+    free = [e for e in effects if (e.id, e.joint) not in covered]
+    return [e for e in free if e.repeats or e not in present]

@@ -1,0 +1,137 @@
+"""From residual to cause in a log of thousands of rows: as `trace`, with gross readings taken out on the way.
+
+Thousands of rows tell effects apart that few leave open, and carry curves of a hundred amplitudes; what a
+gross reading does to either is small, but not to an effect of few readings.  So readings are left out as soon
+as no effect helps, and everything found is looked at again beside everything else.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from contextlib import suppress
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import fdtrc
+
+from station.diagnosis.search import long_log
+from station.diagnosis.search.cause_search import (
+    MOST_EFFECTS,
+    SIGNIFICANT,
+    WORTH,
+    Finding,
+    Stage,
+    Trace,
+    next_effect,
+    odd_readings,
+    significant,
+)
+from station.diagnosis.tests_of_fit import judge
+from station.effects import Effect
+from station.fitting import NotConvergedError, Outlier, Prior
+from station.model import Fit, Model, fit
+from station.records import Real
+
+READINGS_AN_EFFECT = 200
+"""One effect for so many readings,"""
+EFFECTS_A_JOINT = 2
+"""but no more than these."""
+OUTLIER_ROUNDS = 4
+WORST = 0.5
+"""Readings that are off by less than this share of the worst one are looked at again without it."""
+ROUNDS = 4
+
+
+def long_trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[Effect]) -> Trace:
+    """Fit, scan, add, until nothing helps; leave gross readings out, drop what they suggested, again.
+
+    :raises NotConvergedError: the base model does not converge.
+    """
+    fits = [fit(base, prior, specified_sd)]
+    findings: list[Finding] = []
+    left_out: tuple[Outlier, ...] = ()
+    effects = list(effects)
+    for _ in range(ROUNDS):
+        _grow(fits, findings, prior, effects)
+        off = _take_out(fits, prior)
+        left_out = (*left_out, *off)
+        dropped = _drop(fits, findings, prior, len(effects))
+        # not to be found and dropped for ever
+        effects = [e for e in effects if e not in dropped]
+        if not off and not dropped:
+            break
+    stages = tuple(Stage(found, judge(found, found.model.mechanism.row_sd)) for found in fits)
+    return Trace(stages, tuple(findings), (), left_out)
+
+
+def _grow(fits: list[Fit], findings: list[Finding], prior: Prior, effects: Sequence[Effect]) -> None:
+    refitted = partial(long_log.with_candidate, prior=prior)
+    mechanism = fits[0].model.mechanism
+    measurements = mechanism.measurements
+    most = min(EFFECTS_A_JOINT * measurements.joints, len(measurements) // READINGS_AN_EFFECT)
+    while not judge(fits[-1], mechanism.row_sd).settled and len(findings) < max(MOST_EFFECTS, most):
+        chosen = next_effect(fits[-1], refitted, effects, SIGNIFICANT, hopeful=0.0)
+        if chosen is None:
+            return
+        findings.append(chosen[0])
+        fits.append(chosen[1])
+
+
+def _take_out(fits: list[Fit], prior: Prior) -> tuple[Outlier, ...]:
+    """Take the readings that are off the last model out of every fit, in place.
+
+    The worst go first: what they had done to noise and curves made others look worse than they are.
+    """
+    off: tuple[Outlier, ...] = ()
+    for _ in range(OUTLIER_ROUNDS):
+        odd = odd_readings(fits[-1])
+        if not odd:
+            break
+        worst = max(o.times_sd for o in odd)
+        now = tuple(o for o in odd if o.times_sd > WORST * worst)
+        off = (*off, *now)
+        fits[-1] = long_log.without(fits[-1], _kept(fits[-1], now))
+        _settle(fits, prior)
+    if off:
+        fits[:-1] = [long_log.without(found, _kept(found, off)) for found in fits[:-1]]
+    return off
+
+
+def _kept(found: Fit, off: tuple[Outlier, ...]) -> NDArray[np.bool_]:
+    """(K,) readings that are none of these."""
+    named = {o.reading for o in off}
+    return np.array([i not in named for i in found.model.mechanism.measurements.ids])
+
+
+def _settle(fits: list[Fit], prior: Prior) -> None:
+    """Noise, spreads and unknowns of the last model anew; by the linear step where that does not converge."""
+    with suppress(NotConvergedError):
+        fits[-1] = long_log.settled(fits[-1], prior)
+
+
+def _drop(fits: list[Fit], findings: list[Finding], prior: Prior, tests: int) -> list[Effect]:
+    """Take effects that the last fit could do without out of every fit, the least needed first, in place."""
+    dropped = []
+    while findings:
+        last = fits[-1]
+        needed = [_needed(last, k) for k in range(len(findings))]
+        k = int(np.argmin([increase for increase, _ in needed]))
+        increase, p_value = needed[k]
+        if significant(p_value, tests, SIGNIFICANT) and increase >= WORTH * last.cost:
+            break
+        del last
+        dropped.append(findings.pop(k).term.effect)
+        fits[k + 1 :] = [long_log.less(found, k, prior) for found in fits[k + 2 :]]
+        _settle(fits, prior)
+    return dropped
+
+
+def _needed(found: Fit, k: int) -> tuple[float, float]:
+    """By how much the cost would rise without term k, and the p-value of its F test."""
+    a, C = found.amplitudes(k)
+    spread = found.model.terms[k].spread
+    freedom = float(len(a)) if spread is None else max(float(np.sum(1.0 - np.diag(C) / spread**2)), 1.0)
+    increase = float(a @ np.linalg.solve(C, a))
+    dof = found.dof - freedom
+    return increase, float(fdtrc(freedom, dof, (increase / freedom) / (found.cost / dof)))

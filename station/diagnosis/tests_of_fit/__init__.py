@@ -1,0 +1,51 @@
+"""Tests of a fit: adequacy, smooth departures, unnamed alternatives, confirmation, cross-validation."""
+
+from __future__ import annotations
+
+from station.diagnosis.tests_of_fit.adequacy import ALPHA, Adequacy, judge
+from station.diagnosis.tests_of_fit.confirmation import FEWEST, Confirmation, confirm
+from station.diagnosis.tests_of_fit.cross_validation import folds, predicted_by_others, without_a_quarter
+from station.diagnosis.tests_of_fit.rivals import strongest
+from station.diagnosis.tests_of_fit.smooth_departures import (
+    Departure,
+    Rest,
+    added,
+    by_approach_and_place,
+    by_searched,
+    departures,
+    half_waves,
+    in_doubt,
+    in_words,
+    of_fit,
+    perpendicular,
+    rest_of,
+    senses,
+    turned,
+)
+
+__all__ = [
+    "ALPHA",
+    "FEWEST",
+    "Adequacy",
+    "Confirmation",
+    "Departure",
+    "Rest",
+    "added",
+    "by_approach_and_place",
+    "by_searched",
+    "confirm",
+    "departures",
+    "folds",
+    "half_waves",
+    "in_doubt",
+    "in_words",
+    "judge",
+    "of_fit",
+    "perpendicular",
+    "predicted_by_others",
+    "rest_of",
+    "senses",
+    "strongest",
+    "turned",
+    "without_a_quarter",
+]

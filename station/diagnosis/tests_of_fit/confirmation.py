@@ -1,0 +1,178 @@
+"""Fresh readings against a frozen model: only what predicts them may be called the cause.
+
+Three questions are put to them.  Are they predicted as a whole (chi-square with the prediction
+covariance)?  Do old and fresh readings together show no smooth departure from the model
+(`departures`)?  And are the effects a far better account of all of them than a wandering without a
+name (`rivals`)?  The last two ask far more than the first, since they know where to look.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.special import fdtrc
+
+from station.diagnosis.tests_of_fit.rivals import strongest
+from station.diagnosis.tests_of_fit.smooth_departures import (
+    Departure,
+    Readings,
+    Rest,
+    departures,
+    in_words,
+    of_fit,
+    readings,
+    rest_of,
+)
+from station.effects import doubtful
+from station.fitting import BLIND
+from station.model import Fit, Model, is_long
+from station.records import Measurements, Real
+
+REFUSED_P = 0.001
+"""A true model is refused this often as a whole,"""
+DIRECTED_P = 1e-4
+"""and this often by each of the directed tests."""
+FEWEST = 8
+FAR_OFF = 5.0
+"""Standard deviations; and of few fresh readings, at most this share:"""
+FEW_OFF = 0.05
+
+
+@dataclass(frozen=True)
+class Confirmation:
+    """What a frozen model made of fresh readings."""
+
+    residual_mm: Real
+    """(R,) measured less predicted."""
+    sd_mm: Real
+    """(R,) of that, by the model's covariance and the noise."""
+    error_mm: Real
+    """(K,) size of each reading's residual."""
+    p_value: float
+    left_out: tuple[int | str, ...]
+    """Ids of few fresh readings far off a model that predicts all others; they took no part in the tests."""
+    rest: Rest
+    """What the model leaves of readings learned on and fresh ones together; of a long log, of the former."""
+    departures: tuple[Departure, ...]
+    """Of it; of a long log none are asked for beyond those that `adequacy` has found already."""
+    rival: str | None
+    """A nameless dependence that makes all readings about as probable as the effects do."""
+
+    @property
+    def confirmed(self) -> bool:
+        return _predicted(self.p_value, self.departures) and self.rival is None
+
+    @property
+    def refusal(self) -> str:
+        """What speaks against the model, where it is not confirmed for a rival's sake."""
+        if self.p_value < REFUSED_P or not self.departures:
+            return "fresh readings refute the model"
+        worst = min(self.departures, key=lambda d: d.p_value)
+        return f"fresh readings and those before them together still depend on {in_words(worst.on)}"
+
+    @property
+    def rms_mm(self) -> float:
+        return float(np.sqrt(np.mean(self.error_mm**2)))
+
+    @property
+    def max_mm(self) -> float:
+        return float(self.error_mm.max())
+
+
+def confirm(base: Fit, learned: Fit, fresh: Measurements, noise_dof: int) -> Confirmation:
+    """Predict fresh readings with everything frozen; `base` is the model before any effect was added.
+
+    The statistic is chi-square with the prediction covariance, searched parameters included; as the
+    noise itself was estimated with `noise_dof` degrees of freedom it is held against F.
+    """
+    if is_long(learned.model.mechanism):
+        return _of_long_log(learned, fresh, noise_dof)
+    sd = learned.row_sd
+    ratio = _noise_ratio(learned)
+    before, after = of_fit(learned, sd), _fresh(learned, fresh, ratio)
+    residual, J = after.residual_mm, after.by_unknown
+    spread = J @ _root(learned, before)
+    covariance = spread @ spread.T + np.diag(after.row_sd**2)
+    sd_mm = np.sqrt(np.diag(covariance))
+    off = _far_off(residual, sd_mm, after)
+    kept = ~(off & doubtful((term.effect for term in learned.model.terms), after.conditions))
+    if (off & kept).sum() <= max(1, int(FEW_OFF * len(fresh))):
+        kept &= ~off
+    rows = kept[after.reading]
+    few = residual[rows]
+    square = float(few @ np.linalg.solve(covariance[np.ix_(rows, rows)], few))
+    p_value = float(fdtrc(len(few), max(noise_dof, 1), square / len(few)))
+    rest = Rest((before, after.take(kept)), learned.prior, learned.x)
+    found = departures(rest)
+    rival = None
+    if learned.model.terms and _predicted(p_value, found):
+        without = Rest((of_fit(base, sd), _fresh(base, fresh, ratio).take(kept)), base.prior, base.x)
+        rival = strongest(without, rest, learned.model.terms, learned.conditions)
+    return Confirmation(residual, sd_mm, _sizes(after), p_value, _ids(fresh, ~kept), rest, found, rival)
+
+
+def _of_long_log(learned: Fit, fresh: Measurements, noise_dof: int) -> Confirmation:
+    """The first question only; thousands of readings find some smooth departure in any real machine."""
+    after = _fresh(learned, fresh, _noise_ratio(learned))
+    residual, C = after.residual_mm, learned.solution.covariance
+    # what is searched is known far better than fitted, from so many readings
+    J = after.by_unknown[:, : len(C)]
+    sd_mm = np.sqrt(np.einsum("ki,ki->k", J @ C, J) + after.row_sd**2)
+    off = _far_off(residual, sd_mm, after)
+    if off.sum() > max(1, int(FEW_OFF * len(fresh))):
+        off[:] = False
+    rows = ~off[after.reading]
+    few = int(rows.sum())
+    square = _chi_square(residual[rows] / after.row_sd[rows], J[rows] / after.row_sd[rows, None], C)
+    p_value = float(fdtrc(few, max(noise_dof, 1), square / few))
+    return Confirmation(residual, sd_mm, _sizes(after), p_value, _ids(fresh, off), rest_of(learned), (), None)
+
+
+def _chi_square(r: Real, J: Real, C: Real) -> float:
+    """r' (1 + J C J')^-1 r, by Woodbury's identity with matrices no larger than C (X, X)."""
+    along = J.T @ r
+    return float(r @ r - along @ np.linalg.solve(np.eye(len(C)) + C @ (J.T @ J), C @ along))
+
+
+def _noise_ratio(learned: Fit) -> float:
+    """Of the noise learned to the specification."""
+    return float(np.sqrt(np.mean(learned.row_sd**2) / np.mean(learned.model.mechanism.row_sd**2)))
+
+
+def _far_off(residual: Real, sd: Real, of: Readings) -> NDArray[np.bool_]:
+    """(K,) readings with a row further off than any noise."""
+    off = np.zeros(len(of.at), dtype=bool)
+    off[of.reading[np.abs(residual) > FAR_OFF * sd]] = True
+    return off
+
+
+def _sizes(of: Readings) -> Real:
+    """(K,) size of each reading's residual, mm."""
+    return np.sqrt(np.bincount(of.reading, of.residual_mm**2))
+
+
+def _ids(fresh: Measurements, some: NDArray[np.bool_]) -> tuple[int | str, ...]:
+    return tuple(np.array(fresh.ids, dtype=object)[some])
+
+
+def _predicted(p_value: float, found: tuple[Departure, ...]) -> bool:
+    return p_value >= REFUSED_P and all(d.p_value >= DIRECTED_P for d in found)
+
+
+def _fresh(learned: Fit, fresh: Measurements, ratio: float) -> Readings:
+    """Fresh readings under a model learned on others; `ratio` of their noise to the specification."""
+    model = Model(learned.model.mechanism.of(fresh), learned.model.reference, learned.model.terms)
+    conditions = model.conditions(learned.x[: model.base_size], first=False)
+    return readings(model, learned.x, model.mechanism.measured, model.mechanism.row_sd * ratio, conditions)
+
+
+def _root(learned: Fit, before: Readings) -> Real:
+    """(X, N) whose square is the covariance of all unknowns, the searched ones included."""
+    held = np.zeros((len(learned.prior.root), before.by_unknown.shape[1]))
+    held[:, : learned.prior.root.shape[1]] = learned.prior.root
+    stacked = np.concatenate([before.by_unknown / before.row_sd[:, None], held])
+    norms = np.linalg.norm(stacked, axis=0)
+    norms[norms == 0.0] = 1.0
+    return np.asarray(np.linalg.pinv(stacked / norms, rcond=BLIND) / norms[:, None])

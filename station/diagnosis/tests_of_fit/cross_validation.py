@@ -1,0 +1,72 @@
+"""Blocked cross-validation: every reading predicted without any reading of its own place."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from station.fitting import Solution
+from station.mechanism import Mechanism
+from station.records import Index, Measurements, Real
+
+DETERMINED = 1e-9
+"""A block that alone holds a direction cannot be predicted in it by the others."""
+
+LONG = 1000
+"""Readings from which neighbours in the log are left out together, a quarter of it at a time."""
+FOLDS = 4
+BLOCK = 40
+"""Consecutive readings that stay together then."""
+
+
+def predicted_by_others(solution: Solution, mechanism: Mechanism) -> Real:
+    """(R,) whitened measured less predicted, by a fit without the place, of long logs without the block."""
+    m, reading = mechanism.measurements, mechanism.reading_of_row
+    if len(m) < LONG:
+        return held_out(solution, m.position[reading])
+    return held_out_folds(solution, folds(m)[reading])
+
+
+def folds(m: Measurements) -> Index:
+    """(K,) fold of each reading: blocks of neighbours dealt out in turn, every place in one fold only."""
+    _, first, place = np.unique(m.position, return_index=True, return_inverse=True)
+    return np.asarray(first[place] // BLOCK % FOLDS)
+
+
+def without_a_quarter(m: Measurements) -> tuple[Measurements, Measurements]:
+    """Readings to learn from, and a quarter of them, in blocks of neighbours, to be judged by."""
+    aside = folds(m) == 0
+    return m.take(~aside), m.take(aside)
+
+
+def held_out_folds(solution: Solution, fold: Index) -> Real:
+    """(R,) the same for folds larger than the number of unknowns: r_B + J_B (C^-1 - J_B'J_B)^-1 J_B' r_B."""
+    finite = np.isfinite(np.diag(solution.covariance))
+    J, C = solution.jacobian[:, finite], solution.covariance[np.ix_(finite, finite)]
+    out = -solution.residual
+    for f in np.unique(fold):
+        own = fold == f
+        J_B = J[own]
+        moved = np.linalg.solve(np.eye(len(C)) - C @ (J_B.T @ J_B), C @ (J_B.T @ out[own]))
+        out[own] += J_B @ moved
+    return out
+
+
+def held_out(solution: Solution, block: Index) -> Real:
+    """(R,) whitened measured less predicted, each block (R,) predicted by the fit to all others.
+
+    Leaving block B out of a linear least-squares fit turns its residual r_B into
+    (I - H_BB)^-1 r_B, H = J C J' being the hat matrix of the fit with its prior (Cook and Weisberg,
+    Residuals and Influence in Regression, 1982, section 3.6).  Searched parameters of the model are
+    not searched again.
+    """
+    finite = np.isfinite(np.diag(solution.covariance))
+    J, C = solution.jacobian[:, finite], solution.covariance[np.ix_(finite, finite)]
+    r = -solution.residual
+    out = np.empty_like(r)
+    count = np.bincount(block)
+    order = np.argsort(block, kind="stable")
+    for size in np.unique(count[count > 0]):
+        own = order[count[block[order]] == size].reshape(-1, size)
+        left = np.eye(size) - J[own] @ C @ J[own].swapaxes(1, 2)
+        out[own] = np.squeeze(np.linalg.pinv(left, rcond=DETERMINED, hermitian=True) @ r[own][:, :, None], 2)
+    return out

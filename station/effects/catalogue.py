@@ -1,0 +1,40 @@
+"""Which effects each kind of machine can have, at every place where they can act."""
+
+from __future__ import annotations
+
+from station.effects.backlash import Backlash
+from station.effects.base import Effect
+from station.effects.compliance import Compliance
+from station.effects.count_slip import CountSlip
+from station.effects.cyclic import EncoderEccentricity, GearCyclic
+from station.effects.gear_curve import GearCurve
+from station.effects.lengths import JointClearance, LinkLength
+from station.effects.scale import ScaleBow, ScaleCyclic, ScaleGain, ScaleHysteresis
+from station.effects.time import Drift, ThermalGrowth, ThermalLinks
+from station.effects.transmission_gain import TransmissionGain
+
+PER_JOINT = (Backlash, GearCyclic, EncoderEccentricity, TransmissionGain, Compliance, CountSlip)
+
+
+def five_bar_catalogue() -> tuple[Effect, ...]:
+    """Every effect at every place of a five-bar with its scale."""
+    numbers = (1, 2)
+    return (
+        *(effect(joint) for effect in PER_JOINT for joint in numbers),
+        *(LinkLength(joint, f"{kind}{joint}") for kind in "Ll" for joint in numbers),
+        *(JointClearance(joint) for joint in numbers),
+        ScaleGain(),
+        ScaleBow(),
+        ScaleCyclic(),
+        ScaleHysteresis(),
+        Drift(),
+        ThermalGrowth(),
+        ThermalLinks(),
+    )
+
+
+def arm_catalogue(joints: int, *, by_range: bool) -> tuple[Effect, ...]:
+    """Every effect at every joint of a serial arm; with distances also those of the instrument."""
+    effects = (*PER_JOINT, GearCurve)
+    at_joints = tuple(effect(joint) for effect in effects for joint in range(1, joints + 1))
+    return (*at_joints, ThermalLinks(), *((ScaleGain(), Drift(), ThermalGrowth()) if by_range else ()))

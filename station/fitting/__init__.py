@@ -1,0 +1,32 @@
+"""Least squares with priors, noise, outliers, and the accuracy that follows from a covariance."""
+
+from __future__ import annotations
+
+from station.fitting.accuracy import common_sd_deg, position_error_field, position_error_summary, rms_and_max
+from station.fitting.least_squares import BLIND, NotConvergedError, Prior, Residuals, Solution, solve
+from station.fitting.noise import Noise, estimate_noise, lack_of_fit
+from station.fitting.outliers import Outlier, check_outlier_share, find_outliers, outliers_of_fit
+from station.fitting.prior import tolerance_prior
+from station.fitting.separability import describe_separability
+
+__all__ = [
+    "BLIND",
+    "Noise",
+    "NotConvergedError",
+    "Outlier",
+    "Prior",
+    "Residuals",
+    "Solution",
+    "check_outlier_share",
+    "common_sd_deg",
+    "describe_separability",
+    "estimate_noise",
+    "find_outliers",
+    "lack_of_fit",
+    "outliers_of_fit",
+    "position_error_field",
+    "position_error_summary",
+    "rms_and_max",
+    "solve",
+    "tolerance_prior",
+]

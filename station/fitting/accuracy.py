@@ -1,0 +1,33 @@
+"""Position error from a mean error field and a covariance; the uncertainty of the common mode."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from station.records import Real
+
+
+def position_error_summary(mean: Real, jacobian: Real, covariance: Real) -> dict[str, float]:
+    """rms over the grid of the position error field, and its largest value."""
+    return rms_and_max(position_error_field(mean, jacobian, covariance))
+
+
+def rms_and_max(error_mm: Real) -> dict[str, float]:
+    """Of position errors (G,), mm."""
+    return {"rms": float(np.sqrt(np.mean(error_mm**2))), "max": float(error_mm.max())}
+
+
+def position_error_field(mean: Real, jacobian: Real, covariance: Real) -> Real:
+    """(G,) sqrt(|mean|^2 + trace(J C J')) at each place of a grid, mm."""
+    finite = np.isfinite(np.diag(covariance))
+    J, C = jacobian[:, :, finite], covariance[np.ix_(finite, finite)]
+    # as one flat product, and in place: of a long log they are large
+    variance = (J.reshape(-1, len(C)) @ C).reshape(J.shape)
+    variance *= J
+    variance = variance.sum(axis=(1, 2))
+    return np.asarray(np.sqrt(np.sum(mean**2, axis=1) + variance))
+
+
+def common_sd_deg(covariance: Real) -> float:
+    """sd of the mode in which both zero offsets move together."""
+    return float(np.degrees(np.sqrt(covariance[:2, :2].sum()) / 2.0))

@@ -1,0 +1,79 @@
+"""How noisy the readings are, and whether the model fits within that noise.
+
+Pure error comes from readings alike in place, approach and mount: whatever the model lacks acts on
+all of them alike, so their scatter about their own mean is noise alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+from scipy import stats
+
+from station.fitting.least_squares import Solution
+from station.records import Measurements, Real
+
+MINIMUM_DOF = 8
+"""Fewer repeats say less about the noise than the specification does."""
+
+
+@dataclass(frozen=True)
+class Noise:
+    """The standard deviation of each row and where it comes from."""
+
+    row_sd: Real
+    """(K,) mm."""
+    source: Literal["repeats", "specification"]
+    dof: int
+    """Degrees of freedom of the repeats; 0 for the specification."""
+
+    @property
+    def sigma_mm(self) -> float:
+        """Root mean square over the rows."""
+        return float(np.sqrt(np.mean(self.row_sd**2)))
+
+    @property
+    def coverage_factor(self) -> float:
+        """k of the 95 % interval: Student's t for the repeats' degrees of freedom (GUM, G.3)."""
+        return float(stats.t.ppf(0.975, self.dof)) if self.dof else float(stats.norm.ppf(0.975))
+
+    def as_json(self) -> dict[str, Any]:
+        return {"sigma_mm": self.sigma_mm, "source": self.source, "dof": self.dof}
+
+
+def pure_error(measurements: Measurements, whitened: Real) -> tuple[float, int]:
+    """Sum of squares of whitened residuals (K,) about the mean of their repeats, and its dof."""
+    group = measurements.repeat_group
+    counts = np.bincount(group)
+    mean = np.bincount(group, whitened) / counts
+    return float(np.sum((whitened - mean[group]) ** 2)), int(np.sum(counts - 1))
+
+
+def estimate_noise(measurements: Measurements, whitened: Real, row_sd: Real) -> Noise:
+    """Scale the specified row_sd (K,) to the repeats when there are enough of them."""
+    square, dof = pure_error(measurements, whitened)
+    if dof < MINIMUM_DOF or square == 0.0:
+        return Noise(row_sd, "specification", 0)
+    return Noise(row_sd * np.sqrt(square / dof), "repeats", dof)
+
+
+def lack_of_fit(
+    solution: Solution, noise: Noise, free: int, measurements: Measurements
+) -> tuple[float, float]:
+    """p-value of the fit against the noise, and the ratio of residual scatter to noise (at least 1).
+
+    The posterior cost of a true model is chi-square with R - `free` degrees of freedom, `free`
+    being the unknowns without a prior.  Against repeats the pure error is taken out of it and the
+    quotient is F.
+    """
+    dof = len(solution.residual) - free
+    ratio = float(np.sqrt(max(solution.cost / dof, 1.0)))
+    if noise.source == "specification":
+        return float(stats.chi2.sf(solution.cost, dof)), ratio
+    pure, pure_dof = pure_error(measurements, solution.residual)
+    lack, lack_dof = max(solution.cost - pure, 0.0), dof - pure_dof
+    if lack_dof <= 0:
+        return 1.0, 1.0
+    return float(stats.f.sf((lack / lack_dof) / (pure / pure_dof), lack_dof, pure_dof)), ratio

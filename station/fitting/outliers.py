@@ -1,0 +1,138 @@
+"""Readings that disagree with all others: found, named, left out with a reason, never silently.
+
+A reading is an outlier only when it also disagrees with the other readings of its own place: an
+effect at a place (a dent, a cable) shows in all of them and must not be thrown away.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy import stats
+
+from station.errors import InputRefused
+from station.fitting.least_squares import Solution
+from station.mechanism import Mechanism, axis_of_row
+from station.records import Index, Real
+
+SIGNIFICANCE = 1e-3
+"""For the whole set of readings (Bonferroni)."""
+LARGEST_SHARE = 0.1
+FEW = 40
+"""Below this many readings their own scatter cannot be trusted to be smaller than specified."""
+SUSPICIOUS = 1.5
+"""More scatter than specified may be gross readings in hiding."""
+CAUCHY = 2.385
+"""Tuning constant of the Cauchy weight, in standard deviations (95 % efficient for normal noise)."""
+ROBUST_STEPS = 12
+
+
+@dataclass(frozen=True)
+class Outlier:
+    """One reading left out."""
+
+    reading: int | str
+    residual_mm: float
+    times_sd: float
+
+    @property
+    def reason(self) -> str:
+        return f"off by {self.residual_mm * 1e3:.0f} um, {self.times_sd:.0f} times the scatter of the others"
+
+    def as_json(self) -> dict[str, Any]:
+        return {"reading": self.reading, "residual_mm": self.residual_mm, "reason": self.reason}
+
+
+Fit = Callable[[Real], Solution]
+"""Row standard deviations (R,) -> fit of all readings whitened with them."""
+
+
+def find_outliers(mechanism: Mechanism, fit: Fit, row_sd: Real) -> tuple[Outlier, ...]:
+    """The outlying readings against a robust fit; `row_sd` (R,) is what the rows should scatter by.
+
+    Plain least squares bends towards gross readings until good ones look wrong, so the fit is
+    repeated with Cauchy weights until the majority alone decides.
+    """
+    solution = fit(row_sd)
+    residual = -solution.residual
+    t = residual / np.sqrt(_left(solution))
+    scale = _scale(t)
+    limit = _limit(t)
+    if np.abs(t).max() <= limit * scale and scale < SUSPICIOUS:
+        return ()
+    for _ in range(ROBUST_STEPS):
+        stretch = np.sqrt(1.0 + (t / (CAUCHY * scale)) ** 2)
+        solution = fit(row_sd * stretch)
+        residual = -solution.residual * stretch
+        t = residual / np.sqrt(_left(solution))
+        scale = _scale(t)
+    return _named(mechanism, residual, t, scale, row_sd)
+
+
+def outliers_of_fit(mechanism: Mechanism, solution: Solution, row_sd: Real) -> tuple[Outlier, ...]:
+    """The outlying readings against a fit that the majority already decided."""
+    residual = -solution.residual
+    t = residual / np.sqrt(_left(solution))
+    return _named(mechanism, residual, t, _scale(t), row_sd)
+
+
+def _limit(t: Real) -> float:
+    return float(stats.norm.isf(SIGNIFICANCE / (2 * len(t))))
+
+
+def _named(mechanism: Mechanism, residual: Real, t: Real, scale: float, row_sd: Real) -> tuple[Outlier, ...]:
+    """Readings with a row beyond the limit, by the row that is furthest off."""
+    limit = _limit(t) * scale
+    suspects = np.flatnonzero(np.abs(t) > limit)
+    worst: dict[int, int] = {}
+    for k in suspects[np.argsort(np.abs(t[suspects]))]:
+        if _apart(mechanism, residual, int(k), suspects) > limit:
+            worst[int(mechanism.reading_of_row[k])] = int(k)
+    ids = mechanism.measurements.ids
+    return tuple(
+        Outlier(ids[reading], float(residual[k] * row_sd[k]), float(abs(t[k]) / scale))
+        for reading, k in sorted(worst.items())
+    )
+
+
+def _left(solution: Solution) -> Real:
+    """(R,) share of each row's variance that the fit leaves in its residual."""
+    finite = np.isfinite(np.diag(solution.covariance))
+    J, C = solution.jacobian[:, finite], solution.covariance[np.ix_(finite, finite)]
+    left = 1.0 - np.einsum("ki,ki->k", J @ C, J)
+    # a reading that alone determines a parameter cannot be judged
+    return np.where(left > 0.05, left, np.inf)
+
+
+def _scale(t: Real) -> float:
+    """Scatter of the majority, in specified standard deviations."""
+    judged = np.abs(t[t != 0.0])
+    if len(judged) == 0:
+        return 1.0
+    scale = 1.4826 * float(np.median(judged))
+    return max(scale, 1.0) if len(t) < FEW else scale
+
+
+def _apart(mechanism: Mechanism, residual: Real, k: int, suspects: Index) -> float:
+    """How far row k is from the same coordinate of the others of its place; inf when it is alone there."""
+    reading, axis = mechanism.reading_of_row, axis_of_row(mechanism)
+    place = mechanism.measurements.position[reading]
+    companions = np.flatnonzero((place == place[k]) & (axis == axis[k]))
+    companions = companions[companions != k]
+    if not companions.size:
+        return np.inf
+    sound = companions[~np.isin(companions, suspects)]
+    return float(np.abs(residual[k] - residual[sound if sound.size else companions].mean()))
+
+
+def check_outlier_share(left_out: tuple[Outlier, ...], readings: int) -> None:
+    """:raises InputRefused: more than a tenth of the readings (at least one) would be left out."""
+    if len(left_out) > max(1, int(LARGEST_SHARE * readings)):
+        names = ", ".join(str(o.reading) for o in left_out)
+        raise InputRefused(
+            f"Readings {names} disagree with the rest, more than a tenth of {readings}; "
+            "measure again and check the scale and its mounting."
+        )

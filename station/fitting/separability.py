@@ -1,0 +1,86 @@
+"""Which parameters the readings cannot tell apart, by name, and what ties them.
+
+Each unknown is counted in its own tolerance.  Pivoted QR of the whitened Jacobian picks, one after another,
+the parameter that the readings say most of beside those picked before; the rest are tied by their tolerances,
+and each is named with the parameters that it cannot be told from.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg import qr
+
+from station.fitting.least_squares import Solution
+from station.mechanism import Mechanism
+from station.records import Real
+
+TIED = 1.0
+"""Information of the readings on a parameter over that of its tolerance, below which the latter decides."""
+FREE = 1e6
+"""An unknown without a tolerance may be off by so many of what the readings alone know of it."""
+ALIKE = 0.3
+"""Cosine from which on a tied parameter is said to look like another."""
+MOST_NAMED = 3
+
+
+@dataclass(frozen=True, slots=True)
+class Tied:
+    """A parameter that the readings do not determine beside the others."""
+
+    name: str
+    looks_like: tuple[str, ...]
+    """Parameters that together do what it does, most alike first; none: the readings do not see it at all."""
+
+    @property
+    def text(self) -> str:
+        if not self.looks_like:
+            return f"{self.name} (not seen at all)"
+        return f"{self.name} (looks like {', '.join(self.looks_like)})"
+
+
+def describe_separability(mechanism: Mechanism, solution: Solution, sd_factor: float) -> dict[str, Any]:
+    """{singular_ratio, text, sd_deg, blind, remedies}: the contract's `weak_direction`.
+
+    sd_deg is the largest standard uncertainty of a zero offset that is not tied; `blind` names the tied.
+    """
+    tied = separate(mechanism, solution)
+    names = {t.name for t in tied}
+    joints = mechanism.theta.shape[1]
+    sd = np.degrees(np.sqrt(np.diag(solution.covariance)[:joints])) * sd_factor
+    seen = [k for k in range(joints) if f"dtheta{k + 1}" not in names]
+    weakest = max(seen, key=lambda k: sd[k], default=None)
+    text = "no zero offset is determined" if weakest is None else f"dtheta{weakest + 1}"
+    return {
+        "singular_ratio": float(solution.singular_values[-1] / solution.singular_values[0]),
+        "text": f"{text}; {len(tied)} of {len(mechanism.parameters)} parameters are held by tolerances alone",
+        "sd_deg": float(sd.max() if weakest is None else sd[weakest]),
+        "blind": [t.text for t in tied],
+        "remedies": [],
+    }
+
+
+def separate(mechanism: Mechanism, solution: Solution) -> tuple[Tied, ...]:
+    """The parameters that are held by tolerances alone, by name."""
+    names = [p.name for p in mechanism.parameters]
+    J = solution.jacobian[:, : len(names)]
+    norms = np.linalg.norm(J, axis=0)
+    tolerance = np.array([p.prior_sd for p in mechanism.parameters])
+    scale = np.where(np.isfinite(tolerance), tolerance, FREE / np.maximum(norms, 1e-300))
+    R, order = qr(J * scale, mode="r", pivoting=True)
+    R = R[: len(names)]
+    rank = int(np.sum(np.abs(np.diag(R)) > TIED))
+    return tuple(_tied(names, order, R, k, rank) for k in range(rank, len(names)))
+
+
+def _tied(names: list[str], order: NDArray[np.signedinteger], R: Real, k: int, rank: int) -> Tied:
+    column = R[:rank, k]
+    size = float(np.linalg.norm(column))
+    if size <= TIED:
+        return Tied(names[order[k]], ())
+    cosine = np.abs(column @ R[:rank, :rank]) / (size * np.linalg.norm(R[:rank, :rank], axis=0))
+    best = [j for j in np.argsort(-cosine)[:MOST_NAMED] if cosine[j] >= ALIKE]
+    return Tied(names[order[k]], tuple(names[order[j]] for j in best))

@@ -1,0 +1,47 @@
+"""The five-bar robot with its mechanism: kinematics, error model, robot file (paper, sections 2 and 3)."""
+
+from __future__ import annotations
+
+from station.five_bar.error_model import (
+    KEPT,
+    NAMES,
+    SIZE,
+    distance_by_joint,
+    distance_jacobian,
+    perturbed,
+    pose,
+    position_jacobian,
+)
+from station.five_bar.kinematics import HOME, Geometry, Unreachable, forward, inverse
+from station.five_bar.mechanism import GRID, SCALE_SD_MM, FiveBar, lengths, load, pull
+from station.five_bar.plausibility import check_distances, check_places, check_poses
+from station.five_bar.robot_file import FIVE_BAR_MODEL, Robot, Tolerances, read_sections
+
+__all__ = [
+    "FIVE_BAR_MODEL",
+    "GRID",
+    "HOME",
+    "KEPT",
+    "NAMES",
+    "SCALE_SD_MM",
+    "SIZE",
+    "FiveBar",
+    "Geometry",
+    "Robot",
+    "Tolerances",
+    "Unreachable",
+    "check_distances",
+    "check_places",
+    "check_poses",
+    "distance_by_joint",
+    "distance_jacobian",
+    "forward",
+    "inverse",
+    "lengths",
+    "load",
+    "perturbed",
+    "pose",
+    "position_jacobian",
+    "pull",
+    "read_sections",
+]

@@ -1,0 +1,257 @@
+"""The robot file: nominal geometry, tolerances, measuring mechanism, workspace, joints.
+
+Planar vectors are complex numbers x + iy (mm), so the paper's rotation Q of eq. 10 is a
+multiplication by i and a unit vector u(theta) is exp(i theta).
+
+| symbol | attribute | unit | paper |
+|---|---|---|---|
+| e_i | `e` | mm | eq. 1, Table 1 |
+| L_i, l_i | `L`, `l` | mm | eq. 1, Table 1 |
+| c, d | `c`, `d` | mm | eq. 4, Fig. 4 (signs: method.md section 1) |
+| dr_M | `drm`, `drm_sd` | mm | eq. 17 |
+"""
+
+from __future__ import annotations
+
+import tomllib
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from drivers.scaling import JointScaling
+from station.errors import InputRefused
+from station.five_bar.kinematics import Geometry, Unreachable, inverse
+from station.records import Complex
+
+Pair = tuple[float, float]
+FIVE_BAR_MODEL = "five-bar"
+
+
+@dataclass(frozen=True, slots=True)
+class Tolerances:
+    """Standard deviations of what is not known better."""
+
+    e_mm: float = 0.03
+    link_mm: float = 0.03
+    zero_offset_deg: float = 3.0
+
+
+@dataclass(frozen=True)
+class Robot:
+    """One robot with its mechanism, as its file says; without a file the paper's Table 1."""
+
+    serial: str
+    e: tuple[Pair, Pair] = ((80.0, 0.0), (-80.0, 0.0))
+    L: Pair = (375.0, 375.0)
+    l: Pair = (825.0, 825.0)  # noqa: E741
+    c: Pair = (0.0, -79.0)
+    d: Pair = (0.0, -51.0)
+    drm: Pair = (1.0, 0.5)
+    """Expected MAEMM ("about 1 mm and 0.5 mm", paper section 6.1)."""
+    drm_sd: Pair = (0.2, 0.2)
+    """How well that is known: "roughly measured", and within 0.16 mm of what Table 8 found."""
+    mounts: dict[str, Pair] = field(default_factory=dict)
+    """c of further mounting places of the mechanism, by the `mount` id of the measurement file."""
+    tolerances: Tolerances = field(default_factory=Tolerances)
+    workspace_x: Pair = (-240.0, 240.0)
+    workspace_y: Pair = (-782.0, -632.0)
+    counts_per_rev: int = 10_000
+    ratio: float = 20.0
+    zero_at_deg: Pair = (0.0, 180.0)
+    sign: tuple[int, int] = (1, 1)
+    feedback_sd_deg: float | None = None
+    """What feedback leaves open of a joint's true angle; None is the unresolved part of one pulse."""
+
+    @classmethod
+    def default(cls, serial: str = "unnamed") -> Robot:
+        """The paper's Table 1."""
+        return cls(serial=serial)
+
+    @classmethod
+    def from_toml(cls, path: Path) -> Robot:
+        """Read a robot file.
+
+        :raises InputRefused: missing, not TOML, or a value out of place, with the section and key.
+        """
+        return cls.from_dict(read_sections(path), source=str(path))
+
+    @classmethod
+    def from_dict(cls, data: dict[str, Any], *, source: str = "robot") -> Robot:
+        """From the robot file's sections (also what the store keeps).  :raises InputRefused:"""
+        try:
+            content = RobotFile.model_validate(data)
+        except ValidationError as error:
+            first = error.errors()[0]
+            where = ".".join(str(part) for part in first["loc"])
+            raise InputRefused(f"{source}: [{where}] {first['msg']} (given: {first['input']!r}).") from error
+        return content.to_robot(source)
+
+    def to_json(self) -> dict[str, Any]:
+        """The sections of the robot file; `from_dict` reads them back."""
+        return {
+            "robot": {
+                "serial": self.serial,
+                "e": self.e,
+                "L": self.L,
+                "l": self.l,
+                "tolerance": {
+                    "e_mm": self.tolerances.e_mm,
+                    "link_mm": self.tolerances.link_mm,
+                    "zero_offset_deg": self.tolerances.zero_offset_deg,
+                },
+            },
+            "mechanism": {
+                "c": self.c,
+                "d": self.d,
+                "drm_mm": self.drm,
+                "drm_sd_mm": self.drm_sd,
+                "mounts": self.mounts,
+            },
+            "workspace": {"x": self.workspace_x, "y": self.workspace_y},
+            "joints": {
+                "counts_per_rev": self.counts_per_rev,
+                "ratio": self.ratio,
+                "zero_at_deg": self.zero_at_deg,
+                "sign": self.sign,
+                "feedback_sd_deg": self.joint_sd_deg,
+            },
+        }
+
+    @property
+    def geometry(self) -> Geometry:
+        """Nominal geometry."""
+        return Geometry(
+            e=np.array([complex(*centre) for centre in self.e]),
+            L=np.array(self.L),
+            l=np.array(self.l),
+            cd=complex(*self.c) + complex(*self.d),
+        )
+
+    def scaling(self, joint: int) -> JointScaling:
+        """Pulses to angle of joint 1 or 2."""
+        i = joint - 1
+        return JointScaling(self.counts_per_rev, self.ratio, self.zero_at_deg[i], self.sign[i])
+
+    @property
+    def pulse_deg(self) -> float:
+        """One pulse at the joint, degrees."""
+        return 360.0 / (self.counts_per_rev * self.ratio)
+
+    @property
+    def joint_sd_deg(self) -> float:
+        """Standard deviation of a joint angle read from feedback: by default of a uniform pulse."""
+        return self.pulse_deg / np.sqrt(12.0) if self.feedback_sd_deg is None else self.feedback_sd_deg
+
+    def workspace_grid(self, nx: int, ny: int) -> Complex:
+        """(nx * ny,) evenly spaced points of the workspace, its edges included."""
+        x = np.linspace(*self.workspace_x, nx)
+        y = np.linspace(*self.workspace_y, ny)
+        return np.asarray((x[:, None] + 1j * y[None, :]).ravel())
+
+    def with_mechanism(self, drm: Pair, sd: Pair) -> Robot:
+        """The same robot with the MAEMM known as given."""
+        return replace(self, drm=drm, drm_sd=sd)
+
+
+def read_sections(path: Path) -> dict[str, Any]:
+    """The tables of a robot file.  :raises InputRefused: missing or not TOML."""
+    try:
+        with path.open("rb") as file:
+            return tomllib.load(file)
+    except OSError as error:
+        raise InputRefused(f"Robot file {path} cannot be read: {error.strerror}.") from error
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
+        raise InputRefused(f"Robot file {path} is not valid TOML: {error}.") from error
+
+
+Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+Sign = Literal[-1, 1]
+
+
+class _Section(BaseModel):
+    model_config = ConfigDict(extra="forbid")
+
+
+class _ToleranceSection(_Section):
+    e_mm: Positive = 0.03
+    link_mm: Positive = 0.03
+    zero_offset_deg: Positive = 3.0
+
+
+class _RobotSection(_Section):
+    serial: Annotated[str, Field(min_length=1)] = "unnamed"
+    model: Literal["five-bar"] = "five-bar"
+    e: tuple[tuple[Finite, Finite], tuple[Finite, Finite]] = Robot.e
+    L: Positive | tuple[Positive, Positive] = Robot.L
+    l: Positive | tuple[Positive, Positive] = Robot.l  # noqa: E741
+    tolerance: _ToleranceSection = _ToleranceSection()
+
+
+class _MechanismSection(_Section):
+    c: tuple[Finite, Finite] = Robot.c
+    d: tuple[Finite, Finite] = Robot.d
+    drm_mm: tuple[Finite, Finite] = Robot.drm
+    drm_sd_mm: Positive | tuple[Positive, Positive] = Robot.drm_sd
+    mounts: dict[str, tuple[Finite, Finite]] = {}
+
+
+class _WorkspaceSection(_Section):
+    x: tuple[Finite, Finite] = Robot.workspace_x
+    y: tuple[Finite, Finite] = Robot.workspace_y
+
+
+class _JointsSection(_Section):
+    counts_per_rev: Annotated[int, Field(gt=0)] = Robot.counts_per_rev
+    ratio: Positive = Robot.ratio
+    zero_at_deg: tuple[Finite, Finite] = Robot.zero_at_deg
+    sign: Sign | tuple[Sign, Sign] = Robot.sign  # type: ignore[assignment]
+    feedback_sd_deg: Annotated[float, Field(ge=0, allow_inf_nan=False)] | None = None
+
+
+class RobotFile(_Section):
+    """The sections of contract.md's robot file."""
+
+    robot: _RobotSection = _RobotSection()
+    mechanism: _MechanismSection = _MechanismSection()
+    workspace: _WorkspaceSection = _WorkspaceSection()
+    joints: _JointsSection = _JointsSection()
+
+    def to_robot(self, source: str) -> Robot:
+        """:raises InputRefused: limits of the workspace out of order or out of reach."""
+        for axis, (low, high) in (("x", self.workspace.x), ("y", self.workspace.y)):
+            if low >= high:
+                raise InputRefused(f"{source}: [workspace.{axis}] must be [lower, upper] with lower < upper.")
+        robot = Robot(
+            serial=self.robot.serial,
+            e=self.robot.e,
+            L=_pair(self.robot.L),
+            l=_pair(self.robot.l),
+            c=self.mechanism.c,
+            d=self.mechanism.d,
+            drm=self.mechanism.drm_mm,
+            drm_sd=_pair(self.mechanism.drm_sd_mm),
+            mounts=self.mechanism.mounts,
+            tolerances=Tolerances(**self.robot.tolerance.model_dump()),
+            workspace_x=self.workspace.x,
+            workspace_y=self.workspace.y,
+            counts_per_rev=self.joints.counts_per_rev,
+            ratio=self.joints.ratio,
+            zero_at_deg=self.joints.zero_at_deg,
+            sign=self.joints.sign if isinstance(self.joints.sign, tuple) else (self.joints.sign,) * 2,
+            feedback_sd_deg=self.joints.feedback_sd_deg,
+        )
+        try:
+            inverse(robot.geometry, robot.workspace_grid(3, 3))
+        except Unreachable as error:
+            raise InputRefused(
+                f"{source}: the arms [robot] L, l cannot reach all of [workspace]: {error}"
+            ) from error
+        return robot
+
+
+def _pair(value: float | Pair) -> Pair:
+    return value if isinstance(value, tuple) else (value, value)

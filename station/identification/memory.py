@@ -1,0 +1,96 @@
+"""What outlasts a calibration: geometry and mechanism, as the prior of the same machine's next one.
+
+Zero offsets do not last (a collision changes them) and neither does the reading offset, so both are
+left out.  What is left is widened for its age and gated: readings that contradict it (the mechanism
+was mounted anew) drop it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from scipy import stats
+
+from station.fitting import Prior, Solution
+from station.mechanism import Parameter
+from station.records import Real
+
+if TYPE_CHECKING:
+    pass
+
+FORGOTTEN = ("dtheta1", "dtheta2", "rho0")
+WIDENED_PER_ROOT_YEAR = 0.3
+"""Share of a parameter's tolerance by which it may have wandered in a year (random walk)."""
+GATE_P = 0.02
+"""A right memory is dropped this often; dropping costs accuracy, keeping a wrong one costs truth."""
+INFORMATIVE = 0.3
+"""Directions in which the readings say less than this share of what the memory says cannot contradict it."""
+
+
+@dataclass(frozen=True)
+class Memory:
+    """Posterior of the lasting parameters of one robot and one mechanism."""
+
+    names: tuple[str, ...]
+    mean: Real
+    """(M,) mm"""
+    covariance: Real
+    """(M, M)"""
+
+    def as_json(self) -> dict[str, Any]:
+        return {
+            "names": list(self.names),
+            "mean": self.mean.tolist(),
+            "covariance": self.covariance.tolist(),
+        }
+
+    @classmethod
+    def from_json(cls, data: dict[str, Any]) -> Memory:
+        return cls(tuple(data["names"]), np.array(data["mean"]), np.array(data["covariance"]))
+
+    def aged(self, parameters: tuple[Parameter, ...], years: float) -> Memory:
+        """The same, less sure by what may have changed since."""
+        tolerance = {p.name: p.prior_sd for p in parameters}
+        wander = np.array([tolerance.get(name, 0.0) for name in self.names]) * WIDENED_PER_ROOT_YEAR
+        return Memory(self.names, self.mean, self.covariance + np.diag(wander**2 * max(years, 0.0)))
+
+    def prior(self, parameters: tuple[Parameter, ...]) -> Prior:
+        """Prior of all parameters: remembered ones as remembered, the rest by their tolerance."""
+        order = {p.name: i for i, p in enumerate(parameters)}
+        known = [(k, order[name]) for k, name in enumerate(self.names) if name in order]
+        mine, theirs = [k for k, _ in known], [i for _, i in known]
+        mean = np.array([p.prior_mean for p in parameters])
+        mean[theirs] = self.mean[mine]
+        sd = np.array([p.prior_sd for p in parameters])
+        sd[theirs] = np.inf
+        rest = Prior.independent(mean, sd).root
+        remembered = np.zeros((len(mine), len(parameters)))
+        information = np.linalg.inv(self.covariance[np.ix_(mine, mine)])
+        remembered[:, theirs] = np.linalg.cholesky(information).T
+        return Prior(mean, np.vstack([rest, remembered]))
+
+
+def contradiction_p(solution: Solution, prior: Prior, parameters: tuple[Parameter, ...]) -> float:
+    """p-value of the readings under the memory, in the directions in which they can tell.
+
+    The zero offsets and reading offsets, about which the memory says nothing, are projected out; in each
+    remaining direction the misfit of the memory has variance 1 (noise) plus what the memory allows.
+    """
+    lasting = [i for i, p in enumerate(parameters) if p.name.split("@")[0] not in FORGOTTEN]
+    passing = [i for i in range(len(parameters)) if i not in lasting]
+    J = solution.jacobian
+    nuisance = np.linalg.qr(J[:, passing] / np.linalg.norm(J[:, passing], axis=0))[0]
+    root = prior.root[:, lasting]
+    spread = np.linalg.inv(np.linalg.cholesky(root.T @ root)).T
+    told = J[:, lasting] @ spread
+    told -= nuisance @ (nuisance.T @ told)
+    misfit = solution.residual + J[:, lasting] @ (prior.mean - solution.x)[lasting]
+    misfit -= nuisance @ (nuisance.T @ misfit)
+    U, sigma, _ = np.linalg.svd(told, full_matrices=False)
+    can_tell = sigma > INFORMATIVE
+    if not can_tell.any():
+        return 1.0
+    square = (U[:, can_tell].T @ misfit) ** 2 / (1.0 + sigma[can_tell] ** 2)
+    return float(stats.chi2.sf(square.sum(), int(can_tell.sum())))

@@ -1,0 +1,31 @@
+"""What identification and diagnosis need of a machine, and under which conditions its readings were taken."""
+
+from __future__ import annotations
+
+from station.mechanism.conditions import (
+    Conditions,
+    Reference,
+    last_motion,
+    net_travel,
+    readings_before,
+    reference_of,
+    temperature_rise,
+)
+from station.mechanism.observation import Observation, Parameter
+from station.mechanism.protocol import Mechanism, axes, axis_of_row, by_reading
+
+__all__ = [
+    "Conditions",
+    "Mechanism",
+    "Observation",
+    "Parameter",
+    "Reference",
+    "axes",
+    "axis_of_row",
+    "by_reading",
+    "last_motion",
+    "net_travel",
+    "readings_before",
+    "reference_of",
+    "temperature_rise",
+]

@@ -1,0 +1,112 @@
+"""Under what readings were taken, for the catalogue to work on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.records import Measurements, Real
+
+WARMED_BY_K = 0.05
+"""A temperature column that moves less shows no warming."""
+SAME_PLACE_RAD = 1e-6
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """Of K readings of a machine with n joints."""
+
+    t_s: Real
+    """(K,)"""
+    theta: Real
+    """(K, n) joint angles, rad, zero offsets included."""
+    drive_angle: Real
+    """(K, n) joint angles counted from each drive's zero, rad."""
+    approach: Real
+    """(K, n) sign of each joint's last motion, 0 unknown."""
+    travel: Real
+    """(K,) where the slider stands on the scale, mm: what a perfect scale would read."""
+    slider_direction: Real
+    """(K,) sign of the slider's last motion, 0 unknown."""
+    slider_net: Real
+    """(K,) sign of the change of reading since the reading before, 0 unknown: what counts where the slider
+    follows late or the way between is not known."""
+    temperature_rise: Real | None
+    """(K,) since the first reading, K; None where nothing was recorded or nothing changed."""
+    payload_kg: Real | None
+    lengths: Mapping[str, float]
+    """Nominal lengths by parameter name, mm."""
+    pull: Real
+    """(K, n) sign of the load along each distal link: +1 pulled."""
+    load: tuple[Real, ...]
+    """(K, q) a joint: gravity's moment about it, one column a place where mass may sit, 1 when horizontal."""
+
+    def __len__(self) -> int:
+        return len(self.t_s)
+
+    def take(self, rows: NDArray[np.bool_]) -> Conditions:
+        """Of these readings only, mask (K,)."""
+        taken: dict[str, Any] = {
+            f.name: value[rows]
+            for f in fields(self)
+            if isinstance(value := getattr(self, f.name), np.ndarray)
+        }
+        return replace(self, **taken, load=tuple(part[rows] for part in self.load))
+
+
+@dataclass(frozen=True)
+class Reference:
+    """What later readings (the fresh ones) are counted from."""
+
+    temperature_c: float | None
+    theta: Real
+    """(n,) where the joints stood last."""
+    travel: float
+    """What was measured there, mm."""
+
+
+def reference_of(measurements: Measurements) -> Reference:
+    """Of the readings a model is learned on; `theta` is where they ended."""
+    temperature = measurements.temperature_c
+    warmed = temperature is not None and float(np.ptp(temperature)) > WARMED_BY_K
+    return Reference(
+        float(temperature[0]) if temperature is not None and warmed else None,
+        measurements.theta[-1],
+        float(measurements.distance[-1]),
+    )
+
+
+def temperature_rise(m: Measurements, reference: Reference) -> Real | None:
+    """(K,) K above the reference; None where none was recorded then or now."""
+    if reference.temperature_c is None or m.temperature_c is None:
+        return None
+    return np.asarray(m.temperature_c - reference.temperature_c)
+
+
+def readings_before(m: Measurements, reference: Reference | None) -> Real:
+    """(K, n + 1) joint angles and distance before each reading, NaN where unknown."""
+    came_from = np.array(m.came_from)
+    if reference is not None:
+        unknown = np.isnan(came_from).any(axis=1)
+        came_from[unknown] = [*reference.theta, reference.travel]
+    return came_from
+
+
+def last_motion(m: Measurements, by_joint: Real, came_from: Real) -> Real:
+    """(K,) sign in which the distance last changed: by the way from the reading before, or by the run-up
+    where the recorded approach says that the last motion was another; 0 unknown."""
+    way = m.theta - came_from[:, :-1]
+    way[np.abs(way) < SAME_PLACE_RAD] = 0.0
+    run_up = (m.approach != 0) & (m.approach != np.sign(way))
+    last = np.where(run_up.any(axis=1)[:, None], m.approach, way)
+    direction = np.sign(np.sum(by_joint * last, axis=1))
+    return np.where(np.isnan(came_from).any(axis=1), 0.0, direction)
+
+
+def net_travel(m: Measurements, came_from: Real) -> Real:
+    """(K,) sign of the change of reading, 0 unknown."""
+    return np.nan_to_num(np.sign(m.distance - came_from[:, -1]))

@@ -1,0 +1,102 @@
+"""What identification and diagnosis need to know of a machine, and nothing else.
+
+A mechanism turns joint angles and parameters into what is measured, with derivatives.  Rows are
+single numbers: a distance is one row a reading, a tracker position three.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Protocol, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.mechanism.observation import Observation, Parameter
+from station.records import Measurements, Real
+
+if TYPE_CHECKING:
+    from station.mechanism.conditions import Conditions, Reference
+
+
+class Mechanism(Protocol):
+    """The machine with its measuring mechanism, for one set of readings."""
+
+    @property
+    def measurements(self) -> Measurements:
+        """The readings."""
+        ...
+
+    @property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """All unknowns, in the order of p; the zero offsets of the joints come first."""
+        ...
+
+    @property
+    def start(self) -> Real:
+        """(P,) from where a fit begins."""
+        ...
+
+    @property
+    def needs_repeats(self) -> bool:
+        """Whether a residual is judged by repeats only; else the specification will do without them."""
+        ...
+
+    @property
+    def simplest(self) -> tuple[str, tuple[str, ...]]:
+        """The simplest model of this machine: what it is called, and the parameters that are free in it."""
+        ...
+
+    @property
+    def measured(self) -> Real:
+        """(R,) what was measured, mm."""
+        ...
+
+    @property
+    def reading_of_row(self) -> NDArray[np.intp]:
+        """(R,) index of the reading each row belongs to; rows of one reading stand together."""
+        ...
+
+    @property
+    def theta(self) -> Real:
+        """(K, n) joint angles of the readings, rad."""
+        ...
+
+    @property
+    def row_sd(self) -> Real:
+        """(R,) standard deviation by specification, mm: instrument, and what feedback leaves open."""
+        ...
+
+    def of(self, measurements: Measurements) -> Self:
+        """The same machine under other readings."""
+        ...
+
+    def check(self) -> None:
+        """:raises InputRefused: readings that cannot be of this machine, by reading and column."""
+        ...
+
+    def observe(self, p: Real, theta: Real) -> Observation:
+        """Predict all rows at parameters p (P,) and joint angles theta (K, n); NaN where it cannot be."""
+        ...
+
+    def conditions(self, p: Real, reference: Reference, *, first: bool) -> Conditions:
+        """Under what the readings were taken, at p; `first` when the model is being learned on them."""
+        ...
+
+    def places(self, p: Real) -> Real:
+        """(K, d) mm, where the end of the machine stood at each reading."""
+        ...
+
+
+def by_reading(mechanism: Mechanism, rows: Real) -> Real:
+    """(K,) size of each reading's error from those of its rows (R,): of several coordinates the length."""
+    return np.sqrt(np.bincount(mechanism.reading_of_row, rows**2))
+
+
+def axis_of_row(mechanism: Mechanism) -> NDArray[np.intp]:
+    """(R,) which coordinate of its reading each row is."""
+    return axes(mechanism.reading_of_row)
+
+
+def axes(reading: NDArray[np.intp]) -> NDArray[np.intp]:
+    """(R,) the same from the ascending numbers of the readings (R,)."""
+    return np.asarray(np.arange(len(reading)) - np.searchsorted(reading, reading))

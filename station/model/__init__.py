@@ -1,0 +1,18 @@
+"""A mechanism with effects added: the model, its fit, and the machine that it describes."""
+
+from __future__ import annotations
+
+from station.model.identified_machine import IdentifiedMachine, NotInvertible, Situation
+from station.model.model import Fit, Model, Term, fit, fitted, is_long
+
+__all__ = [
+    "Fit",
+    "IdentifiedMachine",
+    "Model",
+    "NotInvertible",
+    "Situation",
+    "Term",
+    "fit",
+    "fitted",
+    "is_long",
+]

@@ -1,0 +1,198 @@
+"""The machine as identified: where P stands for joint commands, and the commands that bring it to a place.
+
+Effects on joints and links take part; effects on the reading move nothing.  Effects of time are taken
+as at the end of the readings learned on, effects of temperature at the rise given.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from station.fitting import position_error_summary
+from station.five_bar import (
+    GRID,
+    NAMES,
+    SIZE,
+    FiveBar,
+    Geometry,
+    Robot,
+    inverse,
+    lengths,
+    load,
+    perturbed,
+    pose,
+    position_jacobian,
+    pull,
+)
+from station.mechanism import Conditions
+from station.model.model import Fit, Term
+from station.records import Complex, Real
+
+SETTLED_RAD = 1e-12
+MOST_STEPS = 60
+
+
+class NotInvertible(ArithmeticError):
+    """The joint effects are so steep that no command reaches the place."""
+
+
+@dataclass(frozen=True)
+class Situation:
+    """In what the machine is asked to stand somewhere, K times."""
+
+    approach: Real
+    """(K, n) sign of each joint's last motion; 0 takes the middle of a play."""
+    temperature_rise: Real
+    """(K,) K, above the first reading learned on."""
+    payload_kg: Real
+    """(K,)"""
+
+    @classmethod
+    def plain(cls, count: int, joints: int = 2) -> Situation:
+        """No approach, no warming, no payload."""
+        return cls(np.zeros((count, joints)), np.zeros(count), np.zeros(count))
+
+
+@dataclass(frozen=True)
+class IdentifiedMachine:
+    """Base parameters and effects of one fit."""
+
+    robot: Robot
+    x: Real
+    """(X,) base parameters (the first twelve of the error model), then the terms' amplitudes."""
+    covariance: Real
+    """(X, X)"""
+    terms: tuple[Term, ...]
+    end_s: float
+    """Time of the last reading learned on."""
+
+    @classmethod
+    def of(cls, fit: Fit, sd_factor: float = 1.0) -> IdentifiedMachine:
+        """As fitted, the covariance widened."""
+        m = fit.model.mechanism
+        if not isinstance(m, FiveBar):
+            raise TypeError("only a five-bar is commanded by its identified model")
+        covariance = fit.solution.covariance * sd_factor**2
+        return cls(m.robot, fit.x, covariance, fit.model.terms, float(m.measurements.t_s.max()))
+
+    @property
+    def by_approach(self) -> bool:
+        """Whether a command depends on the side it is approached from."""
+        return any(term.effect.by_approach for term in self.terms)
+
+    @property
+    def geometry(self) -> Geometry:
+        """Without effects."""
+        return perturbed(self.robot.geometry, self.x[:SIZE])
+
+    def positions(self, theta: Real, situation: Situation) -> Complex:
+        """(K,) where P stands, mm, for joint commands theta (K, 2), rad in the drives' nominal frame."""
+        turned, moved = self._effects(theta, situation)
+        return np.asarray(pose(self.geometry, theta + self.x[:2] + turned).r + moved)
+
+    def commands(self, target: Complex, situation: Situation) -> Real:
+        """(K, 2) joint commands, rad in the drives' nominal frame, that bring P to target (K,), mm.
+
+        :raises Unreachable: naming the first target out of reach.
+        :raises NotInvertible: the effects do not let a command be found.
+        """
+        geometry = self.geometry
+        theta = inverse(geometry, target) - self.x[:2]
+        if not self.terms:
+            return theta
+        for _ in range(MOST_STEPS):
+            turned, moved = self._effects(theta, situation)
+            better = inverse(geometry, target - moved) - self.x[:2] - turned
+            change = float(np.abs(better - theta).max())
+            theta = better
+            if change < SETTLED_RAD:
+                return theta
+        raise NotInvertible("the joint effects are too steep to be inverted")
+
+    def position_error(self, commander: IdentifiedMachine | None = None) -> dict[str, float]:
+        """rms and largest over the workspace, mm, when `commander` (default: this one) computes the commands.
+
+        Where that is another model, what it leaves out stands beside what this one does not know.
+        """
+        grid = self.robot.workspace_grid(*GRID)
+        sides = [(1, 1), (1, -1), (-1, 1), (-1, -1)] if self.by_approach else [(0, 0)]
+        situation = replace(
+            Situation.plain(len(grid) * len(sides)),
+            approach=np.repeat(sides, len(grid), axis=0).astype(float),
+        )
+        target = np.tile(grid, len(sides))
+        theta = (commander or self).commands(target, situation)
+        error = self.positions(theta, situation) - target
+        return position_error_summary(
+            np.column_stack([error.real, error.imag]), self.jacobian(theta, situation), self.covariance
+        )
+
+    def jacobian(self, theta: Real, situation: Situation) -> Real:
+        """(K, 2, X) d (x, y) / d x at joint commands theta (K, 2)."""
+        at = pose(self.geometry, theta + self.x[:2])
+        by_base = position_jacobian(self.geometry, at)
+        out = np.zeros((len(theta), 2, len(self.x)))
+        out[:, :, :SIZE] = by_base
+        for term, part, basis in self._parts(theta, situation):
+            columns = _by_strength(term, by_base)
+            if columns is not None:
+                out[:, :, part] = columns[:, :, None] * basis[:, None, :]
+        return out
+
+    def _effects(self, theta: Real, situation: Situation) -> tuple[Real, Complex]:
+        """What the effects add: to the joint angles (K, 2), rad, and by way of lengths to P (K,), mm."""
+        turned, moved = np.zeros_like(theta), np.zeros(len(theta), dtype=complex)
+        by_base: Real | None = None
+        for term, part, basis in self._parts(theta, situation):
+            strength = basis @ self.x[part]
+            if term.acts.joint is not None:
+                turned[:, term.acts.joint] += strength
+            elif term.acts.lengths is not None:
+                if by_base is None:
+                    by_base = position_jacobian(self.geometry, pose(self.geometry, theta + self.x[:2]))
+                columns = _by_strength(term, by_base)
+                assert columns is not None
+                moved += (columns[:, 0] + 1j * columns[:, 1]) * strength
+        return turned, moved
+
+    def _parts(self, theta: Real, situation: Situation) -> Sequence[tuple[Term, slice, Real]]:
+        """Each term with its place in x and its basis (K, q)."""
+        if not self.terms:
+            return ()
+        c = self._conditions(theta, situation)
+        start = len(self.x) - sum(term.size for term in self.terms)
+        out = []
+        for term in self.terms:
+            out.append((term, slice(start, start + term.size), term.effect.at(term.hidden, c)))
+            start += term.size
+        return out
+
+    def _conditions(self, theta: Real, situation: Situation) -> Conditions:
+        at = pose(self.geometry, theta + self.x[:2])
+        robot, unknown = self.robot, np.zeros(len(theta))
+        return Conditions(
+            t_s=np.full(len(theta), self.end_s),
+            theta=theta + self.x[:2],
+            drive_angle=theta - np.radians(robot.zero_at_deg),
+            approach=situation.approach,
+            travel=unknown,
+            slider_direction=unknown,
+            slider_net=unknown,
+            temperature_rise=situation.temperature_rise,
+            payload_kg=situation.payload_kg,
+            lengths=lengths(robot),
+            pull=pull(at.w),
+            load=load(theta + self.x[:2]),
+        )
+
+
+def _by_strength(term: Term, by_base: Real) -> Real | None:
+    """(K, 2) d (x, y) per unit of a term's strength; None when it moves nothing."""
+    if term.acts.joint is not None:
+        return np.asarray(by_base[:, :, term.acts.joint])
+    if term.acts.lengths is None:
+        return None
+    return np.asarray(sum(by_base[:, :, NAMES.index(name)] * mm for name, mm in term.acts.lengths.items()))

@@ -1,0 +1,200 @@
+"""The measurement model with effects added, and its fit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import block_diag
+
+from station.effects import Acts, Effect, signature
+from station.fitting import Prior, Solution, solve
+from station.mechanism import Conditions, Mechanism, Observation, Reference
+from station.records import Index, Real
+
+CONDITION_ROUNDS = 12
+"""The basis depends a little on the zero offsets: fitted, evaluated anew, fitted again until it stays."""
+SETTLED_MM = 2e-5
+SETTLED_SDS = 2e-3
+LONG_ROWS = 1000
+LONG_WITHOUT_REPEATS = 350
+"""Where no repeats say how readings scatter, the residual of fewer rows must."""
+
+
+@dataclass(frozen=True)
+class Term:
+    """An effect with its hidden parameters settled."""
+
+    effect: Effect
+    hidden: Mapping[str, float]
+    acts: Acts
+    size: int
+    """Number of amplitudes."""
+    spread: Real | None = None
+    """(q,) prior standard deviation of the amplitudes; None where the readings alone decide."""
+
+    @property
+    def key(self) -> tuple[str, int | None]:
+        return self.effect.id, self.effect.joint
+
+
+@dataclass(frozen=True)
+class Model:
+    """A mechanism with terms; unknowns are its parameters, then the terms' amplitudes."""
+
+    mechanism: Mechanism
+    reference: Reference
+    terms: tuple[Term, ...] = ()
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        return tuple(p.name for p in self.mechanism.parameters)
+
+    @property
+    def base_size(self) -> int:
+        return len(self.mechanism.parameters)
+
+    @property
+    def unknowns(self) -> int:
+        return self.base_size + sum(term.size for term in self.terms)
+
+    @property
+    def spread(self) -> Real:
+        """(unknowns - base_size,) prior standard deviation of every amplitude, inf for none."""
+        parts = [np.full(t.size, np.inf) if t.spread is None else t.spread for t in self.terms]
+        return np.concatenate([*parts, np.zeros(0)])
+
+    def prior(self, base: Prior) -> Prior:
+        """Of all unknowns, from that of the base parameters."""
+        amplitudes = Prior.independent(np.zeros(len(self.spread)), self.spread)
+        return Prior(np.concatenate([base.mean, amplitudes.mean]), block_diag(base.root, amplitudes.root))
+
+    def conditions(self, p: Real, *, first: bool = True) -> Conditions:
+        return self.mechanism.conditions(p, self.reference, first=first)
+
+    def bases(self, c: Conditions) -> list[Real]:
+        """(K, q) of each term under conditions."""
+        return [term.effect.at(term.hidden, c) for term in self.terms]
+
+    def observe(self, x: Real, bases: list[Real]) -> Observation:
+        """Prediction with all derivatives; by_parameter has the terms' columns appended."""
+        amplitudes = self._split(x)
+        at = self.mechanism.observe(x[: self.base_size], self.turned(x, bases))
+        rows = self.mechanism.reading_of_row
+        value, columns = at.value, [at.by_parameter]
+        for term, basis, a in zip(self.terms, bases, amplitudes, strict=True):
+            column = signature(term.acts, basis, at, self.names, rows)
+            if term.acts.joint is None:
+                value = value + column @ a
+            columns.append(column)
+        return Observation(value, np.hstack(columns), at.by_joint)
+
+    def turned(self, x: Real, bases: list[Real]) -> Real:
+        """(K, n) joint angles with what the effects on joints add to them, rad."""
+        theta = self.mechanism.theta
+        if any(term.acts.joint is not None for term in self.terms):
+            theta = theta.copy()
+            for term, basis, a in zip(self.terms, bases, self._split(x), strict=True):
+                if term.acts.joint is not None:
+                    theta[:, term.acts.joint] += basis @ a
+        return theta
+
+    def _split(self, x: Real) -> list[Real]:
+        out, at = [], self.base_size
+        for term in self.terms:
+            out.append(x[at : at + term.size])
+            at += term.size
+        return out
+
+
+@dataclass(frozen=True)
+class Fit:
+    """A model fitted to its mechanism's readings."""
+
+    model: Model
+    solution: Solution
+    prior: Prior
+    row_sd: Real
+    at: Observation
+    """Of the mechanism at the fit, joints turned by the effects; without the terms' own columns."""
+    conditions: Conditions
+
+    @property
+    def x(self) -> Real:
+        return self.solution.x
+
+    @property
+    def residual_mm(self) -> Real:
+        """(R,) measured less predicted."""
+        return -self.solution.residual * self.row_sd
+
+    @property
+    def cost(self) -> float:
+        return self.solution.cost
+
+    @property
+    def dof(self) -> int:
+        """Of the cost: rows less the unknowns that nothing but the rows holds."""
+        return len(self.row_sd) - self.prior.free
+
+    @property
+    def freedom(self) -> float:
+        """How many unknowns the rows determine: all, less what the prior knows of them."""
+        C = self.solution.covariance
+        held = np.isfinite(np.diag(C))
+        root = self.prior.root[:, held]
+        return float(held.sum() - np.sum((root @ C[np.ix_(held, held)]) * root))
+
+    def part(self, index: int) -> Index:
+        """(q,) where the amplitudes of term `index` stand among the unknowns."""
+        start = self.model.base_size + sum(t.size for t in self.model.terms[:index])
+        return np.arange(start, start + self.model.terms[index].size)
+
+    def amplitudes(self, index: int) -> tuple[Real, Real]:
+        """(q,) and covariance (q, q) of term `index`, in whitened units of row_sd."""
+        part = self.part(index)
+        return self.x[part], self.solution.covariance[np.ix_(part, part)]
+
+
+def is_long(mechanism: Mechanism) -> bool:
+    """Whether rows are so many that candidates differ by more than their signatures' curvature is worth."""
+    return len(mechanism.row_sd) > (LONG_ROWS if mechanism.needs_repeats else LONG_WITHOUT_REPEATS)
+
+
+def fit(model: Model, base_prior: Prior, row_sd: Real, start: Real | None = None) -> Fit:
+    """Fit all unknowns of a model, from `start` on: without one from where the mechanism says, no effects.
+
+    :raises NotConvergedError: no convergence.
+    """
+    prior = model.prior(base_prior)
+    x = model.mechanism.start if start is None else start
+    x = np.concatenate([x, np.zeros(model.unknowns - len(x))])
+    measured = model.mechanism.measured
+    bases = model.bases(model.conditions(x[: model.base_size]))
+    for _ in range(CONDITION_ROUNDS):
+
+        def residuals(q: Real, bases: list[Real] = bases) -> tuple[Real, Real]:
+            at = model.observe(q, bases)
+            J = at.by_parameter
+            J /= row_sd[:, None]  # in place: of a long log it is large
+            return (at.value - measured) / row_sd, J
+
+        solution = solve(residuals, x, prior)
+        x = solution.x
+        if not model.terms:
+            break
+        before = model.observe(x, bases).value
+        bases = model.bases(model.conditions(x[: model.base_size]))
+        moved = np.abs(model.observe(x, bases).value - before).max()
+        if moved < max(SETTLED_MM, SETTLED_SDS * float(row_sd.min())):
+            break
+    return fitted(model, solution, prior, row_sd)
+
+
+def fitted(model: Model, solution: Solution, prior: Prior, row_sd: Real) -> Fit:
+    """A fit from its solution, with everything that is evaluated at it."""
+    p = solution.x[: model.base_size]
+    c = model.conditions(p)
+    theta = model.turned(solution.x, model.bases(c))
+    return Fit(model, solution, prior, row_sd, model.mechanism.observe(p, theta), c)

@@ -1,0 +1,24 @@
+"""Moving the machine: devices, limits, measuring at a stop, writing zeros, standstill."""
+
+from __future__ import annotations
+
+from station.motion.devices import Devices, build_devices
+from station.motion.emulated_rig import EmulatedRig
+from station.motion.events import Listener, Listeners, LiveEvent
+from station.motion.machine import Machine
+from station.motion.walker import Cancelled, Walker
+from station.motion.zero_writer import Zeroing, shift_of
+
+__all__ = [
+    "Cancelled",
+    "Devices",
+    "EmulatedRig",
+    "Listener",
+    "Listeners",
+    "LiveEvent",
+    "Machine",
+    "Walker",
+    "Zeroing",
+    "build_devices",
+    "shift_of",
+]

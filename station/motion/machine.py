@@ -1,0 +1,282 @@
+"""The devices as one machine: what is known about each, where the arm stands, what forbids motion."""
+
+from __future__ import annotations
+
+import math
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import partial
+from typing import Any, Literal
+
+import numpy as np
+
+from drivers.errors import DeviceError, DeviceFault
+from drivers.protocols import AxisStatus, Device, ServoAxis
+from station.five_bar import Robot, Unreachable, forward
+from station.motion.devices import Devices
+from station.motion.events import Listeners
+from station.motion.limits import outside_text
+from station.motion.time_limit import each_within
+from station.settings import LimitSettings
+
+STOP_LIMIT_S = 1.5
+STANDSTILL_LIMIT_S = 3.0
+CLOSE_LIMIT_S = 2.0
+_REST_POLL_S = 0.02
+
+DeviceState = Literal["ok", "lost", "fault", "unknown"]
+
+
+class NotReady(DeviceError):
+    """Something forbids to start; the text names all of it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pose:
+    """Where the arm stood at a moment of the monotonic clock."""
+
+    theta_deg: tuple[float, float]
+    scale_mm: float
+    at: float
+
+
+@dataclass(slots=True)
+class _Known:
+    connected: bool = False
+    state: DeviceState = "unknown"
+    text: str = "not connected yet"
+    alarm: int | None = None
+
+
+class Machine:
+    """Scale and two axes.  One thread works with it; `quick_stop` and the views may be called by any."""
+
+    def __init__(self, devices: Devices, limits: LimitSettings, listeners: Listeners) -> None:
+        self.devices = devices
+        self.limits = limits
+        self.robot = Robot.default()
+        """Whose geometry turns joint angles into a place."""
+        self.compensation_deg = (0.0, 0.0)
+        """What the run has found so far; added where a place is shown, never where one is judged."""
+        self._listeners = listeners
+        self._all: tuple[Device, ...] = (devices.scale, *devices.axes)
+        self._known = {device.name: _Known() for device in self._all}
+        self._pose: Pose | None = None
+        self._told: list[dict[str, Any]] = []
+
+    # Working with the devices --------------------------------------------------------------------
+
+    @contextmanager
+    def using(self, device: Device) -> Iterator[None]:
+        """Around any use of a device: what it says about the device is kept and published."""
+        try:
+            yield
+        except DeviceError as error:
+            works = isinstance(error, DeviceFault)
+            self._known[device.name].connected &= works
+            self._learn(device, "fault" if works else "lost", str(error))
+            raise
+        else:
+            if self._known[device.name].alarm is None:
+                self._learn(device, "ok", "")
+
+    def connect_missing(self) -> None:
+        """Connect every device that was never connected or was lost.
+
+        :raises NotReady: naming all that could not be connected, each with its cause.
+        """
+        failures = []
+        for device in self._all:
+            if self._known[device.name].connected:
+                continue
+            device.close()
+            try:
+                with self.using(device):
+                    device.connect()
+                    self._known[device.name].connected = True
+            except DeviceError as error:
+                failures.append(str(error))
+        if failures:
+            raise NotReady(" ".join(failures))
+
+    def status(self, axis: ServoAxis) -> AxisStatus:
+        """An axis's status, its alarm remembered.  :raises DeviceError:"""
+        with self.using(axis):
+            status = axis.status()
+            self._known[axis.name].alarm = status.alarm
+        if status.alarm is not None:
+            self._learn(axis, "fault", f"alarm {status.alarm:X}h")
+        return status
+
+    def look(self) -> Pose:
+        """Read where the arm stands.  :raises DeviceError:"""
+        angles = []
+        for axis in self.devices.axes:
+            with self.using(axis):
+                angles.append(axis.feedback_deg())
+        with self.using(self.devices.scale):
+            scale_mm = self.devices.scale.read_mm()
+        return self.moved((angles[0], angles[1]), scale_mm)
+
+    def moved(self, theta_deg: tuple[float, float], scale_mm: float) -> Pose:
+        """Keep and publish where the arm stands now."""
+        pose = self._pose = Pose(theta_deg, scale_mm, time.monotonic())
+        self._listeners.publish("machine", self.view())
+        self._tell_interlocks()
+        return pose
+
+    def watch(self) -> None:
+        """One look while nothing runs: connects what is missing, reads what is there."""
+        try:
+            self.connect_missing()
+            for axis in self.devices.axes:
+                self.status(axis)
+            self.look()
+        except DeviceError:
+            self._pose = None  # a place that is not known is not shown
+            self._tell_interlocks()
+
+    def ready_axes(self) -> None:
+        """Reset what alarm can be reset and power both axes.  :raises DeviceError:"""
+        for axis in self.devices.axes:
+            status = self.status(axis)
+            with self.using(axis):
+                if status.alarm is not None:
+                    axis.reset_alarm()
+                    self._known[axis.name].alarm = None
+                if status.alarm is not None or not status.enabled:
+                    axis.enable()
+
+    # Stopping ------------------------------------------------------------------------------------
+
+    def quick_stop(self) -> dict[str, str | None]:
+        """Stop both axes now, from any thread; by axis None or what went wrong."""
+        return each_within(STOP_LIMIT_S, {axis.name: axis.quick_stop for axis in self.devices.axes})
+
+    def make_safe(self, *, insist: bool = True) -> str | None:
+        """Every device made safe, and both axes stopped until they say that they stand.
+
+        :param insist: on standstill; without it one try is enough, as before the first motion.
+        :return: None, or a sentence about what could not be confirmed.
+        """
+        each_within(STOP_LIMIT_S, {device.name: device.make_safe for device in self._all})
+        return self._rest(self.devices.axes, STANDSTILL_LIMIT_S if insist else 0.0)
+
+    def standstill(self) -> str | None:
+        """Wait until both axes say that they stand.  None, or a sentence that it is not confirmed."""
+        return self._rest((), STANDSTILL_LIMIT_S)
+
+    def _rest(self, to_stop: tuple[ServoAxis, ...], limit_s: float) -> str | None:
+        deadline = time.monotonic() + limit_s
+        while True:
+            # A line may come back while this waits: a stop that was not confirmed is sent again.
+            trouble = each_within(STOP_LIMIT_S, {axis.name: axis.quick_stop for axis in to_stop})
+            to_stop = tuple(axis for axis in to_stop if trouble[axis.name])
+            looks = {axis.name: partial(_expect_standstill, axis) for axis in self.devices.axes}
+            doubts = {name: text for name, text in each_within(STOP_LIMIT_S, looks).items() if text}
+            if not doubts:
+                return None
+            if time.monotonic() >= deadline:
+                said = "; ".join(f"{name}: {text.rstrip('.')}" for name, text in doubts.items())
+                return f"Standstill could not be confirmed, look at the arm ({said})."
+            time.sleep(_REST_POLL_S)
+
+    def close(self) -> None:
+        """Release all lines."""
+        each_within(CLOSE_LIMIT_S, {device.name: device.close for device in self._all})
+
+    # What is known -------------------------------------------------------------------------------
+
+    def view(self) -> dict[str, Any] | None:
+        """The `machine` part of the snapshot; None while the place is not known."""
+        pose = self._pose
+        if pose is None:
+            return None
+        place = self.shown_place(pose.theta_deg)
+        return {
+            "theta1_deg": pose.theta_deg[0],
+            "theta2_deg": pose.theta_deg[1],
+            "x_mm": place and place[0],
+            "y_mm": place and place[1],
+            "scale_mm": pose.scale_mm if math.isfinite(pose.scale_mm) else None,
+            "age_s": round(time.monotonic() - pose.at, 3),
+        }
+
+    def shown_place(self, theta_deg: tuple[float, ...]) -> tuple[float, float] | None:
+        """x, y in mm for the eye: with what is known of the zero offsets; None as in `place`."""
+        return self.place(tuple(map(sum, zip(theta_deg, self.compensation_deg, strict=True))))
+
+    def place(self, theta_deg: tuple[float, ...]) -> tuple[float, float] | None:
+        """Nominal x, y in mm of joint angles; None where the linkage does not close."""
+        try:
+            point = forward(self.robot.geometry, np.radians(np.array([theta_deg])))[0]
+        except Unreachable:
+            return None
+        return float(point.real), float(point.imag)
+
+    def device_views(self) -> list[dict[str, Any]]:
+        """The `devices` part of the snapshot."""
+        return [self._device_view(device) for device in self._all]
+
+    def _device_view(self, device: Device) -> dict[str, Any]:
+        index = self._all.index(device)
+        known = self._known[device.name]
+        return {
+            "name": device.name,
+            "kind": "scale" if index == 0 else "axis",
+            "address": self.devices.addresses[index],
+            "state": known.state,
+            "text": known.text,
+        }
+
+    def interlocks(self) -> list[dict[str, Any]]:
+        """What must hold before and during motion, as data."""
+        missing = [name for name, known in self._known.items() if not known.connected]
+        alarms = [
+            f"{name}: alarm {known.alarm:X}h; the next run tries to reset it"
+            for name, known in self._known.items()
+            if known.alarm is not None
+        ]
+        outside = self._outside()
+        scale_mm = self._pose.scale_mm if self._pose else math.nan
+        return [
+            _interlock(
+                "devices", "All devices answer", "no answer: " + ", ".join(missing) if missing else ""
+            ),
+            _interlock("alarm", "No drive shows an alarm", "; ".join(alarms)),
+            _interlock("workspace", "The arm stands within its workspace", outside),
+            _interlock("scale", "The scale reads", "" if math.isfinite(scale_mm) else "no reading"),
+        ]
+
+    def _outside(self) -> str:
+        if self._pose is None:
+            return "its place is not known"
+        place = self.place(self._pose.theta_deg)
+        if place is None:
+            return "the linkage cannot close at these joint angles"
+        return outside_text(self.robot, complex(*place), self.limits.swing_mm)
+
+    def _learn(self, device: Device, state: DeviceState, text: str) -> None:
+        known = self._known[device.name]
+        if (known.state, known.text) == (state, text):
+            return
+        known.state, known.text = state, text
+        self._listeners.publish("device", self._device_view(device))
+        self._tell_interlocks()
+
+    def _tell_interlocks(self) -> None:
+        interlocks = self.interlocks()
+        if interlocks != self._told:
+            self._told = interlocks
+            self._listeners.publish("interlock", interlocks)
+
+
+def _expect_standstill(axis: ServoAxis) -> None:
+    if axis.status().moving:
+        raise DeviceFault("still moves")
+
+
+def _interlock(id: str, text: str, detail: str) -> dict[str, Any]:
+    return {"id": id, "text": text, "ok": not detail, "detail": detail}

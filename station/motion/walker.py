@@ -1,0 +1,246 @@
+"""From one stop to the next: limits, approach, motion, settling, a reading that can be believed."""
+
+from __future__ import annotations
+
+import math
+import statistics
+import time
+from dataclasses import dataclass, field
+from threading import Event
+
+import numpy as np
+
+from drivers.protocols import ServoAxis
+from station.errors import StepFailed, sentence
+from station.five_bar import Robot, forward, inverse
+from station.motion.limits import check_way
+from station.motion.machine import Machine, NotReady
+from station.records import Angles, Reading, Stop
+from station.settings import JointSettings
+
+_POLL_S = 0.01
+_LOOK_S = 0.25
+"""How often a long motion is watched with feedback and scale."""
+_ARRIVAL_MARGIN_S = 3.0
+_SLOWEST_DEG_S = 1.0
+_DIGITS = 9
+_STILL_DEG = 0.004
+"""Two pulses: less is no motion that could have a direction."""
+
+
+class Cancelled(Exception):
+    """The run was told to end."""
+
+
+@dataclass
+class Walker:
+    """Measures stops, one after another, until told to cancel."""
+
+    machine: Machine
+    robot: Robot
+    joints: tuple[JointSettings, JointSettings]
+    cancel: Event
+    started: float = field(default_factory=time.monotonic)
+    _theta: Angles = (math.nan, math.nan)
+    _direction: tuple[int, int] = (0, 0)
+    _origin: tuple[float, float] | None = None
+    """Scale and nominal distance at the first reading: what travel is counted from."""
+
+    def prepare(self) -> None:
+        """Connect, reset, enable, look, and check every interlock.
+
+        :raises DeviceError: naming what is missing or forbids to start.
+        """
+        self.machine.robot, self.machine.compensation_deg = self.robot, (0.0, 0.0)
+        self.machine.connect_missing()
+        self.check_cancel()
+        self.machine.ready_axes()
+        self.look()
+        broken = [f"{lock['text']}: {lock['detail']}" for lock in self.machine.interlocks() if not lock["ok"]]
+        if broken:
+            raise NotReady(f"Not ready to start. {'. '.join(broken)}.")
+
+    def look(self) -> None:
+        """Where the joints stand now, in the frames of their drives as they are now.  :raises DeviceError:"""
+        self._theta = self.machine.look().theta_deg
+        self._origin = None
+
+    def measure(self, stop: Stop, number: int, walk: int) -> Reading:
+        """Go there and read.
+
+        :raises Cancelled: stop was pressed.
+        :raises DeviceError: a device failed.
+        :raises StepFailed: a limit forbids the stop, it was not reached, or its reading is in doubt.
+        """
+        self.stand_at(stop)
+        samples, theta = self._samples(stop, number)
+        scale_mm = round(statistics.fmean(samples), _DIGITS)
+        self._check_travel(stop, number, scale_mm, theta)
+        t_s = round((time.monotonic() - self.started) * self.machine.devices.speed, 3)
+        self.machine.moved(theta, scale_mm)
+        return Reading(number, t_s, theta, self._direction, scale_mm, stop.position, walk, tuple(samples))
+
+    def stand_at(self, stop: Stop) -> None:
+        """Go there and come to rest.  :raises: as `measure`."""
+        way = self._way(stop)
+        check_way(self.robot, self.joints, self.machine.limits, stop, [self._theta, *way])
+        self.machine.compensation_deg = self._compensation(stop)
+        for target in way:
+            self._go(stop, target)
+        self._pause(self.machine.limits.settle_s)
+
+    # The way --------------------------------------------------------------------------------------
+
+    def _compensation(self, stop: Stop) -> Angles:
+        """What the procedure has taken off this stop's command."""
+        wanted = np.degrees(inverse(self.robot.geometry, np.array([complex(*stop.target_mm)])))[0]
+        return float(wanted[0]) - stop.theta_deg[0], float(wanted[1]) - stop.theta_deg[1]
+
+    def _way(self, stop: Stop) -> list[Angles]:
+        """Straight there when the last motion then has the wanted signs, else by a run-up point."""
+        run_up = self.machine.limits.overshoot_deg
+        target = stop.theta_deg
+        direct = all(
+            not wanted or wanted * (target[joint] - self._theta[joint]) >= run_up
+            for joint, wanted in enumerate(stop.approach)
+        )
+        if direct:
+            return [target]
+        before = (target[0] - stop.approach[0] * run_up, target[1] - stop.approach[1] * run_up)
+        return [before, target]
+
+    # Motion ---------------------------------------------------------------------------------------
+
+    def _go(self, stop: Stop, target: Angles) -> None:
+        """Both joints at once, so timed that they arrive together."""
+        start = self._theta
+        travel = [abs(end - begin) for begin, end in zip(start, target, strict=True)]
+        longest = max(travel)
+        speed = self.machine.limits.speed_deg_s
+        for axis, angle, distance in zip(self.machine.devices.axes, target, travel, strict=True):
+            self.check_cancel()
+            share = speed * distance / longest if longest else speed
+            with self.machine.using(axis):
+                axis.move_to(angle, max(share, min(speed, _SLOWEST_DEG_S)))
+        self._wait_in_position(stop, start, target, longest / speed + _ARRIVAL_MARGIN_S)
+        theta = self._feedback()
+        for joint in (0, 1):
+            if not abs(theta[joint] - target[joint]) <= self.machine.limits.feedback_deg:
+                raise StepFailed(
+                    f"At position {stop.position} joint {joint + 1} stands at {theta[joint]:.4f} deg"
+                    f" instead of {target[joint]:.4f}."
+                )
+        self._direction = (
+            _direction(theta[0] - start[0], self._direction[0]),
+            _direction(theta[1] - start[1], self._direction[1]),
+        )
+        self._theta = theta
+
+    def _wait_in_position(self, stop: Stop, start: Angles, target: Angles, limit_s: float) -> None:
+        deadline = time.monotonic() + limit_s
+        next_look = time.monotonic() + _LOOK_S
+        while True:
+            self.check_cancel()
+            # Both, each time: one that has arrived may still raise an alarm while the other moves.
+            waiting = [axis for axis in self.machine.devices.axes if not self._arrived(stop, axis)]
+            if not waiting:
+                return
+            if time.monotonic() > deadline:
+                names = " and ".join(axis.name for axis in waiting)
+                raise StepFailed(
+                    f"{sentence(names)} did not reach position {stop.position} within {limit_s:.1f} s."
+                )
+            if time.monotonic() > next_look:
+                self._check_corridor(stop, start, target)
+                next_look = time.monotonic() + _LOOK_S
+            self._wait(_POLL_S)
+
+    def _arrived(self, stop: Stop, axis: ServoAxis) -> bool:
+        status = self.machine.status(axis)
+        if status.alarm is not None:
+            raise StepFailed(
+                f"{sentence(axis.name)} shows alarm {status.alarm:X}h on the way to position {stop.position};"
+                " find its cause, the next run resets it."
+            )
+        if not status.enabled:
+            raise StepFailed(f"{sentence(axis.name)} lost its power on the way to position {stop.position}.")
+        return status.in_position and not status.moving
+
+    def _check_corridor(self, stop: Stop, start: Angles, target: Angles) -> None:
+        """Each joint stays between where it came from and where it goes; the scale keeps reading."""
+        theta = self.machine.look().theta_deg
+        room = self.machine.limits.corridor_deg
+        for joint in (0, 1):
+            low, high = sorted((start[joint], target[joint]))
+            if not low - room <= theta[joint] <= high + room:
+                raise StepFailed(
+                    f"Joint {joint + 1} left its way to position {stop.position}: it is at"
+                    f" {theta[joint]:.3f} deg."
+                )
+
+    # Reading --------------------------------------------------------------------------------------
+
+    def _samples(self, stop: Stop, number: int) -> tuple[list[float], Angles]:
+        """Scale samples that agree, and the mean feedback; one second try."""
+        spread = 0.0
+        for _ in range(2):
+            scale: list[float] = []
+            angles: list[Angles] = []
+            for _ in range(self.machine.limits.samples):
+                self.check_cancel()
+                with self.machine.using(self.machine.devices.scale):
+                    scale.append(self.machine.devices.scale.read_mm())
+                angles.append(self._feedback())
+            if not all(math.isfinite(value) for value in scale):
+                raise StepFailed(f"Reading {number} at position {stop.position} is not a number.")
+            spread = max(scale) - min(scale)
+            if spread <= self.machine.limits.scale_spread_mm:
+                return scale, (
+                    round(statistics.fmean(pair[0] for pair in angles), _DIGITS),
+                    round(statistics.fmean(pair[1] for pair in angles), _DIGITS),
+                )
+            self._pause(self.machine.limits.settle_s)
+        raise StepFailed(
+            f"Reading {number} at position {stop.position} does not settle: its samples spread"
+            f" {spread:.4f} mm, {self.machine.limits.scale_spread_mm:g} mm is allowed."
+        )
+
+    def _feedback(self) -> Angles:
+        angles = []
+        for axis in self.machine.devices.axes:
+            with self.machine.using(axis):
+                angles.append(axis.feedback_deg())
+        return angles[0], angles[1]
+
+    def _check_travel(self, stop: Stop, number: int, scale_mm: float, theta: Angles) -> None:
+        """The scale must have moved about as far as the joints say: a rod that slipped does not."""
+        geometry = self.robot.geometry
+        distance = float(abs(forward(geometry, np.radians(np.array([theta])))[0] - geometry.cd))
+        if self._origin is None:
+            self._origin = (scale_mm, distance)
+        doubt = (scale_mm - self._origin[0]) - (distance - self._origin[1])
+        if not abs(doubt) <= self.machine.limits.travel_error_mm:
+            raise StepFailed(
+                f"Reading {number} at position {stop.position} is implausible: the scale moved"
+                f" {doubt:+.1f} mm more than the joints say; check its rod and channel."
+            )
+
+    def _pause(self, machine_s: float) -> None:
+        """Seconds of the machine's own time."""
+        self._wait(machine_s / self.machine.devices.speed)
+
+    def _wait(self, seconds: float) -> None:
+        if self.cancel.wait(seconds):
+            raise Cancelled
+
+    def check_cancel(self) -> None:
+        """:raises Cancelled: stop was pressed."""
+        if self.cancel.is_set():
+            raise Cancelled
+
+
+def _direction(travel_deg: float, before: int) -> int:
+    """Sign of a motion; one too small to have a direction leaves the one before."""
+    if abs(travel_deg) <= _STILL_DEG:
+        return before
+    return 1 if travel_deg > 0 else -1

@@ -1,0 +1,89 @@
+"""Choosing measurement places: greedy start and exchange on the mean predicted position variance.
+
+The criterion is trace(C M): C the posterior covariance of all parameters, M the mean over the
+workspace of J_r' J_r, so it is the mean square position error that the calibration leaves behind.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.records import Complex, Real
+
+MAX_ROUNDS = 20
+STARTS = 12
+"""Random starts beside the greedy one: the exchange ends in local optima."""
+
+
+def choose(
+    rows: Real, places: Complex, information: Real, weight: Real, count: int, apart_mm: float
+) -> list[int]:
+    """Indices of `count` candidates that serve the position error best, of several starts.
+
+    rows (N, P) whitened Jacobian of each candidate reading, places (N,) where it is, information
+    (P, P) what is known beforehand (non-singular), weight (P, P) M; places are kept `apart_mm` from
+    each other.
+
+    :raises ValueError: fewer candidates that far apart than asked for.
+    """
+    problem = _Problem(rows, information, weight, np.abs(places[:, None] - places[None, :]) < apart_mm)
+    rng = np.random.default_rng(0)
+    starts = [problem.greedy(count)] + [problem.scattered(count, rng) for _ in range(STARTS)]
+    complete = [problem.exchange(start) for start in starts if len(start) == count]
+    if not complete:
+        raise ValueError(f"{count} places {apart_mm} mm apart were not found")
+    return min(complete, key=problem.criterion)
+
+
+@dataclass(frozen=True)
+class _Problem:
+    rows: Real
+    information: Real
+    weight: Real
+    near: NDArray[np.bool_]
+    """(N, N) pairs too close to be chosen together."""
+
+    def criterion(self, chosen: list[int]) -> float:
+        return float(np.trace(self._covariance(chosen) @ self.weight))
+
+    # a start that leaves itself no room ends short and is passed over
+
+    def greedy(self, count: int) -> list[int]:
+        chosen: list[int] = []
+        while len(chosen) < count and self._allowed(chosen).any():
+            chosen.append(self._best(chosen))
+        return chosen
+
+    def scattered(self, count: int, rng: np.random.Generator) -> list[int]:
+        chosen: list[int] = []
+        while len(chosen) < count and self._allowed(chosen).any():
+            chosen.append(int(rng.choice(np.flatnonzero(self._allowed(chosen)))))
+        return chosen
+
+    def exchange(self, start: list[int]) -> list[int]:
+        """Replace one place after the other by the best for its slot until none changes."""
+        chosen = list(start)
+        for _ in range(MAX_ROUNDS):
+            before = list(chosen)
+            for slot in range(len(chosen)):
+                chosen[slot] = self._best(chosen[:slot] + chosen[slot + 1 :])
+            if chosen == before:
+                break
+        return chosen
+
+    def _covariance(self, chosen: list[int]) -> Real:
+        return np.asarray(np.linalg.inv(self.information + self.rows[chosen].T @ self.rows[chosen]))
+
+    def _best(self, chosen: list[int]) -> int:
+        """The further candidate whose reading lowers trace(C M) most (rank-one update)."""
+        covariance = self._covariance(chosen)
+        spread = self.rows @ covariance
+        gain = np.einsum("ni,ni->n", spread @ self.weight, spread)
+        gain /= 1.0 + np.einsum("ni,ni->n", spread, self.rows)
+        return int(np.argmax(np.where(self._allowed(chosen), gain, -np.inf)))
+
+    def _allowed(self, chosen: list[int]) -> NDArray[np.bool_]:
+        return np.asarray(~self.near[chosen].any(axis=0))

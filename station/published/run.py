@@ -1,0 +1,171 @@
+"""One calibration by the published method: passes, compensation, stop rule, uncertainty.
+
+The paper prints no uncertainty.  Here the noise of the readings and the tolerances of the geometry
+that the four-unknown model leaves out are carried through the same matrices to the result.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from station.fitting import common_sd_deg, position_error_summary
+from station.five_bar import KEPT, FiveBar, Geometry, Robot, distance_jacobian, pose
+from station.published.method import Identified, compensation_accuracy, identification_matrix, identify
+from station.records import CalibrationResult, Quantity, Reading, Real, from_readings
+
+MU_0_DEG = 0.1
+"""Threshold of eq. 32 (section 6.2)."""
+MAX_PASSES = 8
+LIMIT_SDS = 3.5
+"""A residual beyond this many standard deviations fails the run."""
+
+
+class PublishedRun:
+    """The state between two passes: what has been identified and compensated so far."""
+
+    def __init__(self, robot: Robot) -> None:
+        self.robot = robot
+        self.total: Real = np.zeros(2)
+        """(2,) rad, the compensation value of eq. 33."""
+        self.drm = 0j
+        self.mu_deg: float | None = None
+        self._steps: list[Identified] = []
+        self._iterations: list[dict[str, float | int | None]] = []
+        self._readings: list[Reading] = []
+        self._raw_rms: float | None = None
+
+    @property
+    def converged(self) -> bool:
+        return self.mu_deg is not None and self.mu_deg < MU_0_DEG
+
+    def absorb(self, readings: list[Reading]) -> None:
+        """Identify from the readings of one pass and add to the compensation (eq. 29, 30, 33)."""
+        measurements = from_readings(readings)
+        geometry = self.robot.geometry
+        if self._raw_rms is None:
+            misfit = measurements.distance - pose(geometry, measurements.theta).rho
+            self._raw_rms = float(np.std(misfit))
+        step = identify(geometry, measurements.theta + self.total, measurements.distance, self.drm)
+        self.total = self.total + step.dtheta
+        self.drm += step.drm
+        if self._steps:
+            self.mu_deg = float(np.degrees(compensation_accuracy(step.dtheta, self._steps[-1].dtheta)))
+        self._steps.append(step)
+        self._readings = readings
+        increment, total = np.degrees(step.dtheta), np.degrees(self.total)
+        self._iterations.append(
+            {
+                "pass": len(self._steps),
+                "dtheta1_deg": float(increment[0]),
+                "dtheta2_deg": float(increment[1]),
+                "total1_deg": float(total[0]),
+                "total2_deg": float(total[1]),
+                "mu_deg": self.mu_deg,
+                "condition": step.condition,
+            }
+        )
+
+    def result(self) -> CalibrationResult:
+        """Zero offsets with uncertainty, before and after, and a verdict that fails closed."""
+        measurements = from_readings(self._readings)
+        mechanism = FiveBar(self.robot, measurements)
+        p = np.array([q.prior_mean for q in mechanism.parameters])
+        p[:2], p[10], p[11] = self.total, self.drm.real, self.drm.imag
+        spread, reading_sd = self._propagate(mechanism)
+        covariance = spread @ spread.T
+        geometry = self.robot.geometry
+        known = Geometry(geometry.e, geometry.L, geometry.l, geometry.cd + self.drm)
+        residual = measurements.distance - pose(known, measurements.theta + self.total).rho
+        residual -= residual.mean()
+        limit = LIMIT_SDS * reading_sd
+        sd = np.sqrt(np.diag(covariance))
+        misfit = self._misfit(residual, limit)
+        reason = self._fault(residual, sd) or misfit
+        before, jacobian = mechanism.position_errors(p)
+        compensated = p.copy()
+        compensated[:2] = 0.0
+        after, after_jacobian = mechanism.position_errors(compensated)
+        matrix = identification_matrix(geometry, measurements.theta + self.total, self.drm)
+        sigma = np.linalg.svd(matrix, compute_uv=False)
+        return CalibrationResult(
+            verdict="fail" if reason else "pass",
+            reason=reason or f"converged in {len(self._steps)} passes, mu = {self.mu_deg:.4f} deg",
+            method="published",
+            zero_offsets=tuple(
+                Quantity(f"dtheta{i + 1}", float(np.degrees(self.total[i])), float(np.degrees(sd[i])), "deg")
+                for i in range(2)
+            ),
+            parameters=(
+                Quantity("rMx", self.drm.real, float(sd[10]), "mm"),
+                Quantity("rMy", self.drm.imag, float(sd[11]), "mm"),
+            ),
+            weak_direction={
+                "singular_ratio": float(sigma[-1] / sigma[0]),
+                "text": "both arms together with a sideways error of the mechanism",
+                "sd_deg": common_sd_deg(covariance),
+                "remedy": "measure the mechanism's mounting error, or use the plan `full`",
+            },
+            before={
+                "reading_rms_mm": self._raw_rms,
+                "predicted_position_error_mm": position_error_summary(before, jacobian, covariance),
+            },
+            after={
+                "reading_rms_mm": float(np.sqrt(np.mean(residual**2))),
+                "predicted_position_error_mm": position_error_summary(after, after_jacobian, covariance),
+            },
+            iterations=tuple(self._iterations),
+            residuals=tuple(
+                {
+                    "reading": r.reading,
+                    "position": r.position,
+                    "residual_mm": float(value),
+                    "limit_mm": float(bound),
+                }
+                for r, value, bound in zip(self._readings, residual, limit, strict=True)
+            ),
+            lack_of_fit=misfit,
+        )
+
+    def _propagate(self, mechanism: FiveBar) -> tuple[Real, Real]:
+        """Root of the covariance of all parameters (P, K + 8), and the sd of each residual (K,).
+
+        Columns are unit normals: the K readings' noise, then the eight geometric deviations, which the
+        four-unknown model takes to be zero and which therefore leak into its unknowns.
+        """
+        step = self._steps[-1]
+        theta = mechanism.theta + self.total
+        geometry = self.robot.geometry
+        jacobian = distance_jacobian(geometry, pose(geometry, theta))
+        tolerance = np.array([q.prior_sd for q in mechanism.parameters[2:10]])
+        readings = np.hstack([np.diag(mechanism.row_sd), jacobian[:, 2:10] * tolerance])
+        spread = np.zeros((len(mechanism.parameters), readings.shape[1]))
+        leaked = step.gain @ readings
+        spread[list(KEPT)] = leaked
+        spread[2:10, -8:] = np.diag(tolerance)
+        explained = jacobian[:, KEPT] @ leaked
+        left = readings - explained
+        left -= left.mean(axis=0)
+        return spread, np.sqrt(np.sum(left**2, axis=1))
+
+    def _fault(self, residual: Real, sd: Real) -> str:
+        """Why the passes came to nothing; empty when they converged to numbers that can be."""
+        if not self.converged:
+            return f"mu did not fall below {MU_0_DEG} deg in {len(self._steps)} passes"
+        if not (np.isfinite(sd[:2]).all() and np.isfinite(self.total).all() and np.isfinite(residual).all()):
+            return "the result is not a finite number"
+        beyond = np.degrees(np.abs(self.total)).max()
+        if beyond > 4.0 * self.robot.tolerances.zero_offset_deg:
+            return (
+                f"a zero offset of {beyond:.1f} deg is impossible; check the mechanism and the drives' zero"
+            )
+        return ""
+
+    def _misfit(self, residual: Real, limit: Real) -> str:
+        """The reading that the model accounts for least, if it is beyond its limit; else empty."""
+        worst = int(np.argmax(np.abs(residual) / limit))
+        if abs(residual[worst]) > limit[worst]:
+            return (
+                f"reading {self._readings[worst].reading} at {self._readings[worst].position} is off by "
+                f"{residual[worst] * 1e3:.1f} um, limit {limit[worst] * 1e3:.1f} um"
+            )
+        return ""

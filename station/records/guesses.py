@@ -1,0 +1,47 @@
+"""What a log did not record and its rows still tell: how each joint came, and which poses are one place."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from station.records.measurements import Measurements
+from station.records.types import Index, Real
+
+STILL_RAD = 1e-4
+"""A joint that moved less between two rows was only holding its place."""
+SAME_POSE_DEG = 0.02
+"""Poses that agree so well in all joints are one place: an arm's drives do not stand still better."""
+
+
+def with_guesses(m: Measurements) -> Measurements:
+    """The same readings, with approaches and places guessed where the file names none; marked as guessed."""
+    guessed = []
+    if not m.approach.any():
+        m = replace(m, approach=_approaches(m.theta))
+        guessed.append("approach")
+    if len(np.unique(m.position)) == len(m):
+        m = replace(m, position=_places(m.theta))
+        guessed.append("position")
+    return replace(m, guessed=tuple(guessed))
+
+
+def guesses_in_words(m: Measurements) -> str:
+    """What was guessed, for people."""
+    return f"Not recorded, but guessed from the rows themselves: {' and '.join(m.guessed)}."
+
+
+def _approaches(theta: Real) -> np.ndarray:
+    """(K, n) sense of each joint's last motion in the order of the rows; 0 before the first."""
+    way = np.diff(theta, axis=0, prepend=theta[:1])
+    moved = np.where(np.abs(way) < STILL_RAD, 0.0, np.sign(way))
+    # a joint that stood still keeps the sense it came to rest with
+    last = np.maximum.accumulate(np.where(moved != 0.0, np.arange(len(theta))[:, None], 0), axis=0)
+    return np.take_along_axis(moved, last, axis=0).astype(np.int8)
+
+
+def _places(theta: Real) -> Index:
+    """(K,) index of the place, equal for poses that agree."""
+    cells = np.round(np.degrees(theta) / SAME_POSE_DEG).astype(np.int64)
+    return np.unique(cells, axis=0, return_inverse=True)[1].reshape(-1).astype(np.intp)

@@ -1,0 +1,104 @@
+"""Readings as arrays: what identification and diagnosis work on.
+
+One row a reading, whatever it came from: a file, a run in the store or a simulated walk.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Sequence
+from dataclasses import dataclass, fields, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.records.reading import Reading
+from station.records.types import Index, Real
+
+
+@dataclass(frozen=True)
+class Measurements:
+    """K readings of a machine with n joints; arrays share their first axis."""
+
+    ids: tuple[int | str, ...]
+    t_s: Real
+    """(K,) seconds since start."""
+    theta: Real
+    """(K, n) joint angles from drive feedback, nominal frame, rad."""
+    approach: NDArray[np.int8]
+    """(K, n) sign of each joint's last motion, 0 unknown."""
+    distance: Real
+    """(K,) head reading or range, mm."""
+    position: Index
+    """(K,) index of the place; equal for repeats and other approaches of one place."""
+    mount: Index
+    """(K,) index into `mounts`."""
+    samples: Index
+    """(K,) how many samples of the head each distance is the mean of."""
+    mounts: tuple[str, ...] = ("",)
+    temperature_c: Real | None = None
+    payload_kg: Real | None = None
+    tracker: Real | None = None
+    """(K, 2 or 3) independent position, mm."""
+    guessed: tuple[str, ...] = ()
+    """What was not recorded but worked out from the order of the rows: "approach", "position"."""
+    came_from: Real | None = None
+    """(K, n + 1) joint angles and distance of the reading before, NaN before the first; filled in when
+    left out, and kept by `take`, so that leaving a reading out does not change another's history."""
+
+    def __post_init__(self) -> None:
+        if self.came_from is None:
+            here = np.column_stack([self.theta, self.distance])
+            before = np.vstack([np.full((1, here.shape[1]), np.nan), here[:-1]])
+            object.__setattr__(self, "came_from", before)
+
+    def __len__(self) -> int:
+        return len(self.ids)
+
+    @property
+    def joints(self) -> int:
+        return int(self.theta.shape[1])
+
+    def take(self, rows: NDArray[np.bool_] | Index) -> Measurements:
+        """The same measurements with only these rows (mask or indices)."""
+        index = np.arange(len(self))[rows]
+        taken: dict[str, Any] = {
+            f.name: value[index]
+            for f in fields(self)
+            if isinstance(value := getattr(self, f.name), np.ndarray)
+        }
+        return replace(self, ids=tuple(self.ids[k] for k in index), **taken)
+
+    @property
+    def repeat_group(self) -> Index:
+        """(K,) index of readings alike in place, approach and mount: their scatter is pure error."""
+        keys = np.column_stack([self.position, self.approach, self.mount])
+        return np.unique(keys, axis=0, return_inverse=True)[1].reshape(-1)
+
+
+def number(labels: Sequence[Hashable]) -> tuple[Index, tuple[Hashable, ...]]:
+    """Labels as indices in order of first appearance, and the distinct labels."""
+    order = {label: i for i, label in enumerate(dict.fromkeys(labels))}
+    return np.array([order[label] for label in labels], dtype=np.intp), tuple(order)
+
+
+def from_readings(readings: Sequence[Reading]) -> Measurements:
+    """Readings of one run as the orchestrator and the store hold them."""
+    mount, mounts = number([r.mount or "" for r in readings])
+
+    def optional(values: list[float | None]) -> Real | None:
+        return None if any(v is None for v in values) else np.array(values, dtype=float)
+
+    return Measurements(
+        ids=tuple(r.reading for r in readings),
+        t_s=np.array([r.t_s for r in readings]),
+        theta=np.radians([r.theta_deg for r in readings]),
+        approach=np.array([r.approach for r in readings], dtype=np.int8),
+        distance=np.array([r.scale_mm for r in readings]),
+        position=number([r.position for r in readings])[0],
+        mount=mount,
+        samples=np.array([max(len(r.samples_mm), 1) for r in readings], dtype=np.intp),
+        mounts=tuple(str(m) for m in mounts),
+        temperature_c=optional([r.temperature_c for r in readings]),
+        payload_kg=optional([r.payload_kg for r in readings]),
+    )

@@ -1,0 +1,17 @@
+"""Array types and joint angles that every package uses."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Complex = NDArray[np.complexfloating]
+
+
+Real = NDArray[np.floating]
+
+
+Angles = tuple[float, float]
+
+
+Index = NDArray[np.intp]

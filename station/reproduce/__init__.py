@@ -1,1 +1,0 @@
-"""`station reproduce`: the paper's tables and figures computed here, the published method beside ours."""

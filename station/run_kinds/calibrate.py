@@ -1,0 +1,84 @@
+"""A calibration as a generator: yields walks, is sent their readings, returns the result.
+
+A procedure never touches a device; `station.service.orchestrator` walks, stores and sends.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from station.errors import InputRefused
+from station.five_bar import FiveBar, Robot
+from station.identification import (
+    Identification,
+    Memory,
+    fresh_stops,
+    identify,
+    memory_of,
+    not_identified,
+    result_of,
+)
+from station.plans import make_plan
+from station.published import MAX_PASSES, PublishedRun
+from station.records import PlanName, Procedure, Reading, Remembered, Walk, from_readings
+from station.run_kinds.diagnose import diagnostic
+
+DAYS_PER_YEAR = 365.25
+
+
+def start_procedure(plan: PlanName, robot: Robot, memory: Remembered | None = None) -> Procedure:
+    """The procedure of a plan, not yet started.
+
+    :param memory: what earlier runs of this robot know; the published method has no use for it, and
+        what looks for a cause takes nothing for known.
+    :raises InputRefused: the plan cannot be made for this robot.
+    """
+    if plan == "paper":
+        return published(robot)
+    return diagnostic(robot) if plan == "diagnostic" else measured_and_verified(plan, robot, memory)
+
+
+def published(robot: Robot) -> Procedure:
+    """Section 4 and 5: measure, identify, compensate, again until mu < mu_0 (eq. 32, 33)."""
+    run = PublishedRun(robot)
+    for number in range(1, MAX_PASSES + 1):
+        stops = make_plan("paper", robot, run.total).stops
+        readings: list[Reading] = yield Walk(f"Measuring, pass {number}", number, stops)
+        run.absorb(readings)
+        if run.converged:
+            break
+    return run.result()
+
+
+def measured_and_verified(plan: PlanName, robot: Robot, memory: Remembered | None = None) -> Procedure:
+    """The measurement model on a chosen plan, then fresh places that took no part in the fit."""
+    readings: list[Reading] = yield Walk("Measuring", 1, make_plan(plan, robot).stops)
+    age_days = memory.age_days if memory else 0.0
+    try:
+        fit = fit_of(robot, readings, memory, age_days)
+    except InputRefused as refusal:
+        return not_identified(str(refusal))
+    fresh: list[Reading] = yield Walk("Verifying at fresh places", 2, fresh_stops(fit))
+    result = replace(result_of(fit, readings, fresh), lasting=memory_of(fit).as_json())
+    if memory is None or fit.memory is None:
+        return result
+    use = {"from_calibration": memory.calibration_id, "age_days": age_days}
+    return replace(result, memory={**fit.memory.as_json(), **use})
+
+
+def fit_of(
+    robot: Robot, readings: list[Reading], memory: Remembered | None, age_days: float
+) -> Identification:
+    """The measurement model on readings, with what is remembered as it was at that age.
+
+    :raises InputRefused: as `identify`.
+    """
+    measurements = from_readings(readings)
+    if memory is None:
+        return identify(robot, measurements)
+    parameters = FiveBar(robot, measurements).parameters
+    return identify(
+        robot,
+        measurements,
+        Memory.from_json(memory.memory).aged(parameters, age_days / DAYS_PER_YEAR),
+    )

@@ -1,0 +1,73 @@
+"""A measurement file made elsewhere becomes a finished run: its readings kept, its residual traced."""
+
+from __future__ import annotations
+
+import hashlib
+from dataclasses import dataclass, replace
+from typing import Any
+
+from station.errors import InputRefused
+from station.records import CalibrationRequest, Reading, Submitted, parse_readings
+from station.run_kinds.diagnose import diagnosed, result_of
+from station.store import Store
+
+MOST_READINGS = 2000
+"""Of both files together.  The loop takes about a second for these, and its time grows with their square."""
+
+
+@dataclass(frozen=True, slots=True)
+class Upload:
+    """A measurement file as it was given."""
+
+    name: str
+    content: bytes
+
+    @property
+    def sha256(self) -> str:
+        return hashlib.sha256(self.content).hexdigest()
+
+
+def import_dataset(
+    store: Store,
+    request: CalibrationRequest,
+    learned: Upload,
+    fresh: Upload | None = None,
+    *,
+    idempotency_key: str | None = None,
+) -> Submitted:
+    """Diagnose the readings of a file and keep both; `fresh` ones, taken afterwards, confirm.
+
+    Nothing is stored before everything is known, so that a refusal leaves nothing behind.
+
+    :raises InputRefused: a malformed file, or readings that are not enough to judge.
+    :raises KeyReused: the key came with another request or other files.
+    """
+    files = {"file": learned, "fresh": fresh}
+    request = replace(
+        request,
+        metadata={k: {"name": f.name, "sha256": f.sha256} for k, f in files.items() if f is not None},
+    )
+    body_hash = hashlib.sha256(repr(request).encode()).digest()[:16]
+    if idempotency_key is not None:
+        known = store.find_key(idempotency_key, body_hash)
+        if known is not None:
+            return Submitted(known, created=False)
+    robot = store.robot_or_nominal(request.robot_serial)
+    readings = parse_readings(learned.content, source=learned.name)
+    later: list[Reading] = []
+    if fresh is not None:
+        later = parse_readings(fresh.content, walk=2, after=readings[-1].reading, source=fresh.name)
+    if len(readings) + len(later) > MOST_READINGS:
+        raise InputRefused(
+            f"{learned.name}: {len(readings) + len(later)} readings with the fresh ones; at most "
+            f"{MOST_READINGS} are diagnosed at once, so give a part of them."
+        )
+    result = result_of(diagnosed(robot, [*readings, *later]), readings, _described(learned, len(readings)))
+    created = store.add_run(
+        request, robot, [*readings, *later], result, key=idempotency_key, body_hash=body_hash
+    )
+    return Submitted(created, created=True)
+
+
+def _described(file: Upload, readings: int) -> dict[str, Any]:
+    return {"file": file.name, "readings": readings, "sha256": file.sha256}

@@ -1,0 +1,12 @@
+"""The serial arm: Denavit-Hartenberg links with six errors each, and its robot file."""
+
+from __future__ import annotations
+
+from station.serial_arm.mechanism import SerialArm
+from station.serial_arm.robot_file import ARM_MODEL, Arm
+
+__all__ = [
+    "ARM_MODEL",
+    "Arm",
+    "SerialArm",
+]

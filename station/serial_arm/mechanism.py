@@ -1,0 +1,233 @@
+"""A serial arm as a mechanism: joint angles in, tracker positions or distances out, with derivatives.
+
+Position of the target: s_k = t + R p(theta_k + dtheta; links, tool).  Distance from the instrument's origin,
+which the base frame sees at o: s_k = |p(theta_k + dtheta; links, tool) - o|.  Base pose and tool point belong
+to the fit; where they start comes from the readings themselves.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from station.errors import InputRefused
+from station.fitting import NotConvergedError, Prior, solve
+from station.mechanism import Conditions, Observation, Parameter, Reference, temperature_rise
+from station.records import Index, Measurements, Real
+from station.serial_arm.dh import LINK_ERRORS, Reach, reach
+from station.serial_arm.robot_file import Arm
+
+DEGREES = 180.0 / np.pi
+MISFIT = 0.03
+"""Misfit over the arm's length beyond which angles and positions are not of one machine."""
+PLACED = ("tool", "base", "origin")
+"""What the names of parameters begin with that belong to the place of arm and target, not to the arm."""
+_OTHERS = LINK_ERRORS[1:]
+"""Errors of a link beside the zero offset of its joint."""
+
+
+class SerialArm:
+    """Parameters: zero offsets of the n joints, five more errors a link, tool point, pose of the base.
+
+    With distances only, the pose of the base is the instrument's origin (three numbers): turning the whole
+    arm about that origin changes no distance.
+    """
+
+    needs_repeats = False
+
+    def __init__(self, robot: Arm, measurements: Measurements, frame: Real | None = None) -> None:
+        """`frame` (3, 3): orientation of the base that its three turns count from; found when left out."""
+        self.robot = robot
+        self.measurements = measurements
+        self.theta = measurements.theta
+        self.by_range = measurements.tracker is None
+        self._links = robot.links
+        self._frame = frame
+        if measurements.tracker is None:
+            self.measured: Real = measurements.distance
+            self.reading_of_row: Index = np.arange(len(measurements))
+        else:
+            self.measured = measurements.tracker.ravel()
+            self.reading_of_row = np.repeat(np.arange(len(measurements)), 3)
+
+    @cached_property
+    def parameters(self) -> tuple[Parameter, ...]:
+        """The unknowns with the priors of the robot file."""
+        n, t = self.robot.joints, self.robot.tolerances
+        angle = ("deg", 0.0, np.radians(t.angle_deg), DEGREES)
+        length = ("mm", 0.0, t.length_mm)
+        zero_sd = np.radians(t.zero_offset_deg)
+        out = [Parameter(f"dtheta{i + 1}", "deg", 0.0, zero_sd, DEGREES) for i in range(n)]
+        for i in range(n):
+            out += [
+                Parameter(f"{name}{i + 1}", *(angle if name in ("alpha", "beta") else length))
+                for name in _OTHERS
+            ]
+        out += [Parameter(f"tool_{axis}", "mm", 0.0, self.robot.tool_sd_mm) for axis in "xyz"]
+        if self.by_range:
+            out += [Parameter(f"origin_{axis}", "mm", 0.0, np.inf) for axis in "xyz"]
+        else:
+            out += [Parameter(f"base_{axis}", "mm", 0.0, np.inf) for axis in "xyz"]
+            out += [Parameter(f"base_r{axis}", "deg", 0.0, np.inf, DEGREES) for axis in "xyz"]
+        return tuple(out)
+
+    @cached_property
+    def row_sd(self) -> Real:
+        """(R,) the instrument's and the arm's own repeatability."""
+        return np.full(len(self.measured), self.robot.reading_sd_mm)
+
+    @cached_property
+    def start(self) -> Real:
+        """(P,) nominal links; the base where the readings put it: by Kabsch's rotation, or by trilateration.
+
+        :raises InputRefused: no pose of the base brings angles and readings together.
+        """
+        p = np.array([q.prior_mean for q in self.parameters])
+        at = self._reach(p, self.theta).end
+        if self.by_range:
+            p[-3:] = _trilaterated(at, self.measured)
+        else:
+            p[-6:-3] = self.measured.reshape(-1, 3).mean(axis=0) - self._base_frame @ at.mean(axis=0)
+        return p
+
+    @property
+    def simplest(self) -> tuple[str, tuple[str, ...]]:
+        """Nominal links: only tool point and base are unknown."""
+        return "nominal", tuple(p.name for p in self.parameters if p.name.split("_")[0] in PLACED)
+
+    def of(self, measurements: Measurements) -> SerialArm:
+        """The same arm under other readings, its base where it was."""
+        return SerialArm(self.robot, measurements, None if self.by_range else self._base_frame)
+
+    def check(self) -> None:
+        """:raises InputRefused: readings that cannot be of this arm."""
+        m = self.measurements
+        if np.abs(np.degrees(m.theta)).max() < 2.0 * np.pi:
+            raise InputRefused(
+                f"Reading {m.ids[0]}, columns theta1_deg to theta{m.joints}_deg: "
+                "the angles look like radians; give degrees."
+            )
+        off, size = self._nominal_misfit(), self._length
+        if not off < MISFIT * size:
+            raise InputRefused(
+                f"Angles and readings do not belong together: half of the readings are {off:.0f} mm or more "
+                f"off an arm of {size:.0f} mm; check the robot file (a_mm, d_mm, alpha_deg, offset_deg, "
+                "convention), the unit of the readings, and sign and order of the joints."
+            )
+
+    def _nominal_misfit(self) -> float:
+        """Median misfit of the rows, mm, nominal links with the best base and tool."""
+        start = self.start
+        free = np.flatnonzero([p.name in self.simplest[1] for p in self.parameters])
+
+        def residuals(q: Real) -> tuple[Real, Real]:
+            p = start.copy()
+            p[free] = q
+            at = self.observe(p, self.theta)
+            return at.value - self.measured, at.by_parameter[:, free]
+
+        try:
+            left = solve(residuals, start[free], Prior(start[free], np.zeros((0, len(free))))).residual
+        except NotConvergedError:
+            left = residuals(start[free])[0]
+        return float(np.median(np.abs(left)))
+
+    def observe(self, p: Real, theta: Real) -> Observation:
+        """(R,) positions or distances with derivatives."""
+        at = self._reach(p, theta)
+        n = self.robot.joints
+        count = len(theta)
+        joints = at.by_link[:, :, :, 0]
+        own = np.concatenate([joints, at.by_link[:, :, :, 1:].reshape(count, 3, -1), at.by_tool], axis=2)
+        if self.by_range:
+            lam = at.end - p[-3:]
+            rho = np.linalg.norm(lam, axis=1)
+            along = lam / rho[:, None]
+            by_parameter = np.hstack([np.einsum("ki,kip->kp", along, own), -along])
+            return Observation(rho, by_parameter, by_parameter[:, :n])
+        frame, axes = self._turned(p[-3:])
+        turned = np.einsum("ij,kjp->kip", frame, own)
+        arm = at.end @ frame.T
+        by_parameter = np.concatenate(
+            [
+                turned,
+                np.broadcast_to(np.eye(3), (count, 3, 3)),
+                np.stack([np.cross(axis, arm) for axis in axes], axis=2),
+            ],
+            axis=2,
+        ).reshape(3 * count, -1)
+        return Observation((p[-6:-3] + arm).ravel(), by_parameter, by_parameter[:, :n])
+
+    def conditions(self, p: Real, reference: Reference, *, first: bool) -> Conditions:
+        """Under what the readings were taken; there is no slider, and `first` makes no difference."""
+        m = self.measurements
+        theta = m.theta + p[: self.robot.joints]
+        unknown = np.zeros(len(m))
+        links = self._links
+        lengths = {f"a{i + 1}": a for i, a in enumerate(links.a)} | {
+            f"d{i + 1}": d for i, d in enumerate(links.d)
+        }
+        return Conditions(
+            t_s=m.t_s,
+            theta=theta,
+            drive_angle=m.theta,
+            approach=m.approach.astype(float),
+            travel=self.observe(p, m.theta).value if self.by_range else unknown,
+            slider_direction=unknown,
+            slider_net=unknown,
+            temperature_rise=temperature_rise(m, reference),
+            payload_kg=m.payload_kg,
+            lengths={name: float(mm) for name, mm in lengths.items() if mm},
+            pull=np.zeros_like(theta),
+            load=self._load(theta),
+        )
+
+    def places(self, p: Real) -> Real:
+        """(K, 3) where the target stood in the frame of the base, mm."""
+        return self._reach(p, self.theta).end
+
+    @property
+    def _length(self) -> float:
+        return float(np.sum(np.abs(self._links.a)) + np.sum(np.abs(self._links.d)))
+
+    def _reach(self, p: Real, theta: Real) -> Reach:
+        n = self.robot.joints
+        errors = np.column_stack([p[:n], p[n : 6 * n].reshape(n, 5)])
+        return reach(self._links, errors, np.array(self.robot.tool_mm) + p[6 * n : 6 * n + 3], theta)
+
+    @cached_property
+    def _base_frame(self) -> Real:
+        """(3, 3) orientation of the base, within what the unknown tool point lets it be seen."""
+        if self._frame is not None:
+            return self._frame
+        nominal = np.zeros(6 * self.robot.joints + 3)
+        at = self._reach(nominal, self.theta).end
+        seen = self.measured.reshape(-1, 3)
+        turn, _ = Rotation.align_vectors(seen - seen.mean(axis=0), at - at.mean(axis=0))
+        return np.asarray(turn.as_matrix())
+
+    def _turned(self, turns: Real) -> tuple[Real, list[Real]]:
+        """Base orientation Rx Ry Rz R_0 at turns (3,), rad, and the axis of each of the three."""
+        x, y, z = (Rotation.from_euler(axis, turns[k]).as_matrix() for k, axis in enumerate("xyz"))
+        return x @ y @ z @ self._base_frame, [np.eye(3)[0], x[:, 1], (x @ y)[:, 2]]
+
+    def _load(self, theta: Real) -> tuple[Real, ...]:
+        """(K, q) a joint: moment of a unit weight at each origin beyond it, 1 at the arm's full length."""
+        at = self._reach(np.zeros(6 * self.robot.joints + 3), theta)
+        down = np.array(self.robot.gravity) / np.linalg.norm(self.robot.gravity)
+        out = []
+        for i in range(self.robot.joints):
+            beyond = np.concatenate([at.origins[:, i + 1 :], at.end[:, None]], axis=1) - at.pivots[:, [i]]
+            moment = np.einsum("kj,kqj->kq", at.axes[:, i], np.cross(beyond, down))
+            out.append(moment / self._length)
+        return tuple(out)
+
+
+def _trilaterated(at: Real, distance: Real) -> Real:
+    """(3,) the point that is at distances (K,) from places at (K, 3): |a|^2 - d^2 = 2 a.o - |o|^2."""
+    centre = at.mean(axis=0)
+    a = at - centre
+    rows = np.column_stack([2.0 * a, -np.ones(len(a))])
+    return np.asarray(np.linalg.lstsq(rows, np.sum(a * a, axis=1) - distance**2, rcond=None)[0][:3] + centre)

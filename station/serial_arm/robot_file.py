@@ -1,0 +1,169 @@
+"""The robot file of a serial arm: Denavit-Hartenberg links, tolerances, what is measured and how well."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Annotated, Any, Literal
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from station.errors import InputRefused
+from station.records import Columns
+from station.serial_arm.dh import Convention, Links
+
+Triple = tuple[float, float, float]
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+ARM_MODEL = "serial-dh"
+
+
+@dataclass(frozen=True)
+class ArmTolerances:
+    """Standard deviations of what is not known better."""
+
+    zero_offset_deg: float = 1.0
+    length_mm: float = 1.0
+    angle_deg: float = 0.5
+
+
+@dataclass(frozen=True)
+class Arm:
+    """One serial arm under an instrument that follows a target on its tool."""
+
+    serial: str
+    a: tuple[float, ...]
+    d: tuple[float, ...]
+    alpha_deg: tuple[float, ...]
+    offset_deg: tuple[float, ...]
+    convention: Convention = "standard"
+    tolerances: ArmTolerances = field(default_factory=ArmTolerances)
+    tool_mm: Triple = (0.0, 0.0, 0.0)
+    tool_sd_mm: float = 300.0
+    reading_sd_mm: float = 0.05
+    """Of one coordinate or distance: instrument and repeatability of the arm together."""
+    gravity: Triple = (0.0, 0.0, -1.0)
+    """Its direction in the frame of the base."""
+
+    @classmethod
+    def from_dict(cls, data: dict[str, Any], *, source: str = "robot") -> Arm:
+        """From the robot file's sections.  :raises InputRefused: with section and key."""
+        try:
+            return ArmFile.model_validate(data).to_arm(source)
+        except ValidationError as error:
+            first = error.errors()[0]
+            where = ".".join(str(part) for part in first["loc"])
+            raise InputRefused(f"{source}: [{where}] {first['msg']} (given: {first['input']!r}).") from error
+
+    def to_json(self) -> dict[str, Any]:
+        """The sections of the robot file; `from_dict` reads them back."""
+        t = self.tolerances
+        return {
+            "robot": {
+                "serial": self.serial,
+                "model": ARM_MODEL,
+                "convention": self.convention,
+                "a_mm": self.a,
+                "d_mm": self.d,
+                "alpha_deg": self.alpha_deg,
+                "offset_deg": self.offset_deg,
+                "gravity": self.gravity,
+                "tolerance": {
+                    "zero_offset_deg": t.zero_offset_deg,
+                    "length_mm": t.length_mm,
+                    "angle_deg": t.angle_deg,
+                },
+            },
+            "tool": {"position_mm": self.tool_mm, "sd_mm": self.tool_sd_mm},
+            "instrument": {"sd_mm": self.reading_sd_mm},
+        }
+
+    @property
+    def joints(self) -> int:
+        return len(self.a)
+
+    @property
+    def links(self) -> Links:
+        """Nominal links, mm and rad."""
+        return Links(
+            np.array(self.a),
+            np.array(self.d),
+            np.radians(self.alpha_deg),
+            np.radians(self.offset_deg),
+            self.convention,
+        )
+
+    @property
+    def columns(self) -> Columns:
+        """What its measurement file holds."""
+        return Columns(
+            joints=self.joints,
+            distance="range_mm",
+            tracker=("tracker_x_mm", "tracker_y_mm", "tracker_z_mm"),
+            either=True,
+            time_ordered=False,
+        )
+
+
+class _Section(BaseModel):
+    model_config = ConfigDict(extra="forbid")
+
+
+class _ToleranceSection(_Section):
+    zero_offset_deg: Positive = ArmTolerances.zero_offset_deg
+    length_mm: Positive = ArmTolerances.length_mm
+    angle_deg: Positive = ArmTolerances.angle_deg
+
+
+class _RobotSection(_Section):
+    serial: Annotated[str, Field(min_length=1)] = "unnamed"
+    model: Literal["serial-dh"]
+    convention: Convention = "standard"
+    a_mm: Annotated[list[Finite], Field(min_length=2)]
+    d_mm: list[Finite]
+    alpha_deg: list[Finite]
+    offset_deg: list[Finite] | None = None
+    gravity: tuple[Finite, Finite, Finite] = Arm.gravity
+    tolerance: _ToleranceSection = _ToleranceSection()
+
+
+class _ToolSection(_Section):
+    position_mm: tuple[Finite, Finite, Finite] = Arm.tool_mm
+    sd_mm: Positive = Arm.tool_sd_mm
+
+
+class _InstrumentSection(_Section):
+    sd_mm: Positive = Arm.reading_sd_mm
+
+
+class ArmFile(_Section):
+    """The sections of a serial arm's robot file."""
+
+    robot: _RobotSection
+    tool: _ToolSection = _ToolSection()
+    instrument: _InstrumentSection = _InstrumentSection()
+
+    def to_arm(self, source: str) -> Arm:
+        """:raises InputRefused: lists of different lengths."""
+        robot = self.robot
+        joints = len(robot.a_mm)
+        offset = robot.offset_deg if robot.offset_deg is not None else [0.0] * joints
+        for name, values in (("d_mm", robot.d_mm), ("alpha_deg", robot.alpha_deg), ("offset_deg", offset)):
+            if len(values) != joints:
+                raise InputRefused(
+                    f"{source}: [robot.{name}] has {len(values)} values where a_mm has {joints}; "
+                    "give one a joint."
+                )
+        return Arm(
+            serial=robot.serial,
+            a=tuple(robot.a_mm),
+            d=tuple(robot.d_mm),
+            alpha_deg=tuple(robot.alpha_deg),
+            offset_deg=tuple(offset),
+            convention=robot.convention,
+            tolerances=ArmTolerances(**robot.tolerance.model_dump()),
+            tool_mm=self.tool.position_mm,
+            tool_sd_mm=self.tool.sd_mm,
+            reading_sd_mm=self.instrument.sd_mm,
+            gravity=robot.gravity,
+        )

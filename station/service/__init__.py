@@ -1,0 +1,13 @@
+"""The running station: the orchestrator and all that is opened and closed with it."""
+
+from __future__ import annotations
+
+from station.service.orchestrator import LiveEvent, Orchestrator, Submitted
+from station.service.runtime import Runtime
+
+__all__ = [
+    "LiveEvent",
+    "Orchestrator",
+    "Runtime",
+    "Submitted",
+]

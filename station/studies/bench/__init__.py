@@ -1,0 +1,9 @@
+"""Benchmarks: what each figure measures is said beside it."""
+
+from __future__ import annotations
+
+from station.studies.bench.study import bench
+
+__all__ = [
+    "bench",
+]

@@ -1,0 +1,201 @@
+"""What the loop finds on logs of a real arm: errors before and after, causes, curves, what holds on."""
+
+from __future__ import annotations
+
+import resource
+import time
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+
+from station.diagnosis import (
+    Curve,
+    Findings,
+    ModelPart,
+    StageErrors,
+    Transfer,
+    curve_chart,
+    curves,
+    diagnose,
+    model_json,
+    shown,
+    transfer,
+    without_a_quarter,
+)
+from station.machines import Measured, read_readings
+from station.records import Measurements
+from station.report import standalone
+from station.serial_arm import Arm
+
+
+@dataclass(frozen=True)
+class Found:
+    """One log by one kind of measurement: learned on three quarters, judged by the fourth."""
+
+    log: str
+    measured: Measured
+    readings: int
+    seconds: float
+    verdict: str
+    sentence: str
+    stages: tuple[StageErrors, ...]
+    effects: tuple[str, ...]
+    """Name, share and size of each, as text."""
+    curves: tuple[Curve, ...]
+    tied: tuple[str, ...]
+    hints: tuple[str, ...]
+    left_out: tuple[int | str, ...]
+
+
+@dataclass(frozen=True)
+class Study:
+    """Everything that the page shows."""
+
+    found: tuple[Found, ...]
+    transfers: tuple[tuple[str, str, Transfer], ...]
+    """(learned on, applied to, what came of it)"""
+    memory_mb: float
+
+
+def study(robot: Arm, logs: Sequence[Path]) -> Study:
+    """The loop on every log, by positions and by distances alone; effects of the first applied to the others.
+
+    :raises InputRefused: a log that is not of this robot.
+    """
+    found, transfers = [], []
+    for path in logs:
+        readings = read_readings(robot, path)
+        kinds: tuple[Measured, ...] = ("position", "range") if _has_range(readings) else ("position",)
+        found += [_found(robot, path, measured) for measured in kinds]
+    first, *others = logs
+    if others:
+        whole = diagnose(robot, read_readings(robot, first))
+        part = ModelPart.model_validate(model_json(whole, whole.last, 1.0))
+        transfers = [
+            (first.stem, path.stem, transfer(part, robot, read_readings(robot, path), first.stem))
+            for path in others
+        ]
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
+    return Study(tuple(found), tuple(transfers), peak)
+
+
+def _has_range(readings: Measurements) -> bool:
+    return readings.tracker is not None and bool(np.isfinite(readings.distance).all())
+
+
+def _found(robot: Arm, path: Path, measured: Measured) -> Found:
+    began = time.perf_counter()
+    readings = read_readings(robot, path, measured)
+    findings = Findings(diagnose(robot, *without_a_quarter(readings)))
+    stages = findings.stages
+    seconds = time.perf_counter() - began
+    d = findings.diagnosis
+    return Found(
+        log=path.stem,
+        measured=measured,
+        readings=len(readings),
+        seconds=seconds,
+        verdict=d.verdict.replace("_", " "),
+        sentence=findings.sentence,
+        stages=stages,
+        effects=tuple(
+            f"**{e.term.effect.label}**, {100.0 * e.share:.0f} % of the residual's square: "
+            + ", ".join(f"{q.name} {shown(q)}" for q in e.parameters)
+            for e in findings.effects
+        ),
+        curves=curves(d.last) if measured == "position" else (),
+        tied=tuple(findings.weak_direction["blind"]),
+        hints=tuple(f"{h.text} ({100.0 * h.strength:.0f} %)" for h in d.hints),
+        left_out=tuple(o.reading for o in d.outliers),
+    )
+
+
+def write(result: Study, folder: Path) -> Path:
+    """`figures.md` and its drawings.  :raises OSError: the folder cannot be written to."""
+    page = folder / "figures.md"
+    for found in result.found:
+        for curve in found.curves:
+            drawing = standalone(curve_chart(curve))
+            (folder / _drawing(found, curve)).write_text(drawing, encoding="utf-8")
+    page.write_text("\n".join(_page(result)) + "\n", encoding="utf-8")
+    return page
+
+
+def _drawing(found: Found, curve: Curve) -> str:
+    return f"{found.log}-joint{curve.joint}.svg"
+
+
+def _page(result: Study) -> Iterator[str]:
+    yield "# Figures"
+    yield ""
+    yield (
+        "Made by `station real-robot`. Every error is of readings that nothing was learned from: a quarter "
+        "of the log, in blocks of forty neighbours. Of positions it is the length in space, RMS in mm."
+    )
+    yield ""
+    yield "| log | measured | readings | nominal | six errors a link | with the effects found | verdict | s |"
+    yield "|---|---|---|---|---|---|---|---|"
+    for f in result.found:
+        nominal, base, *_, last = f.stages
+        figures = " | ".join(f"{stage.confirm_rms_mm:.4f}" for stage in (nominal, base, last))
+        yield f"| {f.log} | {f.measured} | {f.readings} | {figures} | {f.verdict} | {f.seconds:.0f} |"
+    yield ""
+    yield f"Peak memory {result.memory_mb:.0f} MB."
+    if result.transfers:
+        yield from _transfers(result.transfers)
+    for f in result.found:
+        yield from _causes(f)
+
+
+def _transfers(transfers: Sequence[tuple[str, str, Transfer]]) -> Iterator[str]:
+    yield ""
+    yield "## Learned on one log, applied unchanged to another"
+    yield ""
+    yield (
+        "The mechanism (base, tool, links) is fitted to three quarters of the new log, the effects stay as "
+        "they were learned; errors are of the fourth quarter."
+    )
+    yield ""
+    yield "| learned on | applied to | readings | mechanism alone | with the effects | left out by name |"
+    yield "|---|---|---|---|---|---|"
+    for learned, applied, t in transfers:
+        names = ", ".join(str(o.reading) for o in t.outliers) or "none"
+        yield (
+            f"| {learned} | {applied}, where its joints have been | {t.inside} of {t.readings} "
+            f"| {t.alone.rms_mm:.4f} | {t.applied.rms_mm:.4f} | {names} |"
+        )
+        if t.beyond:
+            yield (
+                f"| | {applied}, the gaps between too | | {t.beyond[0].rms_mm:.4f} "
+                f"| {t.beyond[1].rms_mm:.4f} | the same |"
+            )
+
+
+def _causes(f: Found) -> Iterator[str]:
+    yield ""
+    yield f"## {f.log}, by {f.measured}"
+    yield ""
+    yield f.sentence
+    yield ""
+    yield "| model | unknowns | fit | others' blocks | held out | largest |"
+    yield "|---|---|---|---|---|---|"
+    for s in f.stages:
+        yield (
+            f"| {s.model} | {s.unknowns} | {s.fit_rms_mm:.4f} | {s.holdout_rms_mm:.4f} "
+            f"| {s.confirm_rms_mm:.4f} | {s.confirm_max_mm:.3f} |"
+        )
+    yield ""
+    yield from (f"- {effect}" for effect in f.effects)
+    if f.curves:
+        yield ""
+        yield " ".join(f"![{c.label}]({_drawing(f, c)})" for c in f.curves)
+    for what, items in (
+        ("What it could not tell: ", "; ".join(f.tied)),
+        ("What the rest depends on: ", " ".join(f.hints)),
+        ("Left out as gross, reading ", ", ".join(map(str, f.left_out))),
+    ):
+        if items:
+            yield ""
+            yield what + items.rstrip(".") + "."

@@ -1,0 +1,100 @@
+"""The one place for walks in virtual time: a machine with known errors, measured as the station would.
+
+The machine is the emulated one with its own physics; nothing of the identification is used to make
+its readings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Literal
+
+import numpy as np
+
+from drivers.emulated.spec import MachineSpec
+from drivers.emulated.virtual import VirtualReading, VirtualRig
+from station.five_bar import Robot, inverse
+from station.records import Complex, Measurements, Real, Stop, number
+
+ROOM_C = 20.0
+Servo = Literal["exact", "whole pulses", "continuous"]
+"""Where servos rest: on the commanded pulse; beside it on a whole pulse (eq. 35); beside it anywhere."""
+
+
+class SimulatedMachine:
+    """A five-bar with errors `truth` (12,), in the order of `station.five_bar.error_model`, mm and rad.
+
+    `effects` are imperfections of the emulated machine (`drivers.emulated.imperfections`), each a table of a
+    rig file; `noise` False silences the head.
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        truth: Real,
+        servo: Servo,
+        seed: int,
+        effects: Sequence[dict[str, Any]] = (),
+        *,
+        noise: bool = True,
+    ) -> None:
+        self.truth = truth
+        dtheta = np.degrees(truth[:2])
+        self._rig = VirtualRig(
+            MachineSpec.model_validate(
+                dict(
+                    e_mm=robot.e,
+                    L_mm=robot.L,
+                    l_mm=robot.l,
+                    c_mm=robot.c,
+                    d_mm=robot.d,
+                    zero_offsets_deg=(dtheta[0], dtheta[1]),
+                    e_error_mm=(truth[2], truth[3], truth[4], truth[5]),
+                    L_error_mm=(truth[6], truth[7]),
+                    l_error_mm=(truth[8], truth[9]),
+                    drm_mm=(truth[10], truth[11]),
+                    scatter=servo != "exact",
+                    whole_pulses=servo != "continuous",
+                    **({} if noise else {"scale_noise_mm": 0.0}),
+                    effects=list(effects),
+                )
+            ),
+            seed=seed,
+        )
+
+    def visit(self, theta_deg: Real, labels: Sequence[str] | None = None, samples: int = 1) -> Measurements:
+        """Readings at drive angles theta_deg (K, 2), in order, each the mean of `samples` of the head."""
+        taken = self._taken(theta_deg, samples)
+        places = labels if labels is not None else [str(k) for k in range(len(taken))]
+        return Measurements(
+            ids=tuple(range(1, len(taken) + 1)),
+            t_s=np.array([r.t_s for r in taken]),
+            theta=np.radians([r.theta_deg for r in taken]),
+            approach=np.array([r.approach for r in taken], dtype=np.int8),
+            distance=np.array([r.scale_mm for r in taken]),
+            position=number(places)[0],
+            mount=np.zeros(len(taken), dtype=np.intp),
+            samples=np.full(len(taken), samples, dtype=np.intp),
+            temperature_c=np.array([ROOM_C + r.temperature_rise_k for r in taken]),
+        )
+
+    def stand(self, theta_deg: Real) -> Complex:
+        """(K,) mm, where the platform truly stands at drive angles theta_deg (K, 2), come to in order."""
+        return np.array([complex(*r.true_point_mm) for r in self._taken(theta_deg)])
+
+    def _taken(self, theta_deg: Real, samples: int = 1) -> list[VirtualReading]:
+        return self._rig.walk([(float(a), float(b)) for a, b in theta_deg], samples=samples)
+
+    def walk(self, stops: Sequence[Stop], samples: int = 1) -> Measurements:
+        """The stops of a plan."""
+        theta_deg = np.array([stop.theta_deg for stop in stops])
+        return self.visit(theta_deg, [stop.position for stop in stops], samples)
+
+    def read_at(self, robot: Robot, places: Complex, samples: int = 1) -> Measurements:
+        """One reading at each of places (K,), mm, commanded with the nominal geometry."""
+        return self.visit(np.degrees(inverse(robot.geometry, places)), samples=samples)
+
+
+def known_to(servo: Servo) -> float | None:
+    """`feedback_sd_deg` of a robot whose servos rest so: what feedback leaves open of a joint angle."""
+    return None if servo == "continuous" else 0.0

@@ -1,0 +1,49 @@
+"""A tracker beside the distance: it takes part in no fit and tells the true position error."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from station.diagnosis.closed_loop import diagnose
+from station.diagnosis.report.document import Findings
+from station.diagnosis.report.report_page import page
+from tests.station.diagnosis.machines import ROBOT, Emulated
+
+BACKLASH = {"kind": "backlash", "joint": 1, "width_deg": 0.05}
+
+
+@pytest.fixture(scope="module")
+def tracked() -> Findings:
+    machine = Emulated(BACKLASH, seed=2, tracked=True)
+    return Findings(diagnose(ROBOT, machine.walk(), machine.fresh()))
+
+
+def test_the_true_position_error_falls(tracked: Findings) -> None:
+    errors = tracked.true_position_errors
+    assert errors is not None
+    before, after = errors
+    assert after["rms"] < 0.5 * before["rms"]
+    # half the play at joint 1 moves P by about a fifth of a millimetre
+    predicted_before, predicted_after = tracked.position_errors
+    assert before["rms"] == pytest.approx(predicted_before["rms"], rel=0.5)
+    assert after["rms"] < 3.0 * predicted_after["rms"]
+    assert tracked.as_json({})["after"]["true_position_error_mm"] == after
+    assert "True position error, against the tracker, mm" in page(tracked, "walk.csv").to_html()
+
+
+def test_the_tracker_takes_part_in_no_fit(tracked: Findings) -> None:
+    d = tracked.diagnosis
+    assert d.measurements.tracker is not None and d.fresh is not None
+    wrong = replace(d.measurements, tracker=d.measurements.tracker + 5.0)
+    again = diagnose(ROBOT, wrong, d.fresh)
+    assert np.array_equal(again.last.x, d.last.x)
+
+
+def test_without_a_tracker_nothing_is_said_of_it() -> None:
+    machine = Emulated(BACKLASH, seed=2)
+    findings = Findings(diagnose(ROBOT, machine.walk(), machine.fresh()))
+    assert findings.true_position_errors is None
+    assert findings.as_json({})["before"]["true_position_error_mm"] is None

@@ -1,0 +1,156 @@
+"""Every effect against the emulated machine, which shares no formula with the catalogue."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from station.diagnosis.closed_loop import diagnose
+from station.diagnosis.report.document import Findings
+from tests.station.diagnosis.machines import ROBOT, ZERO_OFFSETS_DEG, Emulated
+
+EFFECTS: list[tuple[str, dict[str, Any], str, dict[str, float]]] = [
+    ("backlash", {"joint": 1, "width_deg": 0.01}, "backlash of joint 1", {"width_deg": 0.01}),
+    (
+        "gear_cyclic",
+        {"joint": 2, "amplitude_deg": 0.005, "per_rev": 20, "phase_deg": 40},
+        "gear_cyclic of joint 2",
+        {"amplitude_deg": 0.005, "per_rev": 20},
+    ),
+    (
+        "gear_cyclic",
+        {"joint": 1, "amplitude_deg": 0.01, "per_rev": 11.3},
+        "gear_cyclic of joint 1",
+        {"amplitude_deg": 0.01, "per_rev": 11.3},
+    ),
+    (
+        "encoder_eccentricity",
+        {"joint": 1, "amplitude_deg": 0.15, "phase_deg": 70},
+        "encoder_eccentricity of joint 1",
+        {"amplitude_deg": 0.15, "phase_deg": 70},
+    ),
+    ("transmission_gain", {"joint": 2, "ppm": 3000}, "transmission_gain of joint 2", {"ppm": 3000}),
+    (
+        "compliance",
+        {"joint": 1, "deg_at_horizontal": 0.15},
+        "compliance of joint 1",
+        {"deg_at_horizontal": 0.15},
+    ),
+    (
+        "count_slip",
+        {"joint": 2, "step_deg": 0.01, "from_stop": 50},
+        "count_slip of joint 2",
+        {"step_deg": 0.01},
+    ),
+    ("link_length", {"joint": 1, "link": "L", "mm": 1.0}, "link_length L1", {"L1": 1.0}),
+    ("scale_gain", {"ppm": 5000}, "scale_gain", {"ppm": 5000}),
+    ("scale_bow", {"mm_at_end": 0.1, "rho_mid_mm": 580}, "scale_bow", {"mm_at_100_mm": 0.1}),
+    (
+        "scale_cyclic",
+        {"amplitude_mm": 0.01, "period_mm": 2},
+        "scale_cyclic",
+        {"amplitude_mm": 0.01, "period_mm": 2},
+    ),
+    ("scale_hysteresis", {"width_mm": 0.02}, "scale_hysteresis", {"width_mm": 0.02}),
+    (
+        "thermal_growth",
+        {"rise_k": 8, "tau_s": 100, "links_um_per_m_per_k": 12},
+        "thermal_growth of the links",
+        {"links_um_per_m_per_K": 12},
+    ),
+    (
+        "thermal_growth",
+        {"rise_k": 8, "tau_s": 100, "scale_um_per_m_per_k": 40},
+        "thermal_growth",
+        {"scale_um_per_m_per_K": -40},
+    ),
+]
+
+
+@pytest.mark.parametrize(
+    ("kind", "known", "label", "sizes"), EFFECTS, ids=lambda v: v if isinstance(v, str) else ""
+)
+def test_physics_is_named_and_its_size_recovered(
+    kind: str, known: dict[str, Any], label: str, sizes: dict[str, float]
+) -> None:
+    machine = Emulated({"kind": kind, **known}, seed=1)
+    found = Findings(diagnose(ROBOT, machine.walk(), machine.fresh()))
+    assert (found.diagnosis.verdict, found.diagnosis.confirmed) == ("explained", True)
+    (effect,) = found.effects
+    assert effect.term.effect.label == label
+    by_name = {q.name: q for q in effect.parameters}
+    for name, true in sizes.items():
+        assert abs(by_name[name].value - true) < 3.0 * by_name[name].sd
+    for q, true in zip(found.parameters[:2], ZERO_OFFSETS_DEG, strict=True):
+        assert abs(q.value - true) < 4.0 * q.sd
+
+
+@pytest.mark.parametrize("seed", [1, 2])
+def test_drift_is_in_its_alias_set(seed: int) -> None:
+    machine = Emulated({"kind": "drift", "mm_per_hour": 0.4}, seed=seed)
+    found = Findings(diagnose(ROBOT, machine.walk(), machine.fresh()))
+    assert found.passed
+    (effect,) = found.effects
+    assert "drift" in [t.effect.id for t in (effect.term, *effect.aliases)]
+
+
+def test_two_effects_at_once() -> None:
+    machine = Emulated(
+        {"kind": "backlash", "joint": 1, "width_deg": 0.01},
+        {"kind": "scale_cyclic", "amplitude_mm": 0.006, "period_mm": 2},
+        seed=3,
+    )
+    found = Findings(diagnose(ROBOT, machine.walk(), machine.fresh()))
+    assert found.passed
+    assert [e.term.effect.label for e in found.effects] == ["backlash of joint 1", "scale_cyclic"]
+    assert found.effects[0].share > found.effects[1].share
+    assert len(found.stages) == 4
+
+
+@pytest.mark.parametrize(
+    ("effect", "hint"),
+    [
+        ({"kind": "cable_drag", "joint": 1, "deg_at_end": 0.01}, "approach x place"),
+        ({"kind": "random_walk", "mm_per_stop": 0.004}, "time"),
+        (
+            {"kind": "stiction_patch", "x_mm": 80, "y_mm": -700, "radius_mm": 40, "depth_mm": 0.08},
+            "place",
+        ),
+    ],
+    ids=["drag", "walk", "dent"],
+)
+@pytest.mark.parametrize("seed", [1, 2])
+def test_outside_the_catalogue_nothing_is_blamed(effect: dict[str, Any], hint: str, seed: int) -> None:
+    machine = Emulated(effect, seed=seed)
+    found = Findings(diagnose(ROBOT, machine.walk(), machine.fresh()))
+    assert not found.passed
+    assert found.diagnosis.confirmed is False
+    assert found.diagnosis.hints[0].depends_on == hint
+
+
+@pytest.mark.parametrize("seed", [4, 5, 6])
+def test_clean_machine_is_adequate(seed: int) -> None:
+    machine = Emulated(seed=seed)
+    found = Findings(diagnose(ROBOT, machine.walk(), machine.fresh()))
+    assert (found.diagnosis.verdict, found.diagnosis.confirmed) == ("adequate", True)
+    assert found.effects == ()
+    assert found.sd_factor == 1.0
+
+
+def test_dirty_readings_are_named_and_left_out() -> None:
+    machine = Emulated(seed=7)
+    walk = machine.walk()
+    walk.distance[[20, 77]] += [0.05, -0.08]
+    found = Findings(diagnose(ROBOT, walk, machine.fresh()))
+    assert found.passed
+    assert {o.reading for o in found.diagnosis.outliers} == {21, 78}
+
+
+def test_repeats_that_disagree_grossly_are_never_adequate() -> None:
+    """Twelve readings off by 5 mm are too many to be left out, and their scatter must not hide them."""
+    walk = Emulated(seed=3).walk()
+    walk.distance[::10] += 5.0
+    found = Findings(diagnose(ROBOT, walk))
+    assert not found.passed
+    assert "times more than specified" in found.sentence

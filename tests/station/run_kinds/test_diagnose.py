@@ -1,0 +1,194 @@
+"""The closed loop on machines in virtual time: clean, with a named cause, with one outside the catalogue."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from click.testing import CliRunner
+
+from station.cli import main
+from station.errors import InputRefused, NotApplicable, NotFound
+from station.five_bar.robot_file import Robot
+from station.plans.diagnostic_sequence import FRESH_PLACES, fresh_stops
+from station.plans.plans import make_plan
+from station.records.reading import Reading
+from station.records.run import CalibrationRequest, CalibrationResult, PlanName, Procedure, State, Walk
+from station.run_kinds.calibrate import start_procedure
+from station.store.store import Store
+from station.store.zero_state import application, check_apply
+from station.studies.simulation import SimulatedMachine
+
+ROBOT = Robot.default("R1")
+TRUTH = np.concatenate([np.radians([0.8, -0.6]), np.zeros(8), [0.5, -0.3]])
+BACKLASH = {"kind": "backlash", "joint": 1, "width_deg": 0.02}
+DRAG = {"kind": "cable_drag", "joint": 1, "deg_at_end": 0.01}
+
+
+def machine(*effects: dict[str, Any]) -> SimulatedMachine:
+    return SimulatedMachine(ROBOT, TRUTH, "continuous", 5, effects)
+
+
+def run(machine: SimulatedMachine, plan: PlanName = "diagnostic") -> tuple[list[Reading], CalibrationResult]:
+    """A plan carried out in virtual time."""
+    return carried_out(machine, start_procedure(plan, ROBOT))
+
+
+def carried_out(
+    machine: SimulatedMachine, procedure: Procedure, before: int = 0
+) -> tuple[list[Reading], CalibrationResult]:
+    """The walks in virtual time, with the run-ups that approaches ask for, after so many readings."""
+    readings: list[Reading] = []
+    try:
+        walk = next(procedure)
+        while True:
+            taken = measure(machine, walk, before + len(readings))
+            readings += taken
+            walk = procedure.send(taken)
+    except StopIteration as end:
+        return readings, end.value
+
+
+def measure(machine: SimulatedMachine, walk: Any, taken: int) -> list[Reading]:
+    assert isinstance(walk, Walk)
+    way: list[Any] = []
+    labels: list[str | None] = []
+    for stop in walk.stops:
+        if any(stop.approach):
+            way.append(np.array(stop.theta_deg) - np.array(stop.approach))
+            labels.append(None)
+        way.append(np.array(stop.theta_deg))
+        labels.append(stop.position)
+    visited = machine.visit(np.array(way), [label or "way" for label in labels])
+    kept = [k for k, label in enumerate(labels) if label is not None]
+    return [
+        Reading(
+            taken + n,
+            float(visited.t_s[k]),
+            tuple(float(v) for v in np.degrees(visited.theta[k])),
+            tuple(int(a) for a in visited.approach[k]),
+            float(visited.distance[k]),
+            str(labels[k]),
+            walk.number,
+        )
+        for n, k in enumerate(kept, start=1)
+    ]
+
+
+def test_the_walk_reads_most_places_from_both_sides_and_ten_three_times() -> None:
+    plan = make_plan("diagnostic", ROBOT)
+    assert plan.stops == make_plan("diagnostic", ROBOT).stops
+    assert len(plan.stops) == 120
+    counted = [sum(s.position == p for s in plan.stops) for p in {s.position for s in plan.stops}]
+    assert sorted(counted) == [2] * 35 + [5] * 10
+    readings, _ = run(machine())
+    sides = {(r.position, r.approach) for r in readings if r.walk == 1}
+    both = [p for p in {r.position for r in readings if r.walk == 1} if sum(s[0] == p for s in sides) > 1]
+    assert len(both) >= 40
+
+
+def test_fresh_places_are_others_each_run_and_the_same_again_by_seed() -> None:
+    first, second = (fresh_stops(ROBOT, np.zeros(2), seed) for seed in (1, 2))
+    assert len(first) == FRESH_PLACES
+    assert first == fresh_stops(ROBOT, np.zeros(2), 1)
+    assert not {s.target_mm for s in first} & {s.target_mm for s in second}
+
+
+def test_a_clean_machine_lacks_nothing() -> None:
+    readings, result = run(machine())
+    assert (result.verdict, result.method, result.findings) == ("pass", "diagnosis", ())
+    assert result.reason == "nothing is missing: the model fits the readings and predicts fresh ones"
+    assert [r.walk for r in readings] == [1] * 120 + [2] * 40
+    for zero, truth in zip(result.zero_offsets, (0.8, -0.6), strict=True):
+        assert abs(zero.value - truth) < 4 * zero.sd
+
+
+def test_backlash_is_named_and_fresh_readings_confirm_it() -> None:
+    _, result = run(machine(BACKLASH))
+    assert result.verdict == "pass"
+    assert result.reason.startswith("backlash of joint 1 explains 9")
+    assert result.reason.endswith("% of the residual and predicts fresh readings")
+    (finding,) = result.findings
+    (width,) = finding["parameters"]
+    assert abs(width["value"] - 0.02) < 4 * width["sd"]
+    assert result.before["fresh_reading_rms_mm"] > 5 * result.after["fresh_reading_rms_mm"]
+    assert result.diagnosis is not None
+    assert (result.diagnosis["verdict"], result.diagnosis["confirmed"]) == ("explained", True)
+    assert len(result.residuals) == 120
+
+
+def test_what_the_catalogue_does_not_hold_fails_and_says_what_it_depends_on() -> None:
+    _, result = run(machine(DRAG))
+    assert result.verdict == "fail"
+    assert result.diagnosis is not None
+    assert result.diagnosis["hints"]
+    assert result.diagnosis["hints"][0]["depends_on"] in result.reason
+
+
+@pytest.mark.parametrize("plan", ["paper", "rapid", "full"])
+def test_lack_of_fit_is_judged_at_once_after_any_calibration(tmp_path: Path, plan: PlanName) -> None:
+    assert run(machine(), plan)[1].lack_of_fit == ""
+    _, result = run(machine({**BACKLASH, "width_deg": 0.05}), plan)
+    assert result.verdict == "fail"
+    assert result.lack_of_fit == result.reason != ""
+    store = Store(tmp_path / "station.db")
+    kept = store.create(CalibrationRequest("R1", plan, "ada"), ROBOT)
+    assert store.calibration(kept)["lack_of_fit"] is None
+    store.finish(kept, State.SUCCEEDED, result)
+    assert store.calibration(kept)["lack_of_fit"] == result.reason
+    store.close()
+
+
+@pytest.mark.parametrize("plan", ["rapid", "full"])
+def test_an_effect_too_large_for_any_fit_is_a_lack_of_fit_too(tmp_path: Path, plan: PlanName) -> None:
+    """Nothing can be said of the zero offsets then, but what to do next."""
+    readings, result = run(machine({"kind": "link_length", "joint": 1, "link": "L", "mm": 6.0}), plan)
+    assert (result.verdict, result.zero_offsets, result.lasting) == ("fail", (), None)
+    assert result.lack_of_fit == result.reason
+    assert "run the diagnosis" in result.reason
+    store = Store(tmp_path / "station.db")
+    kept = store.create(CalibrationRequest("R1", plan, "ada"), ROBOT)
+    store.add_readings(kept, readings)
+    assert store.finish(kept, State.SUCCEEDED, result) is State.SUCCEEDED
+    found = store.calibration(kept)
+    assert (found["verdict"], found["zero_offsets"], found["lack_of_fit"]) == ("fail", [], result.reason)
+    with pytest.raises(NotApplicable):
+        check_apply(store, kept)
+    store.close()
+
+
+def test_readings_of_another_robot_are_refused() -> None:
+    procedure = start_procedure("diagnostic", ROBOT)
+    readings = measure(machine(), next(procedure), 0)
+    with pytest.raises(InputRefused, match="Not enough data to judge"):
+        procedure.send(readings[:20])
+
+
+def test_the_document_is_kept_with_every_digit_and_no_list_carries_it(tmp_path: Path) -> None:
+    _, result = run(machine(BACKLASH))
+    store = Store(tmp_path / "station.db")
+    kept = store.create(CalibrationRequest("R1", "diagnostic", "ada"), ROBOT)
+    with pytest.raises(NotFound, match="has no diagnosis"):
+        store.diagnosis(kept)
+    assert store.finish(kept, State.SUCCEEDED, result) is State.SUCCEEDED
+    assert store.diagnosis(kept) == json.loads(json.dumps(result.diagnosis))
+    assert "diagnosis" not in store.calibration(kept)
+    assert "findings" not in store.calibrations().items[0]
+    assert store.calibration(kept)["findings"][0]["effect"] == "backlash"
+    with pytest.raises(NotFound, match="There is no calibration 99"):
+        store.diagnosis(99)
+    with pytest.raises(NotApplicable, match="looked for a cause"):
+        check_apply(store, kept)
+    assert application(store, store.calibration(kept)) is None
+    store.close()
+
+
+def test_the_plan_can_be_asked_for_at_the_terminal(tmp_path: Path) -> None:
+    outcome = CliRunner().invoke(
+        main, ["plan", "--plan", "diagnostic", "--json", str(tmp_path / "plan.json")]
+    )
+    assert outcome.exit_code == 0, outcome.output
+    assert len(json.loads((tmp_path / "plan.json").read_text())["stops"]) == 120

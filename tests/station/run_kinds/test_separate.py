@@ -1,0 +1,106 @@
+"""Look-alikes told apart by motion, on machines in virtual time: the set shrinks and keeps the truth."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from station.diagnosis.separating import COUNTS, experiment
+from station.errors import InputRefused, NotApplicable, NotFound
+from station.records.reading import Reading
+from station.records.run import CalibrationRequest, CalibrationResult, State
+from station.run_kinds.diagnose import diagnosed
+from station.run_kinds.separate import planned, separating
+from station.store.store import Store
+from tests.station.run_kinds.test_diagnose import BACKLASH, ROBOT, carried_out, machine, run
+
+DRIFT = {"kind": "drift", "mm_per_hour": 1.5}
+FAST_WARMING = {"kind": "thermal_growth", "rise_k": 2.0, "tau_s": 40.0, "links_um_per_m_per_k": 12.0}
+SLOW_WARMING = {"kind": "thermal_growth", "rise_k": 4.0, "tau_s": 100.0, "links_um_per_m_per_k": 12.0}
+GAIN = {"kind": "transmission_gain", "joint": 1, "ppm": 1500.0}
+
+
+def alias_set(result: CalibrationResult) -> list[tuple[str, int | None]]:
+    (finding,) = result.findings
+    return [(member["effect"], member["joint"]) for member in finding["alias_set"]]
+
+
+@pytest.mark.parametrize("effect", [DRIFT, FAST_WARMING, SLOW_WARMING], ids=lambda e: str(e))
+def test_the_set_is_smaller_afterwards_and_holds_the_truth(effect: dict[str, Any]) -> None:
+    measured = machine(effect)
+    readings, found = run(measured)
+    before = alias_set(found)
+    assert set(before) == {("drift", None), ("thermal_growth", None)}
+    more, separated = carried_out(measured, separating(ROBOT, readings), before=120)
+    assert alias_set(separated) == [(effect["kind"], None)]
+    assert separated.verdict == "pass"
+    assert more[0].reading == 121
+    assert sum(r.walk == 1 for r in more) in COUNTS
+    # fresh places are judged by, never learned from
+    assert len(separated.residuals) == 120 + sum(r.walk == 1 for r in more)
+
+
+def test_no_longer_a_walk_than_needed_is_planned_and_only_within_the_workspace() -> None:
+    readings, _ = run(machine(FAST_WARMING))
+    found = experiment(diagnosed(ROBOT, readings))
+    assert found is not None
+    assert (found.apart, len(found.stops)) == (("drift",), COUNTS[0])
+    for stop in found.stops:
+        x, y = stop.target_mm
+        assert ROBOT.workspace_x[0] < x < ROBOT.workspace_x[1]
+        assert ROBOT.workspace_y[0] < y < ROBOT.workspace_y[1]
+        assert all(stop.approach)
+    places = np.array([complex(*stop.target_mm) for stop in found.stops])
+    assert np.abs(np.diff(places)).mean() < 200.0
+
+
+@pytest.mark.parametrize("effect", [GAIN, BACKLASH], ids=lambda e: str(e["kind"]))
+def test_none_is_offered_where_motion_would_tell_nothing(effect: dict[str, Any]) -> None:
+    """Smooth effects of one joint differ by less than 0.2 um anywhere; play has no look-alike."""
+    readings, _ = run(machine(effect))
+    assert experiment(diagnosed(ROBOT, readings)) is None
+    with pytest.raises(InputRefused, match="Motion alone"):
+        next(separating(ROBOT, readings))
+
+
+def test_what_is_not_the_cause_is_not_worth_separating() -> None:
+    drag = {"kind": "cable_drag", "joint": 1, "deg_at_end": 0.01}
+    readings, _ = run(machine(drag))
+    assert experiment(diagnosed(ROBOT, readings)) is None
+
+
+class Kept:
+    """A store with the diagnostic run of a warming machine."""
+
+    def __init__(self, path: Path) -> None:
+        self.store = Store(path / "station.db")
+        self.run = self.keep(*run(machine(FAST_WARMING)))
+
+    def keep(self, readings: list[Reading], result: CalibrationResult, plan: Any = "diagnostic") -> int:
+        return self.store.add_run(CalibrationRequest("R1", plan, "ada"), ROBOT, readings, result)
+
+
+def test_why_a_run_cannot_be_gone_on_from(tmp_path: Path) -> None:
+    kept = Kept(tmp_path)
+    store = kept.store
+    plan = planned(store, kept.run)
+    assert plan.experiment.apart == ("drift",)
+    assert 10.0 < plan.duration_s < 600.0
+    unapplied = store.create(CalibrationRequest("R1", "paper", "ada"), ROBOT)
+    store.finish(unapplied, State.ABORTED)
+    with pytest.raises(NotFound, match="has no diagnosis"):
+        planned(store, unapplied)
+    imported = kept.keep(*run(machine(FAST_WARMING)), plan="dataset")
+    with pytest.raises(NotApplicable, match="imported from a file"):
+        planned(store, imported)
+    clear = kept.keep(*run(machine(BACKLASH)))
+    with pytest.raises(NotApplicable, match="Motion alone"):
+        planned(store, clear)
+    apply = store.create(CalibrationRequest("R1", "apply", "ada", of=unapplied), ROBOT)
+    store.begin_zero_write(apply, 1, 0.8, 0.8)
+    with pytest.raises(NotApplicable, match=f"Run {apply} has changed the drives. zeros"):
+        planned(store, kept.run)
+    store.close()

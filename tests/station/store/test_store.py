@@ -1,0 +1,285 @@
+"""Every reading on disk, fail-closed verdicts, pages, keys, foreign files."""
+
+from __future__ import annotations
+
+import sqlite3
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from datetime import datetime, timedelta
+from pathlib import Path
+
+import pytest
+
+from station.errors import InputRefused, KeyReused, NotFound
+from station.five_bar.robot_file import Robot
+from station.records.quantity import Quantity
+from station.records.reading import Reading
+from station.records.run import CalibrationRequest, CalibrationResult, State
+from station.store.store import Store
+
+REQUEST = CalibrationRequest("R1", "paper", "ada", "WO-7", {"shift": "late"})
+READING = Reading(1, 1.25, (0.5018, 179.9982), (1, -1), 12.34567, "p1", 1, (12.3456, 12.3457))
+SAMPLES = (109.9894, 109.9890, 109.9870, 109.9880, 109.9890)
+RESULT = CalibrationResult(
+    "pass",
+    "",
+    "published",
+    (Quantity("dtheta1", 1.2, 0.03, "deg"), Quantity("dtheta2", -0.7, 0.04, "deg")),
+    (Quantity("dr_Mx", 1.0, 0.1, "mm"),),
+    {"singular_ratio": 475.3, "text": "both arms together", "sd_deg": 0.1, "remedy": "second mount"},
+    {"reading_rms_mm": 3.0},
+    {"reading_rms_mm": 0.01},
+    ({"pass": 1, "mu_deg": 0.5},),
+    ({"reading": 1, "position": "p1", "residual_mm": 0.001, "limit_mm": 0.01},),
+)
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> Iterator[Store]:
+    store = Store(tmp_path / "station.db")
+    yield store
+    store.close()
+
+
+def start(store: Store, request: CalibrationRequest = REQUEST, **key: object) -> int:
+    return store.create(request, Robot.default(request.robot_serial), **key)  # type: ignore[arg-type]
+
+
+def test_a_run_comes_back_as_it_was_stored(store: Store) -> None:
+    run = start(store)
+    store.set_state(run, State.RUNNING, steps=6)
+    store.add_reading(run, READING)
+    assert store.readings(run) == [READING]
+    assert store.finish(run, State.SUCCEEDED, RESULT) is State.SUCCEEDED
+    calibration = store.calibration(run)
+    assert calibration["zero_offsets"] == [
+        {"joint": 1, "value_deg": 1.2, "sd_deg": 0.03},
+        {"joint": 2, "value_deg": -0.7, "sd_deg": 0.04},
+    ]
+    assert (calibration["state"], calibration["verdict"], calibration["step"], calibration["steps"]) == (
+        "succeeded",
+        "pass",
+        1,
+        6,
+    )
+    assert calibration["metadata"] == {"shift": "late"}
+    assert calibration["residuals"][0]["position"] == "p1"
+    assert calibration["findings"] == []
+    assert store.robot_of(run).to_json() == Robot.default("R1").to_json()
+    assert calibration["created_at"].endswith("Z")
+
+
+def test_a_reading_is_on_the_disk_when_the_call_returns(store: Store) -> None:
+    run = start(store)
+    store.add_reading(run, READING)
+    with sqlite3.connect(store.path) as other:
+        assert other.execute("SELECT count(*) FROM readings").fetchone() == (1,)
+        assert other.execute("PRAGMA journal_mode").fetchone() == ("wal",)
+    other.close()
+    assert store._writer.execute("PRAGMA synchronous").fetchone() == (2,)
+
+
+@pytest.mark.parametrize("bad", [float("nan"), float("inf")])
+def test_a_pass_with_a_number_that_is_not_finite_becomes_a_failure(store: Store, bad: float) -> None:
+    run = start(store)
+    result = replace(RESULT, after={"predicted_position_error_mm": {"rms": 0.1, "max": bad}})
+    assert store.finish(run, State.SUCCEEDED, result) is State.FAILED
+    calibration = store.calibration(run)
+    assert calibration["verdict"] == "fail"
+    assert "after.predicted_position_error_mm.max" in calibration["reason"]
+
+
+def test_success_without_a_result_and_a_result_without_success_are_no_pass(store: Store) -> None:
+    first, second = start(store), start(store)
+    assert store.finish(first, State.SUCCEEDED) is State.FAILED
+    store.finish(second, State.ABORTED, RESULT, "stopped by ada")
+    assert store.calibration(first)["verdict"] is None
+    assert store.calibration(second)["verdict"] is None
+
+
+def test_the_first_end_stands(store: Store) -> None:
+    run = start(store)
+    store.finish(run, State.ABORTED, reason="stopped by ada")
+    assert store.finish(run, State.SUCCEEDED, RESULT) is State.ABORTED
+    store.set_state(run, State.RUNNING)
+    calibration = store.calibration(run)
+    assert (calibration["state"], calibration["verdict"]) == ("aborted", None)
+
+
+def test_a_reading_that_is_not_a_number_is_not_stored(store: Store) -> None:
+    run = start(store)
+    with pytest.raises(ValueError, match="reading 1"):
+        store.add_reading(run, replace(READING, scale_mm=float("nan")))
+    assert store.readings(run) == []
+
+
+def test_what_a_power_cut_leaves_behind_is_interrupted(store: Store) -> None:
+    queued, running, done = start(store), start(store), start(store)
+    store.set_state(running, State.RUNNING)
+    store.finish(done, State.SUCCEEDED, RESULT)
+    assert store.interrupt_unfinished() == [queued, running]
+    assert store.calibration(queued)["state"] == "interrupted"
+    assert store.calibration(done)["state"] == "succeeded"
+    assert store.interrupt_unfinished() == []
+
+
+def test_a_key_is_one_run_and_another_body_is_refused(store: Store) -> None:
+    run = start(store, key="k1", body_hash=b"a")
+    assert store.find_key("k1", b"a") == run
+    assert store.find_key("k2", b"a") is None
+    with pytest.raises(KeyReused):
+        store.find_key("k1", b"b")
+    with pytest.raises(KeyReused):
+        start(store, key="k1", body_hash=b"a")
+    assert len(store.calibrations().items) == 1
+
+
+def test_pages_meet_without_gap_or_overlap_under_every_filter(store: Store) -> None:
+    for n in range(25):
+        run = start(store, replace(REQUEST, robot_serial=f"R{n % 2}"))
+        if n % 5 == 0:
+            store.finish(run, State.SUCCEEDED, RESULT)
+    for query, count in (
+        ({}, 25),
+        ({"robot_serial": "R1"}, 12),
+        ({"verdict": "pass"}, 5),
+        ({"state": "queued"}, 20),
+    ):
+        ids: list[int] = []
+        cursor = None
+        while True:
+            page = store.calibrations(limit=4, cursor=cursor, **query)  # type: ignore[arg-type]
+            ids += [item["id"] for item in page.items]
+            cursor = page.next
+            if cursor is None:
+                break
+        assert ids == sorted(set(ids), reverse=True)
+        assert len(ids) == count
+    assert "residuals" not in page.items[0]
+
+
+def test_a_period_of_time_selects_by_creation(store: Store) -> None:
+    run = start(store)
+    created = datetime.fromisoformat(store.calibration(run)["created_at"])
+    later = created + timedelta(milliseconds=1)
+    assert [item["id"] for item in store.calibrations(since=created, until=later).items] == [run]
+    assert store.calibrations(since=later).items == []
+    assert store.calibrations(until=created).items == []
+    assert store.calibrations(until=datetime(1999, 1, 1)).items == []
+
+
+@pytest.mark.parametrize("cursor", ["x", "-1", str(2**70)])
+def test_a_cursor_that_no_page_gave_is_refused(store: Store, cursor: str) -> None:
+    with pytest.raises(InputRefused, match="cursor"):
+        store.calibrations(cursor=cursor)
+
+
+def test_events_of_a_run_and_of_the_station(store: Store) -> None:
+    run = start(store)
+    store.add_event(run, "abort", {"by": "ada"})
+    store.add_event(None, "start")
+    assert [(event["kind"], event["data"]) for event in store.events(run)] == [("abort", {"by": "ada"})]
+    assert [event["kind"] for event in store.events(None)] == ["start"]
+
+
+def test_a_changed_robot_file_is_a_new_version_and_old_runs_keep_theirs(store: Store) -> None:
+    run = start(store)
+    changed = replace(Robot.default("R1"), drm=(0.9, 0.4))
+    store.save_robot(changed)
+    store.save_robot(changed)
+    assert store.robot("R1").to_json() == changed.to_json()
+    assert store.robot_of(run).to_json() == Robot.default("R1").to_json()
+    assert [robot["serial"] for robot in store.robots()] == ["R1"]
+
+
+def test_what_does_not_exist_is_said(store: Store) -> None:
+    for ask in (store.calibration, store.readings, store.robot_of):
+        with pytest.raises(NotFound, match="99"):
+            ask(99)
+    with pytest.raises(NotFound, match="R9"):
+        store.robot("R9")
+
+
+def test_a_file_that_is_no_database_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "station.db"
+    path.write_bytes(b"not a database at all" * 100)
+    with pytest.raises(InputRefused, match="cannot be used"):
+        Store(path)
+
+
+def test_another_programs_database_is_left_alone(tmp_path: Path) -> None:
+    path = tmp_path / "other.db"
+    connection = sqlite3.connect(path)
+    connection.execute("CREATE TABLE theirs (x)")
+    connection.close()
+    with pytest.raises(InputRefused, match="another program"):
+        Store(path)
+
+
+def test_a_database_of_a_newer_station_is_left_alone(tmp_path: Path) -> None:
+    store = Store(tmp_path / "station.db")
+    store._writer["_sqlite_migrations"].insert(  # type: ignore[union-attr]
+        {"migration_set": "station", "name": "from_the_future", "applied_at": ""}
+    )
+    store.close()
+    with pytest.raises(InputRefused, match="newer station"):
+        Store(tmp_path / "station.db")
+
+
+def test_opening_twice_migrates_once(tmp_path: Path) -> None:
+    for _ in range(2):
+        store = Store(tmp_path / "station.db")
+        run = start(store)
+        store.close()
+    assert run == 2
+
+
+def test_a_run_of_six_readings_takes_less_than_1500_bytes(store: Store) -> None:
+    def size() -> int:
+        store._writer.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+        return store.path.stat().st_size
+
+    runs, empty = 100, size()
+    for n in range(runs):
+        run = start(store, key=f"3f2a7c9e-{n:08d}", body_hash=bytes(16))
+        readings = [
+            replace(READING, reading=k, position=f"P{k}", scale_mm=109.98848 + n, samples_mm=SAMPLES)
+            for k in range(1, 7)
+        ]
+        store.add_readings(run, readings)
+        rows = tuple(
+            {"reading": k, "position": f"P{k}", "residual_mm": 0.00032361 * k + n, "limit_mm": 0.0058 + n}
+            for k in range(1, 7)
+        )
+        store.finish(run, State.SUCCEEDED, replace(RESULT, residuals=rows))
+    assert (size() - empty) / runs < 1500
+
+
+@pytest.mark.parametrize(
+    "query",
+    [
+        {},
+        {"cursor": 10},
+        {"robot_serial": "R1"},
+        {"state": "failed"},
+        {"verdict": "pass"},
+        {"robot_serial": "R1", "state": "failed", "verdict": "fail"},
+        {"since": datetime(2026, 1, 1), "until": datetime(2026, 2, 1)},
+    ],
+)
+def test_a_page_is_found_by_index_and_never_sorted(
+    store: Store, query: dict[str, object], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ask = store._readers.all
+    steps: list[str] = []
+
+    def explain(sql: str, values: Sequence[object]) -> list[object]:
+        steps.extend(row["detail"] for row in ask(f"EXPLAIN QUERY PLAN {sql}", values))
+        return []
+
+    monkeypatch.setattr(store._readers, "all", explain)
+    store.calibrations(**query)  # type: ignore[arg-type]
+    plan = " ".join(steps)
+    assert "TEMP B-TREE" not in plan
+    if query:
+        assert "SEARCH calibrations" in plan

@@ -1,0 +1,43 @@
+"""The study of random machines: what is counted as right, and what a cause found is worth."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from click.testing import CliRunner
+
+from station.cli import main
+from station.diagnosis.closed_loop import diagnose
+from station.five_bar.robot_file import Robot
+from station.studies.confusion.errors import before_and_after
+from station.studies.confusion.machines import draw
+from station.studies.confusion.matrix import judge
+
+ROBOT = Robot.default()
+
+
+@pytest.mark.parametrize("kind", ["backlash", "gear_cyclic", "compliance", "scale_gain"])
+def test_a_cause_found_makes_readings_and_true_positions_better(kind: str) -> None:
+    drawn = draw(ROBOT, (kind,), 12)
+    found = diagnose(ROBOT, drawn.walk, drawn.fresh)
+    errors = before_and_after(ROBOT, drawn, found)
+    assert judge(drawn, found).right
+    assert errors.reading_um[1] < 1.4 < errors.reading_um[0]
+    assert errors.position_um[1] < 0.5 * errors.position_um[0]
+
+
+def test_a_machine_with_another_cause_is_not_right() -> None:
+    drawn = draw(ROBOT, ("backlash",), 12)
+    other = draw(ROBOT, ("scale_gain",), 12)
+    found = diagnose(ROBOT, other.walk, other.fresh)
+    assert not judge(drawn, found).right
+
+
+def test_one_machine_of_each_kind_makes_a_page(tmp_path: Path) -> None:
+    file = tmp_path / "page.md"
+    result = CliRunner().invoke(main, ["confusion", "--machines", "1", "--markdown", str(file)])
+    assert result.exit_code == 0, result.output
+    page = file.read_text(encoding="utf-8")
+    assert page.count("| backlash + drift |") == 2
+    assert "1 machines of each kind, seed 1" in page
