@@ -1,8 +1,12 @@
-"""The machines that the station knows: their robot files, and the mechanism that identification works on."""
+"""The kinds of machine that the station knows, each with everything that belongs to it alone.
+
+A further mechanism is a package of its own and one entry in `KINDS` (docs/how-to/add-a-mechanism.md).
+"""
 
 from __future__ import annotations
 
-from dataclasses import replace
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, Literal
 
@@ -10,14 +14,66 @@ import numpy as np
 
 from station.effects import Effect, arm_catalogue, five_bar_catalogue
 from station.errors import InputRefused
-from station.five_bar import FIVE_BAR_MODEL, FiveBar, Robot, read_sections
+from station.fitting import Solution, describe_separability
+from station.five_bar import FIVE_BAR_MODEL, FiveBar, Robot, describe_weak_direction, read_sections
 from station.mechanism import Mechanism
-from station.records import FIVE_BAR, Columns, Measurements, read_measurements, with_guesses
+from station.records import (
+    FIVE_BAR,
+    Columns,
+    Measurements,
+    Real,
+    WeakDirection,
+    read_measurements,
+    with_guesses,
+)
 from station.serial_arm import ARM_MODEL, Arm, SerialArm
 
 AnyRobot = Robot | Arm
 AnyMechanism = FiveBar | SerialArm
 Measured = Literal["position", "range"]
+
+
+@dataclass(frozen=True)
+class MachineKind:
+    """What is particular to one kind of machine."""
+
+    robot: type[Robot] | type[Arm]
+    """Its robot file."""
+    mechanism: Callable[[Any, Measurements], AnyMechanism]
+    """The robot under these readings."""
+    columns: Callable[[Any], Columns]
+    """What its measurement file holds."""
+    infers_columns: bool
+    """Whether approach and position are inferred where a log does not record them."""
+    catalogue: Callable[[Any], tuple[Effect, ...]]
+    """Every effect at every place where it can act."""
+    weak_direction: Callable[[Any, Solution, Real, float], WeakDirection]
+    """From mechanism, solution, row_sd (R,) and sd_factor."""
+    extent: str
+    """Over what its position error is predicted, in words."""
+
+
+KINDS: dict[str, MachineKind] = {
+    FIVE_BAR_MODEL: MachineKind(
+        robot=Robot,
+        mechanism=FiveBar,
+        columns=lambda _: FIVE_BAR,
+        infers_columns=False,
+        catalogue=lambda _: five_bar_catalogue(),
+        weak_direction=describe_weak_direction,
+        extent="the workspace",
+    ),
+    ARM_MODEL: MachineKind(
+        robot=Arm,
+        mechanism=SerialArm,
+        columns=lambda arm: arm.columns,
+        infers_columns=True,
+        catalogue=lambda arm: arm_catalogue(arm.robot.joints, by_range=arm.by_range),
+        weak_direction=describe_separability,
+        extent="the measured poses",
+    ),
+}
+"""By `model` of the robot file."""
 
 
 def read_robot(path: Path | None) -> AnyRobot:
@@ -31,47 +87,44 @@ def read_robot(path: Path | None) -> AnyRobot:
 
 
 def robot_of(data: dict[str, Any], *, source: str = "robot") -> AnyRobot:
-    """From a robot file's sections.  :raises InputRefused:"""
+    """From a robot file's sections.  :raises InputRefused: an unknown model, or as the robot's own file."""
     section = data.get("robot")
     model = section.get("model") if isinstance(section, dict) else None
-    if model == ARM_MODEL:
-        return Arm.from_dict(data, source=source)
-    if model not in (None, FIVE_BAR_MODEL):
-        raise InputRefused(
-            f"{source}: [robot.model] {model!r} is not known; known are {FIVE_BAR_MODEL} and {ARM_MODEL}."
-        )
-    return Robot.from_dict(data, source=source)
+    kind = KINDS.get(FIVE_BAR_MODEL if model is None else model) if isinstance(model, str | None) else None
+    if kind is None:
+        known = " and ".join(KINDS)
+        raise InputRefused(f"{source}: [robot.model] {model!r} is not known; known are {known}.")
+    return kind.robot.from_dict(data, source=source)
 
 
-def columns_of(robot: AnyRobot) -> Columns:
-    """What a measurement file of this robot holds."""
-    return robot.columns if isinstance(robot, Arm) else FIVE_BAR
+def kind_of(machine: AnyRobot | Mechanism) -> MachineKind:
+    """What is particular to a robot or a mechanism."""
+    return KINDS[machine.model]
+
+
+def effects_of(mechanism: Mechanism) -> tuple[Effect, ...]:
+    """The catalogue of a machine: every effect at every place where it can act."""
+    return kind_of(mechanism).catalogue(mechanism)
+
+
+def mechanism_of(robot: AnyRobot, measurements: Measurements) -> AnyMechanism:
+    """The robot under these readings."""
+    return kind_of(robot).mechanism(robot, measurements)
 
 
 def read_readings(robot: AnyRobot, path: Path, measured: Measured = "position") -> Measurements:
-    """A measurement file of this robot; of an arm's log what it does not record is guessed and marked.
+    """A measurement file of this robot; what an arm's log does not record is inferred and marked.
 
-    measured: which of an arm's columns count where a file has both.
+    measured: which of the columns count where a file has both.
 
     :raises InputRefused: anything malformed, with row, column and what to do.
     """
-    readings = read_measurements(path, columns_of(robot))
-    if not isinstance(robot, Arm):
+    kind = kind_of(robot)
+    readings = read_measurements(path, kind.columns(robot))
+    if not kind.infers_columns:
         return readings
     if measured == "range":
         if np.isnan(readings.distance).any():
             raise InputRefused(f"{path.name}: row 1: column range_mm is missing; distances were asked for.")
         readings = replace(readings, tracker=None)
     return with_guesses(readings)
-
-
-def mechanism_of(robot: AnyRobot, measurements: Measurements) -> AnyMechanism:
-    """The robot under these readings."""
-    return SerialArm(robot, measurements) if isinstance(robot, Arm) else FiveBar(robot, measurements)
-
-
-def effects_of(mechanism: Mechanism) -> tuple[Effect, ...]:
-    """The catalogue of a machine: every effect at every place where it can act."""
-    if isinstance(mechanism, SerialArm):
-        return arm_catalogue(mechanism.robot.joints, by_range=mechanism.by_range)
-    return five_bar_catalogue()

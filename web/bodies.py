@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
-from datetime import datetime
-from typing import Annotated, Any, Literal, get_args
+from typing import Annotated, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, JsonValue, StringConstraints
 
 from station.five_bar import Robot as RobotFile
-from station.records import PlanName, Reading, State
+from station.records import CalibrationSummary, MemorySummary, PlanName, Reading, Record, Sections
 
 Serial = Annotated[
     str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64, pattern=r"^[\w.\-/]+$")
 ]
 Name = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64)]
-
-
-class Answer(BaseModel):
-    """Base of all answers: a field is always there, null when nothing is known."""
-
-    model_config = ConfigDict(json_schema_serialization_defaults_required=True)
 
 
 class CalibrationBody(BaseModel):
@@ -46,172 +39,31 @@ class DatasetFields(BaseModel):
     work_order: Name | None = None
 
 
-class ZeroOffset(Answer):
-    joint: int
-    value_deg: float | None
-    sd_deg: float | None
-
-
-class PositionError(Answer):
-    rms: float | None
-    max: float | None
-
-
-class Accuracy(Answer):
-    """How well the robot positions, before or after; of a diagnosis, without its effects or with them."""
-
-    reading_rms_mm: float | None = None
-    fresh_reading_rms_mm: float | None = Field(
-        default=None, description="readings that took no part in the fit"
-    )
-    predicted_position_error_mm: PositionError | None = None
-
-
-class Quantity(Answer):
-    name: str
-    value: float | None
-    sd: float | None
-    unit: str
-
-
-class WeakDirection(Answer):
-    singular_ratio: float | None = None
-    text: str = ""
-    sd_deg: float | None = None
-    remedy: str | None = None
-
-
-class Residual(Answer):
-    reading: int
-    position: str | None = None
-    residual_mm: float | None
-    limit_mm: float | None = None
-
-
-class Iteration(Answer):
-    """One pass of measuring and solving."""
-
-    number: int = Field(alias="pass")
-    dtheta1_deg: float | None = None
-    dtheta2_deg: float | None = None
-    total1_deg: float | None = None
-    total2_deg: float | None = None
-    mu_deg: float | None = None
-
-
-class MemoryUse(Answer):
-    """Whether what earlier runs know of geometry and mechanism took part."""
-
-    used: bool
-    p_value: float | None = Field(description="of the readings under the memory")
-    text: str
-    from_calibration: int
-    age_days: float | None
-
-
-class CalibrationSummary(Answer):
-    """One line of the history."""
-
-    id: int
-    robot_serial: str
-    plan: str = Field(
-        description="of a calibration; or `apply`, `rollback`, `separating`, of the run `of`; or `dataset`"
-    )
-    of: int | None = None
-    operator: str
-    work_order: str | None = None
-    state: State
-    verdict: Literal["pass", "fail"] | None
-    reason: str | None = None
-    step: int | None = None
-    steps: int | None = None
-    created_at: datetime
-    started_at: datetime | None = None
-    ended_at: datetime | None = None
-    zero_offsets: list[ZeroOffset] | None = None
-
-
-ApplicationState = Literal["unwritten", "applied", "partly", "in doubt", "rolled back", "superseded"]
-
-
 class ApplyBody(BaseModel):
-    """Who writes zero offsets to the drives, takes them back, or goes on from a run."""
+    """Who writes zero offsets to the drives, takes them back, or continues a run."""
 
     model_config = ConfigDict(extra="forbid")
 
     operator: Name
 
 
-class JointApplication(Answer):
-    """One drive: `shift_deg` is how far its frame has moved since the calibration."""
-
-    joint: int
-    state: ApplicationState
-    old_offset_deg: float
-    shift_deg: float | None
-    new_offset_deg: float | None = Field(description="what is left of the zero offset in the drive's frame")
-
-
-class ApplicationRun(Answer):
-    """One attempt to apply or to roll back."""
-
-    id: int
-    plan: Literal["apply", "rollback"]
-    operator: str
-    state: State
-    verdict: Literal["pass", "fail"] | None
-    reason: str | None
-    ended_at: datetime | None
-
-
-class Application(Answer):
-    """What the drives hold of a calibration's zero offsets."""
-
-    state: ApplicationState
-    verified: bool
-    text: str
-    joints: list[JointApplication]
-    runs: list[ApplicationRun]
-    apply_refused: str | None = Field(description="why it cannot be applied, null when it can")
-    rollback_refused: str | None = Field(description="why it cannot be rolled back, null when it can")
-
-
-class Calibration(CalibrationSummary):
-    """All that is known about one run."""
-
-    metadata: dict[str, JsonValue] = Field(default_factory=dict)
-    method: str | None = None
-    zero_offset_tolerance_deg: float | None = None
-    parameters: list[Quantity] | None = None
-    weak_direction: WeakDirection | None = None
-    application: Application | None = Field(default=None, description="null unless the run has passed")
-    memory: MemoryUse | None = Field(default=None, description="null when nothing was known")
-    lack_of_fit: str | None = Field(
-        default=None, description="what the model does not account for; null when it fits or none was judged"
-    )
-    before: Accuracy | None = None
-    after: Accuracy | None = None
-    iterations: list[Iteration] | None = None
-    residuals: list[Residual] | None = None
-    findings: list[dict[str, JsonValue]] = Field(default_factory=list)
-
-
-class SeparatingStop(Answer):
+class SeparatingStop(Record):
     position: str
     x_mm: float
     y_mm: float
 
 
-class Separating(Answer):
-    """The motion that tells what a run found from its look-alikes."""
+class Separating(Record):
+    """The motion that distinguishes the causes which a run left open."""
 
-    apart: list[str] = Field(description="look-alikes that it should rule out, or confirm instead")
+    apart: list[str]
+    """Alternative causes that it should rule out, or confirm instead."""
     stops: list[SeparatingStop] = Field(description="in measuring order; empty when there is none")
     duration_s: float | None
     refused: str | None = Field(description="why there is none, null when it can be run")
 
 
-class ResidualRow(Answer):
+class ResidualRow(Record):
     """One reading that a diagnosis learned from, with all that its residual may be ordered by."""
 
     reading: int
@@ -231,7 +83,7 @@ class ResidualRow(Answer):
     limit_mm: float
 
 
-class ResidualList(Answer):
+class ResidualList(Record):
     """Residuals before and after; `effects` in the order in which they were added."""
 
     effects: list[str]
@@ -265,12 +117,12 @@ class SolveBody(BaseModel):
     targets: list[Target] = Field(min_length=1, max_length=MOST_TARGETS)
 
 
-class JointCommand(Answer):
+class JointCommand(Record):
     theta1_deg: float
     theta2_deg: float
 
 
-class Solution(Answer):
+class Solution(Record):
     """Joint commands in the drives' nominal frame, one a target, in their order."""
 
     commands: list[JointCommand]
@@ -278,29 +130,20 @@ class Solution(Answer):
     confirmed: bool | None = Field(description="false: fresh readings refuted the model; null: never asked")
 
 
-class MemorySummary(Answer):
-    """What the robot's next run will start from."""
-
-    from_calibration: int
-    at: datetime
-    age_days: float
-    parameters: list[Quantity]
-
-
-class Robot(Answer):
+class Robot(Record):
     """A robot as it is known here."""
 
     serial: str
-    file: dict[str, Any] = Field(description="the sections of its robot file")
+    file: Sections = Field(description="the sections of its robot file")
     memory: MemorySummary | None = Field(description="null when nothing is known")
 
 
-class CalibrationList(Answer):
+class CalibrationList(Record):
     items: list[CalibrationSummary]
     next: int | None = Field(description="cursor of the next page, null on the last")
 
 
-class ReadingAnswer(Answer):
+class ReadingAnswer(Record):
     """One row of the measurement file."""
 
     reading: int
@@ -334,119 +177,21 @@ class ReadingAnswer(Answer):
         )
 
 
-class ReadingList(Answer):
+class ReadingList(Record):
     items: list[ReadingAnswer]
     next: None = None
 
 
-class StationInfo(Answer):
-    name: str
-    emulated: bool
-    limits: dict[str, Any] = Field(default_factory=dict)
-    plans: list[PlanName] = Field(default=list(get_args(PlanName)), description="plans this station can run")
-
-
-class Device(Answer):
-    name: str
-    kind: str
-    address: str
-    state: Literal["ok", "lost", "fault", "unknown"]
-    text: str = ""
-
-
-class Interlock(Answer):
-    id: str
-    text: str
-    ok: bool
-    detail: str | None = None
-
-
-class Machine(Answer):
-    """Live values, `age_s` old when they were sent."""
-
-    theta1_deg: float | None
-    theta2_deg: float | None
-    x_mm: float | None
-    y_mm: float | None
-    scale_mm: float | None
-    age_s: float | None
-
-
-class Workspace(Answer):
-    x: tuple[float, float]
-    y: tuple[float, float]
-
-
-class WalkTitle(Answer):
-    number: int
-    title: str
-
-
-class RunStop(Answer):
-    position: str
-    x_mm: float
-    y_mm: float
-    done: bool
-
-
-class RunReading(Answer):
-    reading: int
-    position: str
-    x_mm: float | None = None
-    y_mm: float | None = None
-    theta1_deg: float
-    theta2_deg: float
-    scale_mm: float
-    sd_mm: float | None = None
-    residual_mm: float | None = None
-    limit_mm: float | None = None
-    t_s: float
-    walk: int
-
-
-class Run(Answer):
-    """The run that holds the rig."""
-
-    id: int
-    state: State
-    robot_serial: str
-    plan: str
-    of: int | None = None
-    operator: str
-    work_order: str | None = None
-    started_at: datetime | None = None
-    elapsed_s: float | None = None
-    remaining_s: float | None = None
-    walk: WalkTitle | None = None
-    step: int | None = None
-    steps: int | None = None
-    stops: list[RunStop] = Field(default_factory=list)
-    readings: list[RunReading] = Field(default_factory=list)
-    iterations: list[Iteration] = Field(default_factory=list)
-
-
-class Station(Answer):
-    """The whole station at one moment; also the `data` of the live feed's snapshot."""
-
-    station: StationInfo
-    devices: list[Device]
-    interlocks: list[Interlock]
-    machine: Machine | None
-    workspace: Workspace
-    run: Run | None
-    last: CalibrationSummary | None
-
-
-class Stopped(Answer):
+class Stopped(Record):
     """Both axes confirmed the quick stop; a run under way is being aborted."""
 
     stopped: Literal[True] = True
     by: str
 
 
-class Alive(Answer):
+class Alive(Record):
     status: Literal["alive"] = "alive"
 
 
-class Ready(Answer):
+class Ready(Record):
     status: Literal["ready"] = "ready"

@@ -11,13 +11,11 @@ import asyncio
 from collections.abc import Awaitable, Callable, Iterator
 from contextlib import contextmanager
 from datetime import UTC, datetime
-from typing import Any
 
 from pydantic_core import to_json
 
 from station.service import LiveEvent, Orchestrator
 from web.aside import aside
-from web.bodies import Station
 
 BEAT_S = 1.0
 QUEUE_LENGTH = 256
@@ -85,12 +83,12 @@ class LiveFeed:
 
     async def _snapshot(self, number: int) -> str:
         # aside: a worker that hangs while it holds the orchestrator must not stop the beats
-        station = Station.model_validate(await aside(self._orchestrator.snapshot))
+        station = await aside(self._orchestrator.snapshot)
         return self._message("snapshot", number, station)
 
-    def _message(self, kind: str, number: int, data: Any = None) -> str:
+    def _message(self, kind: str, number: int, data: object = None) -> str:
         message = {"type": kind, "number": number, "at": datetime.now(UTC), "build": self.build, "data": data}
-        return to_json(message, inf_nan_mode="null").decode()
+        return to_json(message, by_alias=True, inf_nan_mode="null").decode()
 
 
 class _Client:

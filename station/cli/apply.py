@@ -30,7 +30,9 @@ def apply_command(
     """Write the zero offsets of a passed run to the drives and verify them."""
     who = operator or getpass.getuser()
     settings = read_settings(config, speed)
-    one_run(home, settings, emulate, lambda runtime: runtime.orchestrator.apply(calibration_id, who))
+    one_run(
+        home, settings, emulate, lambda runtime: runtime.orchestrator.follow("apply", calibration_id, who)
+    )
 
 
 @click.command("rollback")
@@ -49,4 +51,6 @@ def rollback_command(
     """Put the zeros back that the drives had before a run was applied."""
     who = operator or getpass.getuser()
     settings = read_settings(config, speed)
-    one_run(home, settings, emulate, lambda runtime: runtime.orchestrator.roll_back(calibration_id, who))
+    one_run(
+        home, settings, emulate, lambda runtime: runtime.orchestrator.follow("rollback", calibration_id, who)
+    )

@@ -12,6 +12,7 @@ from station.cli.machine_options import machine_options, read_settings
 from station.cli.one_run import one_run
 from station.five_bar import Robot
 from station.records import CalibrationRequest, PlanName
+from station.run_kinds import kind_of_plan
 from station.service import Runtime, Submitted
 
 
@@ -46,6 +47,8 @@ def calibrate_command(
         if robot_file:
             runtime.store.save_robot(robot)
         who = operator or getpass.getuser()
-        return runtime.orchestrator.submit(CalibrationRequest(serial or robot.serial, plan, who, work_order))
+        return runtime.orchestrator.submit(
+            CalibrationRequest(serial or robot.serial, kind_of_plan(plan), who, plan, work_order)
+        )
 
     one_run(home, settings, emulate, submit)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from pathlib import Path
 
 import click
@@ -13,7 +14,6 @@ from station.diagnosis import (
     Findings,
     commands_csv,
     diagnose,
-    extent,
     page,
     range_text,
     read_model,
@@ -24,7 +24,7 @@ from station.diagnosis import (
     transfer,
     without_a_quarter,
 )
-from station.machines import Measured, read_readings, read_robot, robot_of
+from station.machines import Measured, kind_of, read_readings, read_robot, robot_of
 from station.records import guesses_in_words
 
 _file = click.Path(path_type=Path)
@@ -62,17 +62,17 @@ def diagnose_command(
     check_folders(json_file, html_file)
     robot = read_robot(robot_file)
     measurements = read_readings(robot, data, measured)
-    described = {**describe(data, len(measurements)), "guessed": list(measurements.guessed)}
+    described = describe(data, len(measurements), measurements.guessed)
     fresh = read_readings(robot, fresh_file, measured) if fresh_file else None
     if hold_out:
         measurements, fresh = without_a_quarter(measurements)
     findings = Findings(diagnose(robot, measurements, fresh))
     if json_file:
-        write_json(json_file, findings.as_json(described))
+        write_json(json_file, findings.document(described))
     if html_file:
         write_text(html_file, page(findings, data.name).to_html())
     _print(findings)
-    context.exit(0 if findings.passed else 1)
+    context.exit(0 if findings.decision.passed else 1)
 
 
 @click.command("solve")
@@ -106,7 +106,7 @@ def transfer_command(data: Path, model_file: Path, measured: Measured, json_file
     robot = robot_of(part.robot, source=f"{model_file}: [model.robot]")
     found = transfer(part, robot, read_readings(robot, data, measured), str(model_file))
     if json_file:
-        write_json(json_file, {"data": describe(data, found.readings), **found.as_json()})
+        write_json(json_file, {"data": describe(data, found.readings).model_dump(), **asdict(found)})
     console = Console(highlight=False)
     console.print(f"{found.inside} of {found.readings} readings stand where the effects were learned.")
     for outlier in found.outliers:
@@ -149,7 +149,7 @@ def _print(findings: Findings) -> None:
     console.print(table)
     if findings.diagnosis.measurements.guessed:
         console.print(guesses_in_words(findings.diagnosis.measurements))
-    predicted = f"over {extent(findings.fit)}, predicted"
+    predicted = f"over {kind_of(findings.fit.model.mechanism).extent}, predicted"
     for what, errors in (
         (predicted, findings.position_errors),
         ("against the tracker", findings.true_position_errors),
@@ -157,8 +157,8 @@ def _print(findings: Findings) -> None:
         if errors is not None:
             before, after = errors
             console.print(
-                f"Position error {what}: {before['rms']:.4f} mm rms before, {after['rms']:.4f} mm after; "
-                f"largest {before['max']:.4f} and {after['max']:.4f} mm."
+                f"Position error {what}: {before.rms:.4f} mm rms before, {after.rms:.4f} mm after; "
+                f"largest {before.max:.4f} and {after.max:.4f} mm."
             )
     for hint in findings.diagnosis.hints:
         console.print(f"Hint: {hint.text} ({100 * hint.strength:.0f} %)")

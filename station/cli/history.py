@@ -8,11 +8,12 @@ import json
 import sys
 from collections.abc import Iterator
 from contextlib import closing
+from dataclasses import asdict
 from itertools import islice
 from pathlib import Path
-from typing import Any
 
 import click
+from pydantic import JsonValue
 from rich.box import SIMPLE
 from rich.console import Console
 from rich.table import Table
@@ -25,12 +26,14 @@ _COLUMNS = (
     "id",
     "created_at",
     "robot_serial",
+    "kind",
     "plan",
     "of",
     "operator",
     "work_order",
     "state",
     "verdict",
+    "outcome",
     "dtheta1_deg",
     "dtheta1_sd_deg",
     "dtheta2_deg",
@@ -41,6 +44,10 @@ _COLUMNS = (
     "ended_at",
     "reason",
 )
+_TOLD = (
+    "id", "robot_serial", "kind", "plan", "operator", "work_order", "state", "verdict", "outcome", "reason",
+    "created_at", "started_at", "ended_at",
+)  # fmt: skip
 _SHOWN = ("id", "created_at", "robot_serial", "plan", "state", "verdict", "dtheta1_deg", "dtheta2_deg")
 
 _config = click.option(
@@ -76,34 +83,35 @@ def runs_command(
             _print_table(list(islice(rows, limit or 20)))
 
 
-def _every(store: Store, **wanted: str | None) -> Iterator[dict[str, Any]]:
+def _every(store: Store, **wanted: str | None) -> Iterator[dict[str, JsonValue]]:
+    """One flat row a run, with every column of `_COLUMNS`."""
     cursor: int | None = None
     while True:
         page = store.calibrations(limit=500, cursor=cursor, **wanted)  # type: ignore[arg-type]
         for item in page.items:
-            zeros = item.pop("zero_offsets")
-            for zero in zeros:
-                item[f"dtheta{zero['joint']}_deg"] = zero["value_deg"]
-                item[f"dtheta{zero['joint']}_sd_deg"] = zero["sd_deg"]
-            yield item
+            row = item.model_dump(mode="json")
+            for zero in item.zero_offsets:
+                row[f"dtheta{zero.joint}_deg"] = zero.value_deg
+                row[f"dtheta{zero.joint}_sd_deg"] = zero.sd_deg
+            yield {column: row.get(column) for column in _COLUMNS}
         cursor = page.next
         if cursor is None:
             return
 
 
-def _print_table(rows: list[dict[str, Any]]) -> None:
+def _print_table(rows: list[dict[str, JsonValue]]) -> None:
     console = Console()
     if not rows:
         console.print("No runs.")
         return
     table = Table(*(column.split("_")[0] for column in _SHOWN), box=SIMPLE, padding=(0, 1, 0, 0))
     for row in rows:
-        created = row["created_at"][:16].replace("T", " ")
+        created = str(row["created_at"])[:16].replace("T", " ")
         table.add_row(*(_cell(value) for value in ({**row, "created_at": created}.get(c) for c in _SHOWN)))
     console.print(table)
 
 
-def _cell(value: Any) -> str:
+def _cell(value: object) -> str:
     if value is None:
         return ""
     return f"{value:+.4f}" if isinstance(value, float) else str(value)
@@ -121,27 +129,30 @@ def show_command(home: Path, calibration_id: int, as_json: bool, config: Path | 
         readings = store.readings(calibration_id)
         events = store.events(calibration_id)
     if as_json:
-        rows = [{name: getattr(r, name) for name in r.__slots__} for r in readings]
-        click.echo(json.dumps({**calibration, "readings": rows, "events": events}, indent=1))
+        content = {
+            **calibration.model_dump(mode="json", by_alias=True),
+            "readings": [asdict(reading) for reading in readings],
+            "events": [event.model_dump(mode="json") for event in events],
+        }
+        click.echo(json.dumps(content, indent=1))
         return
     console = Console(highlight=False)
-    for key in ("id", "robot_serial", "plan", "operator", "work_order", "state", "verdict", "reason"):
-        console.print(f"{key.replace('_', ' '):>14}  {calibration[key] or ''}", soft_wrap=True)
-    for key in ("created_at", "started_at", "ended_at"):
-        console.print(f"{key.removesuffix('_at'):>14}  {calibration[key] or ''}")
-    if memory := calibration["memory"]:
+    row = calibration.model_dump(mode="json", include=set(_TOLD))
+    for key in _TOLD:
+        console.print(f"{key.removesuffix('_at').replace('_', ' '):>14}  {row[key] or ''}", soft_wrap=True)
+    if memory := calibration.memory:
         console.print(
-            f"{'memory':>14}  of run {memory['from_calibration']}, {memory['age_days']:.1f} days old:"
-            f" {memory['text']}",
+            f"{'memory':>14}  of run {memory.from_calibration}, {memory.age_days or 0.0:.1f} days old:"
+            f" {memory.text}",
             soft_wrap=True,
         )
-    for zero in calibration["zero_offsets"]:
+    for zero in calibration.zero_offsets:
         console.print(
-            f"{'dtheta' + str(zero['joint']):>14}  {zero['value_deg']:+.4f} deg, sd {zero['sd_deg']:.4f}"
+            f"{'dtheta' + str(zero.joint):>14}  {zero.value_deg or 0.0:+.4f} deg, sd {zero.sd_deg or 0.0:.4f}"
         )
     console.print(f"{'readings':>14}  {len(readings)}")
     for event in events:
-        console.print(f"{event['kind']:>14}  {event['at']} {event['data']}", soft_wrap=True)
+        console.print(f"{event.kind:>14}  {event.at} {event.data}", soft_wrap=True)
 
 
 @click.command("memory")
@@ -160,7 +171,7 @@ def memory_command(home: Path, serial: str, clear: bool, config: Path | None) ->
     if memory is None:
         console.print(f"Nothing is remembered of robot {serial}.")
         return
-    known = memory.to_json()
-    console.print(f"Robot {serial}, from run {known['from_calibration']}, {known['age_days']:.1f} days old:")
-    for q in known["parameters"]:
-        console.print(f"{q['name']:>14}  {q['value']:+.4f} {q['unit']}, sd {q['sd']:.4f}")
+    known = memory.summary()
+    console.print(f"Robot {serial}, from run {known.from_calibration}, {known.age_days:.1f} days old:")
+    for q in known.parameters:
+        console.print(f"{q.name:>14}  {q.value:+.4f} {q.unit}, sd {q.sd:.4f}")

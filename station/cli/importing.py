@@ -39,11 +39,11 @@ def import_command(
     """
     learned = _read(data)
     fresh = _read(fresh_file) if fresh_file else None
-    request = CalibrationRequest(serial, "dataset", operator)
+    request = CalibrationRequest(serial, "import", operator)
     with closing(Store(database_path(load_settings(config), context.obj))) as store:
         run = store.summary(import_dataset(store, request, learned, fresh).id)
-    click.echo(f"Run {run['id']}: {run['verdict']}, {run['reason']}")
-    context.exit(0 if run["verdict"] == "pass" else 1)
+    click.echo(f"Run {run.id}: {run.verdict}. {run.reason}")
+    context.exit(0 if run.verdict == "pass" else 1)
 
 
 def _read(file: Path) -> Upload:

@@ -4,20 +4,19 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any, get_args
+from typing import get_args
 
 import click
 from rich.console import Console
 from rich.table import Table
 
 from station.five_bar import Robot
-from station.identification import ArmIdentification, Identification, identify, identify_arm
-from station.machines import Measured, read_readings, read_robot
+from station.identification import Identification, identification_document, identify
+from station.machines import AnyMechanism, Measured, read_readings, read_robot
 from station.plans import make_plan, plan_as_text, plan_page
-from station.records import PlanName, Quantity
-from station.serial_arm import Arm
+from station.records import DataSource, IdentificationDocument, PlanName, Quantity, Record
 
 existing = click.Path(path_type=Path)
 measured_option = click.option(
@@ -38,33 +37,11 @@ def identify_command(data: Path, robot_file: Path | None, measured: Measured, js
     """Zero offsets with uncertainty from a measurement file."""
     robot = read_robot(robot_file)
     readings = read_readings(robot, data, measured)
-    if isinstance(robot, Arm):
-        _identify_arm(identify_arm(robot, readings), data, json_file)
-        return
-    fit = identify(robot, readings)
-    content = {"data": describe(data, len(fit.measurements) + len(fit.outliers)), **fit.as_json()}
+    found = identify(robot, readings)
+    document = identification_document(found, describe(data, len(readings)))
     if json_file:
-        write_json(json_file, content)
-    _print(fit, content)
-
-
-def _identify_arm(found: ArmIdentification, data: Path, json_file: Path | None) -> None:
-    content = found.as_json()
-    kept = len(found.fit.model.mechanism.measurements)
-    if json_file:
-        write_json(json_file, {"data": describe(data, kept + len(found.outliers)), **content})
-    console = Console()
-    console.print(_table(found.parameters, kept))
-    residual, weak = content["residual"], content["weak_direction"]
-    console.print(f"Residual rms {residual['rms_mm']:.4f} mm, largest {residual['max_mm']:.4f} mm.")
-    console.print(f"Weakest: {weak['text']}. Held by tolerances alone: {'; '.join(weak['blind'])}.")
-    for outlier in found.outliers:
-        console.print(f"Left out: reading {outlier.reading}, {outlier.reason}.")
-    if found.sd_factor > 1.0:
-        console.print(
-            f"The model does not fit: the uncertainties were widened by {found.sd_factor:.1f}; "
-            "`station diagnose` looks for the cause."
-        )
+        write_json(json_file, document)
+    _print(found, document)
 
 
 def _table(quantities: Iterable[Quantity], readings: int) -> Table:
@@ -76,13 +53,10 @@ def _table(quantities: Iterable[Quantity], readings: int) -> Table:
     return table
 
 
-def describe(path: Path, readings: int) -> dict[str, Any]:
+def describe(path: Path, readings: int, guessed: Iterable[str] = ()) -> DataSource:
     """What a result was made from."""
-    return {
-        "file": path.name,
-        "readings": readings,
-        "sha256": hashlib.sha256(path.read_bytes()).hexdigest(),
-    }
+    digest = hashlib.sha256(path.read_bytes()).hexdigest()
+    return DataSource(file=path.name, readings=readings, sha256=digest, guessed=tuple(guessed))
 
 
 def check_folders(*files: Path | None) -> None:
@@ -92,9 +66,10 @@ def check_folders(*files: Path | None) -> None:
             raise click.UsageError(f"{file} cannot be written: there is no folder {file.parent}.")
 
 
-def write_json(path: Path, content: dict[str, Any]) -> None:
+def write_json(path: Path, content: Record | Mapping[str, object]) -> None:
     """Finite numbers only.  :raises click.UsageError: the file cannot be written."""
-    write_text(path, json.dumps(content, indent=1, allow_nan=False) + "\n")
+    plain = content.model_dump(by_alias=True) if isinstance(content, Record) else content
+    write_text(path, json.dumps(plain, indent=1, allow_nan=False) + "\n")
 
 
 def write_text(path: Path, text: str) -> None:
@@ -105,25 +80,25 @@ def write_text(path: Path, text: str) -> None:
         raise click.UsageError(f"{path} cannot be written: {error.strerror}.") from error
 
 
-def _print(fit: Identification, content: dict[str, Any]) -> None:
-    console = Console()
-    k = fit.noise.coverage_factor
-    console.print(_table((*fit.quantities(), *fit.modes()), len(fit.measurements)))
-    weak, residual = content["weak_direction"], content["residual"]
+def _print(found: Identification[AnyMechanism], document: IdentificationDocument) -> None:
+    console = Console(highlight=False)
+    console.print(_table((*document.parameters, *document.modes), len(found.measurements)))
+    weak, residual = document.weak_direction, document.residual
     console.print(
-        f"95 % interval: value +- {k:.2f} sd. Noise {fit.noise.sigma_mm * 1e3:.2f} um "
-        f"({fit.noise.source}), residual rms {residual['rms_mm'] * 1e3:.2f} um."
+        f"95 % interval: value ± {document.coverage_factor:.2f} sd. "
+        f"Noise {document.noise.sigma_mm * 1e3:.2f} µm ({document.noise.source}), "
+        f"residual rms {residual.rms_mm * 1e3:.2f} µm, largest {residual.max_mm * 1e3:.2f} µm."
     )
-    console.print(f"Weakest: {weak['text']}, sd {weak['sd_deg']:.4f} deg.")
-    for remedy in weak["remedies"]:
-        console.print(f"  {remedy['text']}: sd {remedy['sd_deg']:.4f} deg")
-    console.print("Blind to one distance: " + "; ".join(weak["blind"]) + ".")
-    for outlier in fit.outliers:
+    console.print(f"Least determined: {weak.text}, sd {weak.sd_deg or 0.0:.4f} deg.")
+    for remedy in weak.remedies:
+        console.print(f"  {remedy.text}: sd {remedy.sd_deg:.4f} deg")
+    console.print("Not determined by the readings: " + "; ".join(weak.blind) + ".")
+    for outlier in found.outliers:
         console.print(f"Left out: reading {outlier.reading}, {outlier.reason}.")
-    if not fit.adequate:
+    if found.sd_factor > 1.0:
         console.print(
-            f"The model does not fit (p = {fit.lack_of_fit_p:.1g}): the uncertainties were widened by "
-            f"{fit.sd_factor:.1f}; `station diagnose` looks for the cause."
+            f"The model does not fit (p = {found.lack_of_fit_p:.1g}): each standard uncertainty is "
+            f"multiplied by {found.sd_factor:.1f}; `station diagnose` looks for the cause."
         )
 
 
@@ -138,9 +113,8 @@ def plan_command(
     """The positions of a plan, their order and the accuracy they predict."""
     robot = Robot.from_toml(robot_file) if robot_file else Robot.default()
     plan = make_plan(name, robot)
-    content = plan.as_json()
     if json_file:
-        write_json(json_file, content)
+        write_json(json_file, plan.document())
     if html_file:
         write_text(html_file, plan_page(plan).to_html())
     table = Table("stop", "position", "x mm", "y mm", "theta1 deg", "theta2 deg", "approach")

@@ -8,7 +8,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import NoReturn
 
 import click
 from rich.console import Console
@@ -16,7 +16,7 @@ from rich.console import Console
 from station.cli.machine_options import logging_to
 from station.cli.progress import progress
 from station.errors import NotApplicable
-from station.records import State
+from station.records import Calibration, State
 from station.service import Runtime, Submitted
 from station.settings import Settings
 
@@ -42,7 +42,7 @@ def one_run(
             state = _end_of(runtime, calibration_id)
         calibration = runtime.store.calibration(calibration_id)
     _print_outcome(console, state, calibration)
-    sys.exit(0 if calibration["verdict"] == "pass" else 1)
+    sys.exit(0 if calibration.verdict == "pass" else 1)
 
 
 def _end_of(runtime: Runtime, calibration_id: int) -> State:
@@ -64,10 +64,10 @@ def _interruptible() -> Iterator[None]:
             signal.signal(sig, handler)
 
 
-def _print_outcome(console: Console, state: State, calibration: dict[str, Any]) -> None:
-    verdict = (calibration["verdict"] or str(state)).upper()
-    console.print(f"Run {calibration['id']} {verdict}: {calibration['reason']}", soft_wrap=True)
-    for zero in calibration["zero_offsets"]:
-        console.print(f"  dtheta{zero['joint']} = {zero['value_deg']:+.4f} deg, sd {zero['sd_deg']:.4f}")
-    if weak := calibration["weak_direction"]:
-        console.print(f"  weakest: {weak['text']}", soft_wrap=True)
+def _print_outcome(console: Console, state: State, calibration: Calibration) -> None:
+    verdict = (calibration.verdict or str(state)).upper()
+    console.print(f"Run {calibration.id} {verdict}: {calibration.reason}", soft_wrap=True)
+    for zero in calibration.zero_offsets:
+        console.print(f"  dtheta{zero.joint} = {zero.value_deg or 0.0:+.4f} deg, sd {zero.sd_deg or 0.0:.4f}")
+    if weak := calibration.weak_direction:
+        console.print(f"  weakest: {weak.text}", soft_wrap=True)

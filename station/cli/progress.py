@@ -9,6 +9,7 @@ from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeElapsedColumn
 
 from station.motion import LiveEvent
+from station.records import RunReading, SequenceView
 from station.service import Orchestrator
 
 
@@ -36,11 +37,11 @@ def _bar(console: Console) -> Iterator[Callable[[LiveEvent], None]]:
         tasks = [bar.add_task("Getting ready", total=None, last="")]
 
         def show(event: LiveEvent) -> None:
-            if event.type == "walk":
+            if isinstance(event.data, SequenceView):
                 bar.update(tasks[-1], last="")
-                tasks.append(bar.add_task(event.data["title"], total=len(event.data["stops"]), last=""))
-            elif event.type == "reading":
-                bar.update(tasks[-1], advance=1, last=_reading(event))
+                tasks.append(bar.add_task(event.data.title, total=len(event.data.stops), last=""))
+            elif isinstance(event.data, RunReading):
+                bar.update(tasks[-1], advance=1, last=_reading(event.data))
                 bar.update(tasks[0], visible=False)
 
         yield show
@@ -49,13 +50,13 @@ def _bar(console: Console) -> Iterator[Callable[[LiveEvent], None]]:
 @contextmanager
 def _lines(console: Console) -> Iterator[Callable[[LiveEvent], None]]:
     def show(event: LiveEvent) -> None:
-        if event.type == "walk":
-            console.print(event.data["title"], markup=False)
-        elif event.type == "reading":
-            console.print(f"  {event.data['reading']:>3}  {_reading(event)}", markup=False)
+        if isinstance(event.data, SequenceView):
+            console.print(event.data.title, markup=False)
+        elif isinstance(event.data, RunReading):
+            console.print(f"  {event.data.reading:>3}  {_reading(event.data)}", markup=False)
 
     yield show
 
 
-def _reading(event: LiveEvent) -> str:
-    return f"{event.data['position']}  {event.data['scale_mm']:.4f} mm"
+def _reading(reading: RunReading) -> str:
+    return f"{reading.position}  {reading.scale_mm:.4f} mm"

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from station.diagnosis.closed_loop import Diagnosis, diagnose
+from station.diagnosis.decision import Decision, StageFigures, decide
 from station.diagnosis.learned import (
-    ModelPart,
     Transfer,
     commands_csv,
-    model_json,
-    model_of,
+    learned_model,
+    model_document,
     range_text,
     read_model,
     read_part,
@@ -20,10 +20,8 @@ from station.diagnosis.learned import (
 from station.diagnosis.report import (
     Curve,
     Findings,
-    StageErrors,
     curve_chart,
     curves,
-    extent,
     kept_fresh,
     page,
     residuals,
@@ -35,22 +33,22 @@ from station.diagnosis.tests_of_fit import without_a_quarter
 
 __all__ = [
     "Curve",
+    "Decision",
     "Diagnosis",
     "Experiment",
     "Findings",
-    "ModelPart",
     "Scan",
-    "StageErrors",
+    "StageFigures",
     "Transfer",
     "commands_csv",
     "curve_chart",
     "curves",
+    "decide",
     "diagnose",
     "experiment",
-    "extent",
     "kept_fresh",
-    "model_json",
-    "model_of",
+    "learned_model",
+    "model_document",
     "page",
     "range_text",
     "read_model",

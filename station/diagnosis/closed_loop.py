@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
+from functools import cached_property
 
 import numpy as np
 
+from station.diagnosis.decision import GOOD_SHARE, Decision, StageFigures, decide
 from station.diagnosis.search import Hint, Stage, Trace, hints, long_trace, trace, with_alias
 from station.diagnosis.tests_of_fit import FEWEST, Confirmation, Rest, confirm, of_fit, rest_of, strongest
 from station.effects import Effect
@@ -17,9 +18,7 @@ from station.five_bar import check_places
 from station.machines import AnyMechanism, AnyRobot, effects_of, mechanism_of
 from station.mechanism import Mechanism, reference_of
 from station.model import Fit, Model, is_long
-from station.records import Measurements
-
-Verdict = Literal["adequate", "explained", "partly_explained", "unexplained"]
+from station.records import DiagnosisVerdict, Measurements
 
 FEWEST_READINGS = 30
 """Thirteen unknowns and an effect leave too little of fewer readings to judge a residual by."""
@@ -28,8 +27,6 @@ FEWEST_NOISE_DOF = 10
 MOST_LEFT_OUT = 0.05
 USELESS = 0.6
 """Fresh residual over that of the base model from which on an added effect predicts nothing worth having."""
-GOOD_SHARE = 0.5
-"""An effect that takes less of the residual's square than this explains nothing by itself."""
 
 
 @dataclass(frozen=True)
@@ -57,26 +54,35 @@ class Diagnosis:
         return self.trace.stages[-1].fit
 
     @property
-    def confirmed(self) -> bool | None:
-        """Whether the last model predicted fresh readings; None without any."""
-        return self.confirmations[-1].confirmed if self.confirmations else None
-
-    @property
     def explained_share(self) -> float:
         """Of the base residual's square beyond the noise."""
         before = np.sum(self.base.residual_mm**2)
         after = np.sum(self.last.residual_mm**2)
         return float(1.0 - after / before)
 
+    @cached_property
+    def decision(self) -> Decision:
+        """Verdict and trusted stage."""
+        checks = self.confirmations or (None,) * len(self.trace.stages)
+        figures = [_figures(stage, check) for stage, check in zip(self.trace.stages, checks, strict=True)]
+        return decide(figures, alternative=self.rival is not None, share=self.explained_share)
+
     @property
-    def verdict(self) -> Verdict:
-        """The last model fits and, where there are fresh readings, predicts them; or how far it came."""
-        found = bool(self.trace.findings)
-        if not found:
-            return "adequate" if self.trace.adequate and self.confirmed is not False else "unexplained"
-        if self.trace.adequate and self.rival is None and self.confirmed is not False:
-            return "explained"
-        return "partly_explained" if self.explained_share >= GOOD_SHARE else "unexplained"
+    def verdict(self) -> DiagnosisVerdict:
+        return self.decision.verdict
+
+    @property
+    def confirmed(self) -> bool | None:
+        """Whether the last model predicted fresh readings; None without any."""
+        return self.decision.confirmed
+
+
+def _figures(stage: Stage, check: Confirmation | None) -> StageFigures:
+    fit_ratio = stage.fit.cost / max(stage.fit.dof, 1)
+    if check is None:
+        return StageFigures(stage.adequacy.passed, fit_ratio)
+    fresh_ratio = float(np.mean((check.residual_mm / check.sd_mm) ** 2))
+    return StageFigures(stage.adequacy.passed, fit_ratio, check.confirmed, check.rms_mm, fresh_ratio)
 
 
 def diagnose(

@@ -46,7 +46,7 @@ def experiment(findings: Findings) -> Experiment | None:
     Nor is there one for effects that are not the cause, nor for a machine that is not the station's to move.
     """
     robot = findings.diagnosis.robot
-    if not isinstance(robot, Robot) or not findings.passed:
+    if not isinstance(robot, Robot) or not findings.decision.passed:
         return None
     rivals = _rivals(findings)
     best: Experiment | None = None

@@ -5,7 +5,7 @@ A new effect is one new file and one line in the catalogue of each machine that 
 
 from __future__ import annotations
 
-from station.effects.base import Acts, Effect, Variants, doubtful, signature, weight
+from station.effects.base import Acts, Effect, JointEffect, Variants, doubtful, signature, weight
 from station.effects.catalogue import arm_catalogue, five_bar_catalogue
 from station.effects.cyclic import OVERSAMPLING, waves
 from station.effects.gear_curve import GearCurve, curve_basis, fast_basis
@@ -15,6 +15,7 @@ __all__ = [
     "Acts",
     "Effect",
     "GearCurve",
+    "JointEffect",
     "Variants",
     "arm_catalogue",
     "curve_basis",

@@ -6,12 +6,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from station.effects.base import Acts, Effect, Variants, one, scaled
+from station.effects.base import Acts, JointEffect, Variants, one, scaled
 from station.mechanism import Conditions
 from station.records import Quantity, Real
 
 
-class Backlash(Effect):
+class Backlash(JointEffect):
     id = "backlash"
     physics = "The arm lags by half the play in the sense of the joint's last motion."
     remedy = "Adjust or replace the reducer, or approach every position from the same side."
@@ -19,7 +19,7 @@ class Backlash(Effect):
     by_approach = True
 
     def variants(self, c: Conditions) -> Variants | None:
-        i = (self.joint or 1) - 1
+        i = self.index
         if len(np.unique(c.approach[:, i][c.approach[:, i] != 0])) < 2:
             return None
         return one(Acts(joint=i), c.approach[:, i])
@@ -30,4 +30,4 @@ class Backlash(Effect):
         return (scaled("width_deg", amplitudes[0], covariance[0, 0], -2.0 * 180.0 / np.pi, "deg"),)
 
     def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
-        return c.approach[:, [(self.joint or 1) - 1]]
+        return c.approach[:, [self.index]]

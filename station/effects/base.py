@@ -69,9 +69,8 @@ class Effect(ABC):
     covers: ClassVar[tuple[str, ...]] = ()
     """Effects of the same joint that are a part of this one."""
 
-    def __init__(self, joint: int | None = None) -> None:
-        self.joint = joint
-        """1, 2, ... or None where the effect belongs to no joint."""
+    joint: int | None = None
+    """1, 2, ... or None where the effect belongs to no joint."""
 
     @property
     def label(self) -> str:
@@ -105,6 +104,20 @@ class Effect(ABC):
         if found is None:
             raise ValueError(f"{self.label} cannot be evaluated under these conditions")
         return np.asarray(found.basis[found.hidden.index(dict(hidden))])
+
+
+class JointEffect(Effect):
+    """An effect of one joint, or of the link or bearing that belongs to it."""
+
+    joint: int
+
+    def __init__(self, joint: int) -> None:
+        self.joint = joint
+
+    @property
+    def index(self) -> int:
+        """Of its joint, from 0."""
+        return self.joint - 1
 
 
 def doubtful(effects: Iterable[Effect], c: Conditions) -> NDArray[np.bool_]:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from station.effects.base import Acts, Effect, Variants, scaled
+from station.effects.base import Acts, JointEffect, Variants, scaled
 from station.errors import InputRefused
 from station.mechanism import Conditions
 from station.records import Quantity, Real
@@ -15,14 +15,14 @@ SPREAD_RAD = 1e-3
 """Sag under each of several masses, to begin with."""
 
 
-class Compliance(Effect):
+class Compliance(JointEffect):
     id = "compliance"
     physics = "The arm sags under gravity, most when it is horizontal; a recorded payload adds to it."
     remedy = "Stiffen the drive train or compensate for the torque in the controller."
     experiment = "Repeat the walk with a payload on the platform."
 
     def variants(self, c: Conditions) -> Variants | None:
-        i = (self.joint or 1) - 1
+        i = self.index
         known = {"by_payload": 1.0} if c.payload_kg is not None and np.ptp(c.payload_kg) > 0 else {}
         basis = self.at(known, c)
         if not np.ptp(basis, axis=0).any():
@@ -32,7 +32,7 @@ class Compliance(Effect):
         return Variants(Acts(joint=i), basis[None], (known,), 1.0, spread)
 
     def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
-        sag = c.load[(self.joint or 1) - 1]
+        sag = c.load[self.index]
         if "by_payload" not in hidden:
             return sag
         if c.payload_kg is None:

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from station.effects.base import Acts, Effect, Variants, scaled
+from station.effects.base import Acts, JointEffect, Variants, scaled
 from station.mechanism import Conditions
 from station.records import Quantity, Real
 
@@ -18,7 +18,7 @@ MOST_MOMENTS = 200
 """Of a long log not every reading is tried: a step's moment is then known to half a percent of it."""
 
 
-class CountSlip(Effect):
+class CountSlip(JointEffect):
     id = "count_slip"
     physics = "A belt jumped, a coupling slipped or counts were lost: a step from one moment on."
     remedy = "Tighten coupling or belt, check the encoder cable, then calibrate again."
@@ -32,7 +32,7 @@ class CountSlip(Effect):
         moments = c.t_s[order[EDGE : len(order) - EDGE + 1 : every]]
         basis = (c.t_s[None, :] >= moments[:, None]).astype(float)[:, :, None]
         return Variants(
-            Acts(joint=(self.joint or 1) - 1),
+            Acts(joint=self.index),
             basis,
             tuple({"from_s": float(t)} for t in moments),
             float(len(moments)) / 2.0,

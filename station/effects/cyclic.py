@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from station.effects.base import Acts, Effect, Variants, amplitude_and_phase
+from station.effects.base import Acts, JointEffect, Variants, amplitude_and_phase
 from station.mechanism import Conditions
 from station.records import Quantity, Real
 
@@ -28,14 +28,14 @@ def waves(angle: Real, first: float, step: float, count: int) -> Real:
     return turning.view(float).reshape(count, len(angle), 2)
 
 
-class EncoderEccentricity(Effect):
+class EncoderEccentricity(JointEffect):
     id = "encoder_eccentricity"
     physics = "An encoder disc off its centre errs once a turn of the joint."
     remedy = "Re-centre or replace the encoder, or keep the term in the controller's model."
     experiment = "Read over a wider range of the joint, or from a second mount of the mechanism."
 
     def variants(self, c: Conditions) -> Variants | None:
-        i = (self.joint or 1) - 1
+        i = self.index
         return Variants(Acts(joint=i), wave(c.theta[:, i], 1.0)[None], ({"per_rev": 1.0},), 1.0)
 
     def quantities(
@@ -44,7 +44,7 @@ class EncoderEccentricity(Effect):
         return amplitude_and_phase("amplitude_deg", "deg", 180.0 / np.pi, amplitudes, covariance)
 
 
-class GearCyclic(Effect):
+class GearCyclic(JointEffect):
     id = "gear_cyclic"
     physics = "Teeth and bearings of motor and reducer repeat their error n times a turn of the joint."
     remedy = "Check the reducer stage that turns n times a joint turn, or keep the term in the model."
@@ -54,7 +54,7 @@ class GearCyclic(Effect):
     LOWEST, HIGHEST = 4.0, 80.0
 
     def variants(self, c: Conditions) -> Variants | None:
-        i = (self.joint or 1) - 1
+        i = self.index
         span = float(np.ptp(c.theta[:, i]))
         if span <= 0.0:
             return None
@@ -72,12 +72,12 @@ class GearCyclic(Effect):
         )
 
     def refined(self, hidden: Mapping[str, float], c: Conditions) -> Mapping[str, tuple[float, float]]:
-        step = 2.0 * np.pi / float(np.ptp(c.theta[:, (self.joint or 1) - 1])) / OVERSAMPLING
+        step = 2.0 * np.pi / float(np.ptp(c.theta[:, self.index])) / OVERSAMPLING
         n = hidden["per_rev"]
         return {"per_rev": (n - 2 * step, n + 2 * step)}
 
     def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
-        return wave(c.theta[:, (self.joint or 1) - 1], hidden["per_rev"])
+        return wave(c.theta[:, self.index], hidden["per_rev"])
 
     def quantities(
         self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from station.effects.base import Acts, Effect, Variants
+from station.effects.base import Acts, JointEffect, Variants
 from station.effects.cyclic import waves
 from station.mechanism import Conditions
 from station.records import Index, Quantity, Real
@@ -27,7 +27,7 @@ KNOWN = 4.0
 GRID = 720
 
 
-class GearCurve(Effect):
+class GearCurve(JointEffect):
     """As `gear_cyclic` with all cycles at once; how large those of each octave are is learned too."""
 
     id = "gear_cyclic"
@@ -46,7 +46,7 @@ class GearCurve(Effect):
     def variants(self, c: Conditions) -> Variants | None:
         if len(c) < FEWEST_READINGS:
             return None
-        i = (self.joint or 1) - 1
+        i = self.index
         low, high = float(c.theta[:, i].min()), float(c.theta[:, i].max())
         if high <= low:
             return None
@@ -56,7 +56,7 @@ class GearCurve(Effect):
         return Variants(Acts(joint=i), basis[None], (hidden,), 1.0, spread)
 
     def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
-        return curve_basis(c.theta[:, (self.joint or 1) - 1], _size(hidden))
+        return curve_basis(c.theta[:, self.index], _size(hidden))
 
     def bands(self, size: int) -> Index:
         """Octaves: 1 to 2, 2 to 4, 4 to 8, ... cycles a turn."""

@@ -6,12 +6,12 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from station.effects.base import Acts, Effect, Variants, one, scaled
+from station.effects.base import Acts, JointEffect, Variants, one, scaled
 from station.mechanism import Conditions
 from station.records import Quantity, Real
 
 
-class LinkLength(Effect):
+class LinkLength(JointEffect):
     id = "link_length"
     physics = "A link is longer or shorter than its tolerance allows."
     remedy = "Measure the link; correct the robot file or replace the link."
@@ -37,7 +37,7 @@ class LinkLength(Effect):
         return (scaled(self.link, amplitudes[0], covariance[0, 0], 1.0, "mm"),)
 
 
-class JointClearance(Effect):
+class JointClearance(JointEffect):
     id = "joint_clearance"
     physics = "The pin of a passive joint lies on the side to which the load pulls it."
     remedy = "Replace the bearing of the passive joint."
@@ -47,7 +47,7 @@ class JointClearance(Effect):
         link = f"l{self.joint}"
         if link not in c.lengths:
             return None
-        return one(Acts(lengths={link: 1.0}), c.pull[:, (self.joint or 1) - 1])
+        return one(Acts(lengths={link: 1.0}), c.pull[:, self.index])
 
     def quantities(
         self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real

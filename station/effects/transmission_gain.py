@@ -4,19 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from station.effects.base import Acts, Effect, Variants, one, scaled
+from station.effects.base import Acts, JointEffect, Variants, one, scaled
 from station.mechanism import Conditions
 from station.records import Quantity, Real
 
 
-class TransmissionGain(Effect):
+class TransmissionGain(JointEffect):
     id = "transmission_gain"
     physics = "The joint turns more or less than counted, in proportion to the angle from the drive's zero."
     remedy = "Correct the drive's ratio or pulses per turn."
     experiment = "Turn the joint through its whole range against an inclinometer."
 
     def variants(self, c: Conditions) -> Variants | None:
-        i = (self.joint or 1) - 1
+        i = self.index
         return one(Acts(joint=i), c.drive_angle[:, i])
 
     def quantities(

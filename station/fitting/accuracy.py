@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from station.records import Real
+from station.records import PositionError, Real
 
 
-def position_error_summary(mean: Real, jacobian: Real, covariance: Real) -> dict[str, float]:
+def position_error_summary(mean: Real, jacobian: Real, covariance: Real) -> PositionError:
     """rms over the grid of the position error field, and its largest value."""
     return rms_and_max(position_error_field(mean, jacobian, covariance))
 
 
-def rms_and_max(error_mm: Real) -> dict[str, float]:
+def rms_and_max(error_mm: Real) -> PositionError:
     """Of position errors (G,), mm."""
-    return {"rms": float(np.sqrt(np.mean(error_mm**2))), "max": float(error_mm.max())}
+    return PositionError(rms=float(np.sqrt(np.mean(error_mm**2))), max=float(error_mm.max()))
 
 
 def position_error_field(mean: Real, jacobian: Real, covariance: Real) -> Real:

@@ -7,13 +7,13 @@ all of them alike, so their scatter about their own mean is noise alone.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 from scipy import stats
 
 from station.fitting.least_squares import Solution
-from station.records import Measurements, Real
+from station.records import Measurements, NoiseOfReadings, Real
 
 MINIMUM_DOF = 8
 """Fewer repeats say less about the noise than the specification does."""
@@ -39,8 +39,9 @@ class Noise:
         """k of the 95 % interval: Student's t for the repeats' degrees of freedom (GUM, G.3)."""
         return float(stats.t.ppf(0.975, self.dof)) if self.dof else float(stats.norm.ppf(0.975))
 
-    def as_json(self) -> dict[str, Any]:
-        return {"sigma_mm": self.sigma_mm, "source": self.source, "dof": self.dof}
+    def record(self) -> NoiseOfReadings:
+        """As documents show it."""
+        return NoiseOfReadings(sigma_mm=self.sigma_mm, source=self.source, dof=self.dof)
 
 
 def pure_error(measurements: Measurements, whitened: Real) -> tuple[float, int]:
@@ -51,11 +52,16 @@ def pure_error(measurements: Measurements, whitened: Real) -> tuple[float, int]:
     return float(np.sum((whitened - mean[group]) ** 2)), int(np.sum(counts - 1))
 
 
+def specified_noise(row_sd: Real) -> Noise:
+    """Of rows (R,) that scatter as specified."""
+    return Noise(row_sd, "specification", 0)
+
+
 def estimate_noise(measurements: Measurements, whitened: Real, row_sd: Real) -> Noise:
     """Scale the specified row_sd (K,) to the repeats when there are enough of them."""
     square, dof = pure_error(measurements, whitened)
     if dof < MINIMUM_DOF or square == 0.0:
-        return Noise(row_sd, "specification", 0)
+        return specified_noise(row_sd)
     return Noise(row_sd * np.sqrt(square / dof), "repeats", dof)
 
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy import stats
@@ -16,7 +15,7 @@ from scipy import stats
 from station.errors import InputRefused
 from station.fitting.least_squares import Solution
 from station.mechanism import Mechanism, axis_of_row
-from station.records import Index, Real
+from station.records import Index, OutlierNote, Real
 
 SIGNIFICANCE = 1e-3
 """For the whole set of readings (Bonferroni)."""
@@ -42,8 +41,9 @@ class Outlier:
     def reason(self) -> str:
         return f"off by {self.residual_mm * 1e3:.0f} um, {self.times_sd:.0f} times the scatter of the others"
 
-    def as_json(self) -> dict[str, Any]:
-        return {"reading": self.reading, "residual_mm": self.residual_mm, "reason": self.reason}
+    def record(self) -> OutlierNote:
+        """As documents show it."""
+        return OutlierNote(reading=self.reading, residual_mm=self.residual_mm, reason=self.reason)
 
 
 Fit = Callable[[Real], Solution]

@@ -8,7 +8,6 @@ and each is named with the parameters that it cannot be told from.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,7 +15,7 @@ from scipy.linalg import qr
 
 from station.fitting.least_squares import Solution
 from station.mechanism import Mechanism
-from station.records import Real
+from station.records import Real, WeakDirection
 
 TIED = 1.0
 """Information of the readings on a parameter over that of its tolerance, below which the latter decides."""
@@ -42,8 +41,10 @@ class Tied:
         return f"{self.name} (looks like {', '.join(self.looks_like)})"
 
 
-def describe_separability(mechanism: Mechanism, solution: Solution, sd_factor: float) -> dict[str, Any]:
-    """{singular_ratio, text, sd_deg, blind, remedies}: the contract's `weak_direction`.
+def describe_separability(
+    mechanism: Mechanism, solution: Solution, row_sd: Real, sd_factor: float
+) -> WeakDirection:
+    """The zero offset that the readings determine least, and what tolerances alone determine.
 
     sd_deg is the largest standard uncertainty of a zero offset that is not tied; `blind` names the tied.
     """
@@ -54,13 +55,12 @@ def describe_separability(mechanism: Mechanism, solution: Solution, sd_factor: f
     seen = [k for k in range(joints) if f"dtheta{k + 1}" not in names]
     weakest = max(seen, key=lambda k: sd[k], default=None)
     text = "no zero offset is determined" if weakest is None else f"dtheta{weakest + 1}"
-    return {
-        "singular_ratio": float(solution.singular_values[-1] / solution.singular_values[0]),
-        "text": f"{text}; {len(tied)} of {len(mechanism.parameters)} parameters are held by tolerances alone",
-        "sd_deg": float(sd.max() if weakest is None else sd[weakest]),
-        "blind": [t.text for t in tied],
-        "remedies": [],
-    }
+    return WeakDirection(
+        singular_ratio=float(solution.singular_values[-1] / solution.singular_values[0]),
+        text=f"{text}; {len(tied)} of {len(mechanism.parameters)} parameters are held by tolerances alone",
+        sd_deg=float(sd.max() if weakest is None else sd[weakest]),
+        blind=tuple(t.text for t in tied),
+    )
 
 
 def separate(mechanism: Mechanism, solution: Solution) -> tuple[Tied, ...]:

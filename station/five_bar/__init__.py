@@ -13,15 +13,17 @@ from station.five_bar.error_model import (
     position_jacobian,
 )
 from station.five_bar.kinematics import HOME, Geometry, Unreachable, forward, inverse
-from station.five_bar.mechanism import GRID, SCALE_SD_MM, FiveBar, lengths, load, pull
+from station.five_bar.mechanism import GRID, MOST_ZERO_OFFSET, SCALE_SD_MM, FiveBar, lengths, load, pull
 from station.five_bar.plausibility import check_distances, check_places, check_poses
 from station.five_bar.robot_file import FIVE_BAR_MODEL, Robot, Tolerances, read_sections
+from station.five_bar.weak_direction import describe_weak_direction
 
 __all__ = [
     "FIVE_BAR_MODEL",
     "GRID",
     "HOME",
     "KEPT",
+    "MOST_ZERO_OFFSET",
     "NAMES",
     "SCALE_SD_MM",
     "SIZE",
@@ -33,6 +35,7 @@ __all__ = [
     "check_distances",
     "check_places",
     "check_poses",
+    "describe_weak_direction",
     "distance_by_joint",
     "distance_jacobian",
     "forward",

@@ -20,7 +20,7 @@ from station.five_bar.error_model import (
 )
 from station.five_bar.kinematics import Geometry, inverse
 from station.five_bar.plausibility import check_distances, check_poses
-from station.five_bar.robot_file import Robot
+from station.five_bar.robot_file import FIVE_BAR_MODEL, Robot
 from station.mechanism import (
     Conditions,
     Observation,
@@ -37,6 +37,10 @@ SCALE_SD_MM = (3.0 + 0.35) / 3.0 * 1e-3
 """Eq. 34 for the 350 mm scale."""
 UNKNOWN_MOUNT_SD_MM = 300.0
 """Prior of c where the robot file does not say where a mount is."""
+IMPOSSIBLE_SDS = 20.0
+"""A parameter this many tolerances from nominal is a wrong file or a missing effect, not a calibration."""
+MOST_ZERO_OFFSET = 4.0
+"""Tolerances of a zero offset."""
 GRID = (9, 7)
 """Points of the workspace at which position errors are predicted."""
 
@@ -44,6 +48,7 @@ GRID = (9, 7)
 class FiveBar:
     """Parameters: the twelve of the error model, (rMx, rMy) of further mounts, rho_0 of each mount."""
 
+    model = FIVE_BAR_MODEL
     needs_repeats = True
 
     def __init__(self, robot: Robot, measurements: Measurements) -> None:
@@ -64,24 +69,24 @@ class FiveBar:
         robot, tolerance = self.robot, self.robot.tolerances
         zero_sd = np.radians(tolerance.zero_offset_deg)
         degrees = 180.0 / np.pi
-        out = [Parameter(name, "deg", 0.0, zero_sd, degrees) for name in NAMES[:2]]
-        out += [Parameter(name, "mm", 0.0, tolerance.e_mm) for name in NAMES[2:6]]
-        out += [Parameter(name, "mm", 0.0, tolerance.link_mm) for name in NAMES[6:10]]
+        out = [Parameter(name, "zero_offset", "deg", 0.0, zero_sd, degrees) for name in NAMES[:2]]
+        out += [Parameter(name, "geometry", "mm", 0.0, tolerance.e_mm) for name in NAMES[2:6]]
+        out += [Parameter(name, "geometry", "mm", 0.0, tolerance.link_mm) for name in NAMES[6:10]]
         for label in self.measurements.mounts:
             suffix = "" if label == self.measurements.mounts[0] else f"@{label}"
             known = not suffix or label in robot.mounts
             for axis, name in enumerate(("rMx", "rMy")):
                 sd = robot.drm_sd[axis] if known else UNKNOWN_MOUNT_SD_MM
-                out.append(Parameter(name + suffix, "mm", robot.drm[axis], sd))
+                out.append(Parameter(name + suffix, "mechanism", "mm", robot.drm[axis], sd))
         for label in self.measurements.mounts:
             suffix = "" if label == self.measurements.mounts[0] else f"@{label}"
-            out.append(Parameter("rho0" + suffix, "mm", 0.0, np.inf))
+            out.append(Parameter("rho0" + suffix, "reading_offset", "mm", 0.0, np.inf))
         return tuple(out)
 
     @property
     def simplest(self) -> tuple[str, tuple[str, ...]]:
         """The paper's four unknowns of eq. 28, with the reading offset."""
-        return "paper", tuple(p.name for p in self.parameters if p.name[0] not in "eLl")
+        return "paper", tuple(p.name for p in self.parameters if p.role != "geometry")
 
     def of(self, measurements: Measurements) -> FiveBar:
         """The same robot under other readings."""
@@ -160,6 +165,23 @@ class FiveBar:
         """(K, 2) where P stood at each reading, mm."""
         r = pose(perturbed(self.nominal, p[:SIZE]), self.theta + p[:2]).r
         return np.column_stack([r.real, r.imag])
+
+    @property
+    def workspace(self) -> Complex:
+        """(G,) positions at which position errors are predicted, mm."""
+        return self.robot.workspace_grid(*GRID)
+
+    def implausible(self, p: Real) -> str:
+        """A link 3 mm off is a wrong robot file or a wrong column, not a calibration; names the parameter."""
+        offset = np.array(
+            [abs(x - q.prior_mean) / q.prior_sd for x, q in zip(p, self.parameters, strict=True)]
+        )
+        worst = int(np.argmax(offset))
+        limit_deg = MOST_ZERO_OFFSET * self.robot.tolerances.zero_offset_deg
+        if offset[worst] <= IMPOSSIBLE_SDS and (np.degrees(np.abs(p[:2])) <= limit_deg).all():
+            return ""
+        q = self.parameters[worst]
+        return f"{q.name} would be {p[worst] * q.shown:.3f} {q.unit}, {offset[worst]:.0f} times its tolerance"
 
     def position_errors(self, p: Real) -> tuple[Real, Real]:
         """Over the workspace grid, commanded by nominal inverse position and zero offsets uncompensated.

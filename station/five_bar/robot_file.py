@@ -16,15 +16,15 @@ from __future__ import annotations
 import tomllib
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import Field, ValidationError
 
 from drivers.scaling import JointScaling
 from station.errors import InputRefused
 from station.five_bar.kinematics import Geometry, Unreachable, inverse
-from station.records import Complex
+from station.records import Complex, Finite, Positive, Section, Sections, refusal
 
 Pair = tuple[float, float]
 FIVE_BAR_MODEL = "five-bar"
@@ -43,6 +43,7 @@ class Tolerances:
 class Robot:
     """One robot with its mechanism, as its file says; without a file the paper's Table 1."""
 
+    model: ClassVar[str] = FIVE_BAR_MODEL
     serial: str
     e: tuple[Pair, Pair] = ((80.0, 0.0), (-80.0, 0.0))
     L: Pair = (375.0, 375.0)
@@ -79,17 +80,15 @@ class Robot:
         return cls.from_dict(read_sections(path), source=str(path))
 
     @classmethod
-    def from_dict(cls, data: dict[str, Any], *, source: str = "robot") -> Robot:
+    def from_dict(cls, data: Sections, *, source: str = "robot") -> Robot:
         """From the robot file's sections (also what the store keeps).  :raises InputRefused:"""
         try:
             content = RobotFile.model_validate(data)
         except ValidationError as error:
-            first = error.errors()[0]
-            where = ".".join(str(part) for part in first["loc"])
-            raise InputRefused(f"{source}: [{where}] {first['msg']} (given: {first['input']!r}).") from error
+            raise refusal(error, source) from error
         return content.to_robot(source)
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> Sections:
         """The sections of the robot file; `from_dict` reads them back."""
         return {
             "robot": {
@@ -156,7 +155,7 @@ class Robot:
         return replace(self, drm=drm, drm_sd=sd)
 
 
-def read_sections(path: Path) -> dict[str, Any]:
+def read_sections(path: Path) -> Sections:
     """The tables of a robot file.  :raises InputRefused: missing or not TOML."""
     try:
         with path.open("rb") as file:
@@ -167,22 +166,16 @@ def read_sections(path: Path) -> dict[str, Any]:
         raise InputRefused(f"Robot file {path} is not valid TOML: {error}.") from error
 
 
-Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
-Finite = Annotated[float, Field(allow_inf_nan=False)]
 Sign = Literal[-1, 1]
 
 
-class _Section(BaseModel):
-    model_config = ConfigDict(extra="forbid")
-
-
-class _ToleranceSection(_Section):
+class _ToleranceSection(Section):
     e_mm: Positive = 0.03
     link_mm: Positive = 0.03
     zero_offset_deg: Positive = 3.0
 
 
-class _RobotSection(_Section):
+class _RobotSection(Section):
     serial: Annotated[str, Field(min_length=1)] = "unnamed"
     model: Literal["five-bar"] = "five-bar"
     e: tuple[tuple[Finite, Finite], tuple[Finite, Finite]] = Robot.e
@@ -191,20 +184,20 @@ class _RobotSection(_Section):
     tolerance: _ToleranceSection = _ToleranceSection()
 
 
-class _MechanismSection(_Section):
+class _MechanismSection(Section):
     c: tuple[Finite, Finite] = Robot.c
     d: tuple[Finite, Finite] = Robot.d
     drm_mm: tuple[Finite, Finite] = Robot.drm
     drm_sd_mm: Positive | tuple[Positive, Positive] = Robot.drm_sd
-    mounts: dict[str, tuple[Finite, Finite]] = {}
+    mounts: dict[str, tuple[Finite, Finite]] = Field(default_factory=dict)
 
 
-class _WorkspaceSection(_Section):
+class _WorkspaceSection(Section):
     x: tuple[Finite, Finite] = Robot.workspace_x
     y: tuple[Finite, Finite] = Robot.workspace_y
 
 
-class _JointsSection(_Section):
+class _JointsSection(Section):
     counts_per_rev: Annotated[int, Field(gt=0)] = Robot.counts_per_rev
     ratio: Positive = Robot.ratio
     zero_at_deg: tuple[Finite, Finite] = Robot.zero_at_deg
@@ -212,7 +205,7 @@ class _JointsSection(_Section):
     feedback_sd_deg: Annotated[float, Field(ge=0, allow_inf_nan=False)] | None = None
 
 
-class RobotFile(_Section):
+class RobotFile(Section):
     """The sections of contract.md's robot file."""
 
     robot: _RobotSection = _RobotSection()

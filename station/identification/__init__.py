@@ -2,40 +2,30 @@
 
 from __future__ import annotations
 
-from station.identification.arm import ArmIdentification, identify_arm
-from station.identification.five_bar import Identification, identify, memory_of
-from station.identification.memory import FORGOTTEN, GATE_P, Memory, contradiction_p
+from station.identification.document import gate_record, identification_document, position_error_map
+from station.identification.estimate import Gate, Identification, identify
+from station.identification.memory import Memory
 from station.identification.verification import (
-    LIMIT_SDS,
     Verification,
     fresh_stops,
     not_identified,
     prediction_fault,
     result_of,
     verify,
-    weak_direction_of,
-    with_best_remedy,
 )
-from station.identification.weak_direction import describe_weak_direction
 
 __all__ = [
-    "FORGOTTEN",
-    "GATE_P",
-    "LIMIT_SDS",
-    "ArmIdentification",
+    "Gate",
     "Identification",
     "Memory",
     "Verification",
-    "contradiction_p",
-    "describe_weak_direction",
     "fresh_stops",
+    "gate_record",
+    "identification_document",
     "identify",
-    "identify_arm",
-    "memory_of",
     "not_identified",
+    "position_error_map",
     "prediction_fault",
     "result_of",
     "verify",
-    "weak_direction_of",
-    "with_best_remedy",
 ]

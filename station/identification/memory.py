@@ -8,19 +8,14 @@ was mounted anew) drop it.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy import stats
 
 from station.fitting import Prior, Solution
 from station.mechanism import Parameter
-from station.records import Real
+from station.records import LastingParameters, Real
 
-if TYPE_CHECKING:
-    pass
-
-FORGOTTEN = ("dtheta1", "dtheta2", "rho0")
 WIDENED_PER_ROOT_YEAR = 0.3
 """Share of a parameter's tolerance by which it may have wandered in a year (random walk)."""
 GATE_P = 0.02
@@ -39,16 +34,15 @@ class Memory:
     covariance: Real
     """(M, M)"""
 
-    def as_json(self) -> dict[str, Any]:
-        return {
-            "names": list(self.names),
-            "mean": self.mean.tolist(),
-            "covariance": self.covariance.tolist(),
-        }
+    def record(self) -> LastingParameters:
+        """As the store keeps it."""
+        covariance = tuple(tuple(row) for row in self.covariance.tolist())
+        return LastingParameters(names=self.names, mean=tuple(self.mean.tolist()), covariance=covariance)
 
     @classmethod
-    def from_json(cls, data: dict[str, Any]) -> Memory:
-        return cls(tuple(data["names"]), np.array(data["mean"]), np.array(data["covariance"]))
+    def of(cls, kept: LastingParameters) -> Memory:
+        """From what the store kept."""
+        return cls(kept.names, np.array(kept.mean), np.array(kept.covariance))
 
     def aged(self, parameters: tuple[Parameter, ...], years: float) -> Memory:
         """The same, less sure by what may have changed since."""
@@ -78,7 +72,7 @@ def contradiction_p(solution: Solution, prior: Prior, parameters: tuple[Paramete
     The zero offsets and reading offsets, about which the memory says nothing, are projected out; in each
     remaining direction the misfit of the memory has variance 1 (noise) plus what the memory allows.
     """
-    lasting = [i for i, p in enumerate(parameters) if p.name.split("@")[0] not in FORGOTTEN]
+    lasting = [i for i, p in enumerate(parameters) if p.lasting]
     passing = [i for i in range(len(parameters)) if i not in lasting]
     J = solution.jacobian
     nuisance = np.linalg.qr(J[:, passing] / np.linalg.norm(J[:, passing], axis=0))[0]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 from scipy import stats
@@ -11,19 +10,29 @@ from scipy.linalg import null_space
 from scipy.stats import qmc
 
 from station.five_bar import FiveBar, inverse
-from station.identification.five_bar import Identification
-from station.identification.weak_direction import describe_weak_direction
-from station.records import CalibrationResult, Measurements, Reading, Real, Stop, from_readings
+from station.identification.estimate import Identification
+from station.records import (
+    LIMIT_SDS,
+    Accuracy,
+    CalibrationResult,
+    Measurements,
+    Reading,
+    Real,
+    Reason,
+    Stop,
+    because,
+    from_readings,
+    residual_rows,
+)
 
 FRESH_PLACES = 8
 FRESH_INSET_MM = 15.0
 REFUSED_P = 1e-3
 """A true model fails the verification this often."""
-LIMIT_SDS = 3.5
 
 
 def fresh_stops(
-    fit: Identification, count: int = FRESH_PLACES, seed: int | None = None, label: str = "V"
+    fit: Identification[FiveBar], count: int = FRESH_PLACES, seed: int | None = None, label: str = "V"
 ) -> tuple[Stop, ...]:
     """Interior places that no plan visits, commands compensated by what was identified.
 
@@ -62,7 +71,7 @@ class Verification:
         return float(np.sqrt(np.mean(self.residual_mm**2)))
 
 
-def verify(fit: Identification, fresh: Measurements, *, offset_known: bool = True) -> Verification:
+def verify(fit: Identification[FiveBar], fresh: Measurements, *, offset_known: bool = True) -> Verification:
     """Predict fresh readings with everything frozen; chi-square with the prediction covariance.
 
     :param offset_known: False when the readout may have been switched off or zeroed since the fit
@@ -80,7 +89,9 @@ def verify(fit: Identification, fresh: Measurements, *, offset_known: bool = Tru
     return Verification(told @ rest, sd, float(stats.chi2.sf(square, len(rest))))
 
 
-def result_of(fit: Identification, readings: list[Reading], fresh: list[Reading]) -> CalibrationResult:
+def result_of(
+    fit: Identification[FiveBar], readings: list[Reading], fresh: list[Reading]
+) -> CalibrationResult:
     """Zero offsets with uncertainty, before and after, and a verdict that fails closed."""
     check = verify(fit, from_readings(fresh))
     quantities = fit.quantities()
@@ -91,35 +102,28 @@ def result_of(fit: Identification, readings: list[Reading], fresh: list[Reading]
     residual = everything.distance - mechanism.observe(fit.p, everything.theta).value
     limit = LIMIT_SDS * fit.noise.sigma_mm
     misfit = _misfit(fit, check)
-    reason = _not_finite(fit) or misfit
+    not_finite = _not_finite(fit)
+    fault = not_finite or misfit
     return CalibrationResult(
-        verdict="fail" if reason else "pass",
-        reason=reason or f"fresh readings agree within {check.rms_mm * 1e3:.1f} um",
+        verdict="fail" if fault else "pass",
+        outcome="failed" if not_finite else "unexplained" if misfit else "good",
+        reason=fault or because("fresh_readings_agree", rms_um=check.rms_mm * 1e3),
         method="measurement model",
         zero_offsets=quantities[:2],
         parameters=quantities[2:],
-        weak_direction=weak_direction_of(fit),
-        before={
-            "reading_rms_mm": float(np.std(raw)),
-            "predicted_position_error_mm": fit.position_error(compensated=False),
-        },
-        after={
-            "reading_rms_mm": float(np.sqrt(np.mean(fit.residual_mm**2))),
-            "fresh_reading_rms_mm": check.rms_mm,
-            "fresh_reading_max_mm": float(np.abs(check.residual_mm).max()),
-            "predicted_position_error_mm": fit.position_error(compensated=True),
-        },
-        iterations=(),
-        residuals=tuple(
-            {
-                "reading": r.reading,
-                "position": r.position,
-                "residual_mm": float(value),
-                "limit_mm": limit,
-            }
-            for r, value in zip(readings, residual, strict=True)
+        weak_direction=fit.weak_direction,
+        before=Accuracy(
+            reading_rms_mm=float(np.std(raw)),
+            predicted_position_error_mm=fit.position_error(compensated=False),
         ),
-        lack_of_fit=misfit,
+        after=Accuracy(
+            reading_rms_mm=float(np.sqrt(np.mean(fit.residual_mm**2))),
+            fresh_reading_rms_mm=check.rms_mm,
+            fresh_reading_max_mm=float(np.abs(check.residual_mm).max()),
+            predicted_position_error_mm=fit.position_error(compensated=True),
+        ),
+        residuals=residual_rows(readings, residual, np.full(len(readings), limit)),
+        lack_of_fit=misfit.text if misfit else None,
     )
 
 
@@ -130,56 +134,40 @@ def not_identified(refusal: str) -> CalibrationResult:
     """
     return CalibrationResult(
         verdict="fail",
-        reason=refusal,
+        outcome="failed",
+        reason=because("not_identified", text=refusal),
         method="measurement model",
         zero_offsets=(),
-        parameters=(),
-        weak_direction={},
-        before={},
-        after={},
-        iterations=(),
-        residuals=(),
         lack_of_fit=refusal,
     )
 
 
-def prediction_fault(check: Verification) -> str:
-    """Why fresh readings do not confirm the model; empty when they do, on finite numbers."""
+def prediction_fault(check: Verification) -> Reason | None:
+    """Why fresh readings do not confirm the model; None when they do, on finite numbers."""
     if not np.isfinite(check.p_value):
-        return "the result is not a finite number"
+        return because("not_finite")
     if check.passed:
-        return ""
+        return None
     worst = int(np.argmax(np.abs(check.residual_mm) / check.sd_mm))
-    return (
-        f"fresh readings are not predicted (p = {check.p_value:.1g}); the worst, number {worst + 1}, "
-        f"is off by {check.residual_mm[worst] * 1e3:.1f} um, sd {check.sd_mm[worst] * 1e3:.1f} um"
+    return because(
+        "fresh_readings_disagree",
+        p=check.p_value,
+        number=worst + 1,
+        residual_um=float(check.residual_mm[worst]) * 1e3,
+        sd_um=float(check.sd_mm[worst]) * 1e3,
     )
 
 
-def weak_direction_of(fit: Identification) -> dict[str, Any]:
-    """The least known direction in words, and what would help most."""
-    return with_best_remedy(describe_weak_direction(fit))
-
-
-def with_best_remedy(words: dict[str, Any]) -> dict[str, Any]:
-    """The description of a weak direction with `remedy`, what would help most."""
-    best = min(words["remedies"], key=lambda remedy: remedy["sd_deg"])
-    return {**words, "remedy": f"{best['text']} (sd {best['sd_deg']:.3f} deg)"}
-
-
-def _not_finite(fit: Identification) -> str:
-    """Why nothing can be said of the run; empty when all numbers are finite."""
+def _not_finite(fit: Identification[FiveBar]) -> Reason | None:
+    """Why nothing can be said of the run; None when all numbers are finite."""
     sd = np.sqrt(np.diag(fit.covariance)[:2])
     if not (np.isfinite(sd).all() and np.isfinite(fit.p).all()):
-        return "the result is not a finite number"
-    return ""
+        return because("not_finite")
+    return None
 
 
-def _misfit(fit: Identification, check: Verification) -> str:
-    """What the model does not account for, in the readings or in the fresh ones; empty when it fits."""
+def _misfit(fit: Identification[FiveBar], check: Verification) -> Reason | None:
+    """What the model does not account for, in the readings or in the fresh ones; None when it fits."""
     if not fit.adequate:
-        return (
-            f"the model does not fit the readings (p = {fit.lack_of_fit_p:.1g}); "
-            "an effect is missing from it: run the diagnosis"
-        )
+        return because("lack_of_fit", p=fit.lack_of_fit_p)
     return prediction_fault(check)

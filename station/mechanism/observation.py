@@ -3,9 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
+from typing import Literal, NamedTuple
 
 from station.records import Real
+
+Role = Literal["zero_offset", "geometry", "mechanism", "placement", "reading_offset"]
+"""What a parameter belongs to: a joint's zero, the robot, the measuring mechanism, where robot and target
+are placed, or the readout."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -13,11 +17,17 @@ class Parameter:
     """One unknown.  Value and prior are in mm or rad; `shown` times that is in `unit`."""
 
     name: str
+    role: Role
     unit: str
     prior_mean: float
     prior_sd: float
     """Standard deviation of what is known beforehand; inf when nothing is."""
     shown: float = 1.0
+
+    @property
+    def lasting(self) -> bool:
+        """Whether it stays from one calibration to the next: a collision changes zeros, not links."""
+        return self.role not in ("zero_offset", "reading_offset")
 
 
 class Observation(NamedTuple):

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.mechanism.observation import Observation, Parameter
-from station.records import Measurements, Real
+from station.records import Complex, Measurements, Real
 
 if TYPE_CHECKING:
     from station.mechanism.conditions import Conditions, Reference
@@ -20,6 +20,11 @@ if TYPE_CHECKING:
 
 class Mechanism(Protocol):
     """The machine with its measuring mechanism, for one set of readings."""
+
+    @property
+    def model(self) -> str:
+        """Which kind of machine it is: `model` of its robot file."""
+        ...
 
     @property
     def measurements(self) -> Measurements:
@@ -80,6 +85,22 @@ class Mechanism(Protocol):
 
     def conditions(self, p: Real, reference: Reference, *, first: bool) -> Conditions:
         """Under what the readings were taken, at p; `first` when the model is being learned on them."""
+        ...
+
+    def implausible(self, p: Real) -> str:
+        """Why parameters p (P,) cannot be those of a calibrated machine; empty when they can."""
+        ...
+
+    @property
+    def workspace(self) -> Complex:
+        """(G,) positions at which position errors are predicted, mm; none where no workspace is declared."""
+        ...
+
+    def position_errors(self, p: Real) -> tuple[Real, Real] | None:
+        """At the workspace's positions: error (G, 2), mm, of a machine with parameters p that is commanded
+
+        as if nominal, and its derivative (G, 2, P).  None where no workspace is declared.
+        """
         ...
 
     def places(self, p: Real) -> Real:

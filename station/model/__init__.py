@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from station.model.identified_machine import IdentifiedMachine, NotInvertible, Situation
-from station.model.model import Fit, Model, Term, fit, fitted, is_long
+from station.model.identified_machine import IdentifiedMachine, NotInvertible, Situation, identified
+from station.model.model import Fit, Model, Term, fit, is_long
 
 __all__ = [
     "Fit",
@@ -13,6 +13,6 @@ __all__ = [
     "Situation",
     "Term",
     "fit",
-    "fitted",
+    "identified",
     "is_long",
 ]

@@ -29,7 +29,7 @@ from station.five_bar import (
 )
 from station.mechanism import Conditions
 from station.model.model import Fit, Term
-from station.records import Complex, Real
+from station.records import Complex, PositionError, Real
 
 SETTLED_RAD = 1e-12
 MOST_STEPS = 60
@@ -69,15 +69,6 @@ class IdentifiedMachine:
     end_s: float
     """Time of the last reading learned on."""
 
-    @classmethod
-    def of(cls, fit: Fit, sd_factor: float = 1.0) -> IdentifiedMachine:
-        """As fitted, the covariance widened."""
-        m = fit.model.mechanism
-        if not isinstance(m, FiveBar):
-            raise TypeError("only a five-bar is commanded by its identified model")
-        covariance = fit.solution.covariance * sd_factor**2
-        return cls(m.robot, fit.x, covariance, fit.model.terms, float(m.measurements.t_s.max()))
-
     @property
     def by_approach(self) -> bool:
         """Whether a command depends on the side it is approached from."""
@@ -112,7 +103,7 @@ class IdentifiedMachine:
                 return theta
         raise NotInvertible("the joint effects are too steep to be inverted")
 
-    def position_error(self, commander: IdentifiedMachine | None = None) -> dict[str, float]:
+    def position_error(self, commander: IdentifiedMachine | None = None) -> PositionError:
         """rms and largest over the workspace, mm, when `commander` (default: this one) computes the commands.
 
         Where that is another model, what it leaves out stands beside what this one does not know.
@@ -187,6 +178,15 @@ class IdentifiedMachine:
             pull=pull(at.w),
             load=load(theta + self.x[:2]),
         )
+
+
+def identified(fit: Fit, sd_factor: float = 1.0) -> IdentifiedMachine | None:
+    """The machine as fitted, its covariance widened; None of an arm, which its own controller commands."""
+    m = fit.model.mechanism
+    if not isinstance(m, FiveBar):
+        return None
+    covariance = fit.solution.covariance * sd_factor**2
+    return IdentifiedMachine(m.robot, fit.x, covariance, fit.model.terms, float(m.measurements.t_s.max()))
 
 
 def _by_strength(term: Term, by_base: Real) -> Real | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from scipy.linalg import block_diag
@@ -116,13 +117,21 @@ class Fit:
     solution: Solution
     prior: Prior
     row_sd: Real
-    at: Observation
-    """Of the mechanism at the fit, joints turned by the effects; without the terms' own columns."""
-    conditions: Conditions
 
     @property
     def x(self) -> Real:
         return self.solution.x
+
+    @cached_property
+    def conditions(self) -> Conditions:
+        """Under what the readings were taken, at the fit."""
+        return self.model.conditions(self.x[: self.model.base_size])
+
+    @cached_property
+    def at(self) -> Observation:
+        """Of the mechanism at the fit, joints turned by the effects; without the terms' own columns."""
+        bases = self.model.bases(self.conditions) if self.model.terms else []
+        return self.model.mechanism.observe(self.x[: self.model.base_size], self.model.turned(self.x, bases))
 
     @property
     def residual_mm(self) -> Real:
@@ -171,7 +180,7 @@ def fit(model: Model, base_prior: Prior, row_sd: Real, start: Real | None = None
     x = model.mechanism.start if start is None else start
     x = np.concatenate([x, np.zeros(model.unknowns - len(x))])
     measured = model.mechanism.measured
-    bases = model.bases(model.conditions(x[: model.base_size]))
+    bases = model.bases(model.conditions(x[: model.base_size])) if model.terms else []
     for _ in range(CONDITION_ROUNDS):
 
         def residuals(q: Real, bases: list[Real] = bases) -> tuple[Real, Real]:
@@ -189,12 +198,4 @@ def fit(model: Model, base_prior: Prior, row_sd: Real, start: Real | None = None
         moved = np.abs(model.observe(x, bases).value - before).max()
         if moved < max(SETTLED_MM, SETTLED_SDS * float(row_sd.min())):
             break
-    return fitted(model, solution, prior, row_sd)
-
-
-def fitted(model: Model, solution: Solution, prior: Prior, row_sd: Real) -> Fit:
-    """A fit from its solution, with everything that is evaluated at it."""
-    p = solution.x[: model.base_size]
-    c = model.conditions(p)
-    theta = model.turned(solution.x, model.bases(c))
-    return Fit(model, solution, prior, row_sd, model.mechanism.observe(p, theta), c)
+    return Fit(model, solution, prior, row_sd)

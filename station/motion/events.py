@@ -6,19 +6,43 @@ import logging
 from collections.abc import Callable
 from dataclasses import dataclass
 from threading import Lock
-from typing import Any, Literal
+from typing import Literal
+
+from station.records import (
+    CalibrationSummary,
+    DeviceView,
+    Interlock,
+    MachineView,
+    ResidualOfReading,
+    RunBrief,
+    RunReading,
+    SequenceView,
+)
 
 log = logging.getLogger(__name__)
 
 EventType = Literal["run", "walk", "reading", "residuals", "machine", "device", "interlock", "ended"]
 
 
+EventData = (
+    RunBrief
+    | SequenceView
+    | RunReading
+    | list[ResidualOfReading]
+    | MachineView
+    | DeviceView
+    | tuple[Interlock, ...]
+    | CalibrationSummary
+    | None
+)
+
+
 @dataclass(frozen=True, slots=True)
 class LiveEvent:
-    """One fact; `data` is JSON-able and as docs/architecture.md says for its type."""
+    """One fact."""
 
     type: EventType
-    data: Any
+    data: EventData
 
 
 Listener = Callable[[LiveEvent], None]
@@ -43,7 +67,7 @@ class Listeners:
 
         return unsubscribe
 
-    def publish(self, type: EventType, data: Any) -> None:
+    def publish(self, type: EventType, data: EventData) -> None:
         """A listener that fails is logged and dropped: the page must not disturb the measurement."""
         event = LiveEvent(type, data)
         with self._lock:

@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, Literal
 
 import numpy as np
 
@@ -19,14 +18,13 @@ from station.motion.devices import Devices
 from station.motion.events import Listeners
 from station.motion.limits import outside_text
 from station.motion.time_limit import each_within
+from station.records import DeviceState, DeviceView, Interlock, MachineView
 from station.settings import LimitSettings
 
 STOP_LIMIT_S = 1.5
 STANDSTILL_LIMIT_S = 3.0
 CLOSE_LIMIT_S = 2.0
 _REST_POLL_S = 0.02
-
-DeviceState = Literal["ok", "lost", "fault", "unknown"]
 
 
 class NotReady(DeviceError):
@@ -64,7 +62,7 @@ class Machine:
         self._all: tuple[Device, ...] = (devices.scale, *devices.axes)
         self._known = {device.name: _Known() for device in self._all}
         self._pose: Pose | None = None
-        self._told: list[dict[str, Any]] = []
+        self._told: tuple[Interlock, ...] = ()
 
     # Working with the devices --------------------------------------------------------------------
 
@@ -189,20 +187,20 @@ class Machine:
 
     # What is known -------------------------------------------------------------------------------
 
-    def view(self) -> dict[str, Any] | None:
+    def view(self) -> MachineView | None:
         """The `machine` part of the snapshot; None while the place is not known."""
         pose = self._pose
         if pose is None:
             return None
         place = self.shown_place(pose.theta_deg)
-        return {
-            "theta1_deg": pose.theta_deg[0],
-            "theta2_deg": pose.theta_deg[1],
-            "x_mm": place and place[0],
-            "y_mm": place and place[1],
-            "scale_mm": pose.scale_mm if math.isfinite(pose.scale_mm) else None,
-            "age_s": round(time.monotonic() - pose.at, 3),
-        }
+        return MachineView(
+            theta1_deg=pose.theta_deg[0],
+            theta2_deg=pose.theta_deg[1],
+            x_mm=place and place[0],
+            y_mm=place and place[1],
+            scale_mm=pose.scale_mm if math.isfinite(pose.scale_mm) else None,
+            age_s=round(time.monotonic() - pose.at, 3),
+        )
 
     def shown_place(self, theta_deg: tuple[float, ...]) -> tuple[float, float] | None:
         """x, y in mm for the eye: with what is known of the zero offsets; None as in `place`."""
@@ -216,22 +214,22 @@ class Machine:
             return None
         return float(point.real), float(point.imag)
 
-    def device_views(self) -> list[dict[str, Any]]:
+    def device_views(self) -> tuple[DeviceView, ...]:
         """The `devices` part of the snapshot."""
-        return [self._device_view(device) for device in self._all]
+        return tuple(self._device_view(device) for device in self._all)
 
-    def _device_view(self, device: Device) -> dict[str, Any]:
+    def _device_view(self, device: Device) -> DeviceView:
         index = self._all.index(device)
         known = self._known[device.name]
-        return {
-            "name": device.name,
-            "kind": "scale" if index == 0 else "axis",
-            "address": self.devices.addresses[index],
-            "state": known.state,
-            "text": known.text,
-        }
+        return DeviceView(
+            name=device.name,
+            kind="scale" if index == 0 else "axis",
+            address=self.devices.addresses[index],
+            state=known.state,
+            text=known.text,
+        )
 
-    def interlocks(self) -> list[dict[str, Any]]:
+    def interlocks(self) -> tuple[Interlock, ...]:
         """What must hold before and during motion, as data."""
         missing = [name for name, known in self._known.items() if not known.connected]
         alarms = [
@@ -241,14 +239,14 @@ class Machine:
         ]
         outside = self._outside()
         scale_mm = self._pose.scale_mm if self._pose else math.nan
-        return [
+        return (
             _interlock(
                 "devices", "All devices answer", "no answer: " + ", ".join(missing) if missing else ""
             ),
             _interlock("alarm", "No drive shows an alarm", "; ".join(alarms)),
             _interlock("workspace", "The arm stands within its workspace", outside),
             _interlock("scale", "The scale reads", "" if math.isfinite(scale_mm) else "no reading"),
-        ]
+        )
 
     def _outside(self) -> str:
         if self._pose is None:
@@ -278,5 +276,5 @@ def _expect_standstill(axis: ServoAxis) -> None:
         raise DeviceFault("still moves")
 
 
-def _interlock(id: str, text: str, detail: str) -> dict[str, Any]:
-    return {"id": id, "text": text, "ok": not detail, "detail": detail}
+def _interlock(id: str, text: str, detail: str) -> Interlock:
+    return Interlock(id=id, text=text, ok=not detail, detail=detail)

@@ -56,7 +56,7 @@ class Walker:
         self.check_cancel()
         self.machine.ready_axes()
         self.look()
-        broken = [f"{lock['text']}: {lock['detail']}" for lock in self.machine.interlocks() if not lock["ok"]]
+        broken = [f"{lock.text}: {lock.detail}" for lock in self.machine.interlocks() if not lock.ok]
         if broken:
             raise NotReady(f"Not ready to start. {'. '.join(broken)}.")
 

@@ -38,7 +38,7 @@ def diagnostic_visits() -> tuple[NDArray[np.intp], NDArray[np.intp]]:
     return order, np.concatenate([side, free, side, side])
 
 
-def fresh_stops(robot: Robot, dtheta: Real, seed: int) -> tuple[Stop, ...]:
+def diagnostic_fresh_stops(robot: Robot, dtheta: Real, seed: int) -> tuple[Stop, ...]:
     """Random interior places, others for each seed; commanded with zero offsets dtheta (2,) rad taken off."""
     (x0, x1), (y0, y1) = robot.workspace_x, robot.workspace_y
     rng = np.random.default_rng(seed)

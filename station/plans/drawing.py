@@ -35,7 +35,7 @@ def readings_at(plan: Plan) -> Counter[tuple[float, float]]:
 def plan_page(plan: Plan) -> Page:
     """Places, order and predicted accuracy as a self-contained page."""
     at = readings_at(plan)
-    field = plan.predicted["map"]
+    field = plan.predicted.map
     return Page(
         title=f"Plan {plan.name}",
         lead=plan.summary(),
@@ -54,9 +54,9 @@ def plan_page(plan: Plan) -> Page:
                 charts=[
                     Chart(
                         place_map(
-                            [p["x_mm"] for p in field],
-                            [p["y_mm"] for p in field],
-                            [p["sd_mm"] for p in field],
+                            [p.x_mm for p in field],
+                            [p.y_mm for p in field],
+                            [p.sd_mm for p in field],
                             "mm",
                         ),
                         "Standard deviation of P after a calibration with this plan.",

@@ -14,7 +14,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
@@ -24,7 +23,17 @@ from station.five_bar import GRID, FiveBar, Robot, inverse
 from station.plans.diagnostic_sequence import diagnostic_grid, diagnostic_visits
 from station.plans.exchange_algorithm import choose
 from station.published import boundary_positions, positions_per_edge
-from station.records import Complex, Measurements, PlanName, Real, Stop
+from station.records import (
+    Complex,
+    Measurements,
+    PlanDocument,
+    PlanName,
+    PlannedStop,
+    PlanPrediction,
+    PredictedSd,
+    Real,
+    Stop,
+)
 
 CANDIDATES = (41, 17)
 INSET_MM = 4.0
@@ -48,37 +57,36 @@ class Plan:
     robot: Robot
 
     @cached_property
-    def predicted(self) -> dict[str, Any]:
-        """{zero_offset_sd_deg, common_sd_deg, position_error_mm: {rms, max}, map: [{x_mm, y_mm, sd_mm}]}"""
+    def predicted(self) -> PlanPrediction:
+        """The accuracy that the stops promise."""
         return predict(self.robot, np.array([complex(*stop.target_mm) for stop in self.stops]))
 
-    def as_json(self) -> dict[str, Any]:
-        return {
-            "schema": "station.plan/1",
-            "plan": self.name,
-            "predicted": self.predicted,
-            "stops": [
-                {
-                    "stop": k + 1,
-                    "position": s.position,
-                    "x_mm": s.target_mm[0],
-                    "y_mm": s.target_mm[1],
-                    "theta1_deg": s.theta_deg[0],
-                    "theta2_deg": s.theta_deg[1],
-                    "approach1": s.approach[0],
-                    "approach2": s.approach[1],
-                }
+    def document(self) -> PlanDocument:
+        """As `station plan --json` writes it."""
+        return PlanDocument(
+            plan=self.name,
+            predicted=self.predicted,
+            stops=tuple(
+                PlannedStop(
+                    stop=k + 1,
+                    position=s.position,
+                    x_mm=s.target_mm[0],
+                    y_mm=s.target_mm[1],
+                    theta1_deg=s.theta_deg[0],
+                    theta2_deg=s.theta_deg[1],
+                    approach1=s.approach[0],
+                    approach2=s.approach[1],
+                )
                 for k, s in enumerate(self.stops)
-            ],
-        }
+            ),
+        )
 
     def summary(self) -> str:
         """The predicted accuracy in a sentence."""
-        error = self.predicted["position_error_mm"]
-        sd = self.predicted["zero_offset_sd_deg"]
+        error, sd = self.predicted.position_error_mm, self.predicted.zero_offset_sd_deg
         return (
             f"Predicted: zero offsets to {sd[0]:.3f} and {sd[1]:.3f} deg (sd), "
-            f"position error {error['rms']:.3f} mm rms, {error['max']:.3f} mm at worst."
+            f"position error {error.rms:.3f} mm rms, {error.max:.3f} mm at worst."
         )
 
 
@@ -111,26 +119,23 @@ def make_plan(name: PlanName, robot: Robot, dtheta: Real | None = None) -> Plan:
     return Plan(name, stops, robot)
 
 
-def predict(robot: Robot, places: Complex) -> dict[str, Any]:
+def predict(robot: Robot, places: Complex) -> PlanPrediction:
     """Accuracy that one reading at each of places (K,) promises, by specification."""
     mechanism = _at(robot, places)
     covariance = np.linalg.inv(_known(mechanism) + _rows(mechanism).T @ _rows(mechanism))
     mean = np.array([p.prior_mean for p in mechanism.parameters])
     error, jacobian = mechanism.position_errors(mean)
     sd = np.degrees(np.sqrt(np.diag(covariance)[:2]))
-    return {
-        "zero_offset_sd_deg": [float(sd[0]), float(sd[1])],
-        "common_sd_deg": common_sd_deg(covariance),
-        "position_error_mm": position_error_summary(np.zeros_like(error), jacobian, covariance),
-        "map": [
-            {"x_mm": float(r.real), "y_mm": float(r.imag), "sd_mm": float(s)}
-            for r, s in zip(
-                robot.workspace_grid(*GRID),
-                np.sqrt(np.einsum("gdi,ij,gdj->g", jacobian, covariance, jacobian)),
-                strict=True,
-            )
-        ],
-    }
+    sd_mm = np.sqrt(np.einsum("gdi,ij,gdj->g", jacobian, covariance, jacobian))
+    return PlanPrediction(
+        zero_offset_sd_deg=(float(sd[0]), float(sd[1])),
+        common_sd_deg=common_sd_deg(covariance),
+        position_error_mm=position_error_summary(np.zeros_like(error), jacobian, covariance),
+        map=tuple(
+            PredictedSd(x_mm=float(r.real), y_mm=float(r.imag), sd_mm=float(s))
+            for r, s in zip(mechanism.workspace, sd_mm, strict=True)
+        ),
+    )
 
 
 def _candidates(robot: Robot) -> Complex:

@@ -9,15 +9,26 @@ from __future__ import annotations
 import numpy as np
 
 from station.fitting import common_sd_deg, position_error_summary
-from station.five_bar import KEPT, FiveBar, Geometry, Robot, distance_jacobian, pose
+from station.five_bar import KEPT, MOST_ZERO_OFFSET, FiveBar, Geometry, Robot, distance_jacobian, pose
 from station.published.method import Identified, compensation_accuracy, identification_matrix, identify
-from station.records import CalibrationResult, Quantity, Reading, Real, from_readings
+from station.records import (
+    LIMIT_SDS,
+    Accuracy,
+    CalibrationResult,
+    Iteration,
+    Quantity,
+    Reading,
+    Real,
+    Reason,
+    WeakDirection,
+    because,
+    from_readings,
+    residual_rows,
+)
 
 MU_0_DEG = 0.1
 """Threshold of eq. 32 (section 6.2)."""
 MAX_PASSES = 8
-LIMIT_SDS = 3.5
-"""A residual beyond this many standard deviations fails the run."""
 
 
 class PublishedRun:
@@ -30,7 +41,7 @@ class PublishedRun:
         self.drm = 0j
         self.mu_deg: float | None = None
         self._steps: list[Identified] = []
-        self._iterations: list[dict[str, float | int | None]] = []
+        self._iterations: list[Iteration] = []
         self._readings: list[Reading] = []
         self._raw_rms: float | None = None
 
@@ -54,15 +65,15 @@ class PublishedRun:
         self._readings = readings
         increment, total = np.degrees(step.dtheta), np.degrees(self.total)
         self._iterations.append(
-            {
-                "pass": len(self._steps),
-                "dtheta1_deg": float(increment[0]),
-                "dtheta2_deg": float(increment[1]),
-                "total1_deg": float(total[0]),
-                "total2_deg": float(total[1]),
-                "mu_deg": self.mu_deg,
-                "condition": step.condition,
-            }
+            Iteration(
+                number=len(self._steps),
+                dtheta1_deg=float(increment[0]),
+                dtheta2_deg=float(increment[1]),
+                total1_deg=float(total[0]),
+                total2_deg=float(total[1]),
+                mu_deg=self.mu_deg,
+                condition=step.condition,
+            )
         )
 
     def result(self) -> CalibrationResult:
@@ -80,7 +91,7 @@ class PublishedRun:
         limit = LIMIT_SDS * reading_sd
         sd = np.sqrt(np.diag(covariance))
         misfit = self._misfit(residual, limit)
-        reason = self._fault(residual, sd) or misfit
+        fault = self._fault(residual, sd)
         before, jacobian = mechanism.position_errors(p)
         compensated = p.copy()
         compensated[:2] = 0.0
@@ -88,8 +99,11 @@ class PublishedRun:
         matrix = identification_matrix(geometry, measurements.theta + self.total, self.drm)
         sigma = np.linalg.svd(matrix, compute_uv=False)
         return CalibrationResult(
-            verdict="fail" if reason else "pass",
-            reason=reason or f"converged in {len(self._steps)} passes, mu = {self.mu_deg:.4f} deg",
+            verdict="fail" if fault or misfit else "pass",
+            outcome="failed" if fault else "unexplained" if misfit else "good",
+            reason=fault
+            or misfit
+            or because("converged", passes=len(self._steps), mu_deg=self.mu_deg or 0.0),
             method="published",
             zero_offsets=tuple(
                 Quantity(f"dtheta{i + 1}", float(np.degrees(self.total[i])), float(np.degrees(sd[i])), "deg")
@@ -99,31 +113,23 @@ class PublishedRun:
                 Quantity("rMx", self.drm.real, float(sd[10]), "mm"),
                 Quantity("rMy", self.drm.imag, float(sd[11]), "mm"),
             ),
-            weak_direction={
-                "singular_ratio": float(sigma[-1] / sigma[0]),
-                "text": "both arms together with a sideways error of the mechanism",
-                "sd_deg": common_sd_deg(covariance),
-                "remedy": "measure the mechanism's mounting error, or use the plan `full`",
-            },
-            before={
-                "reading_rms_mm": self._raw_rms,
-                "predicted_position_error_mm": position_error_summary(before, jacobian, covariance),
-            },
-            after={
-                "reading_rms_mm": float(np.sqrt(np.mean(residual**2))),
-                "predicted_position_error_mm": position_error_summary(after, after_jacobian, covariance),
-            },
-            iterations=tuple(self._iterations),
-            residuals=tuple(
-                {
-                    "reading": r.reading,
-                    "position": r.position,
-                    "residual_mm": float(value),
-                    "limit_mm": float(bound),
-                }
-                for r, value, bound in zip(self._readings, residual, limit, strict=True)
+            weak_direction=WeakDirection(
+                singular_ratio=float(sigma[-1] / sigma[0]),
+                text="both arms together with a sideways error of the mechanism",
+                sd_deg=common_sd_deg(covariance),
+                remedy="measure the mechanism's mounting error, or use the plan `full`",
             ),
-            lack_of_fit=misfit,
+            before=Accuracy(
+                reading_rms_mm=self._raw_rms,
+                predicted_position_error_mm=position_error_summary(before, jacobian, covariance),
+            ),
+            after=Accuracy(
+                reading_rms_mm=float(np.sqrt(np.mean(residual**2))),
+                predicted_position_error_mm=position_error_summary(after, after_jacobian, covariance),
+            ),
+            iterations=tuple(self._iterations),
+            residuals=residual_rows(self._readings, residual, limit),
+            lack_of_fit=misfit.text if misfit else None,
         )
 
     def _propagate(self, mechanism: FiveBar) -> tuple[Real, Real]:
@@ -147,25 +153,26 @@ class PublishedRun:
         left -= left.mean(axis=0)
         return spread, np.sqrt(np.sum(left**2, axis=1))
 
-    def _fault(self, residual: Real, sd: Real) -> str:
-        """Why the passes came to nothing; empty when they converged to numbers that can be."""
+    def _fault(self, residual: Real, sd: Real) -> Reason | None:
+        """Why the passes came to nothing; None when they converged to numbers that can be."""
         if not self.converged:
-            return f"mu did not fall below {MU_0_DEG} deg in {len(self._steps)} passes"
+            return because("mu_too_large", limit_deg=MU_0_DEG, passes=len(self._steps))
         if not (np.isfinite(sd[:2]).all() and np.isfinite(self.total).all() and np.isfinite(residual).all()):
-            return "the result is not a finite number"
-        beyond = np.degrees(np.abs(self.total)).max()
-        if beyond > 4.0 * self.robot.tolerances.zero_offset_deg:
-            return (
-                f"a zero offset of {beyond:.1f} deg is impossible; check the mechanism and the drives' zero"
-            )
-        return ""
+            return because("not_finite")
+        beyond = float(np.degrees(np.abs(self.total)).max())
+        if beyond > MOST_ZERO_OFFSET * self.robot.tolerances.zero_offset_deg:
+            return because("offset_impossible", offset_deg=beyond)
+        return None
 
-    def _misfit(self, residual: Real, limit: Real) -> str:
-        """The reading that the model accounts for least, if it is beyond its limit; else empty."""
+    def _misfit(self, residual: Real, limit: Real) -> Reason | None:
+        """The reading that the model accounts for least, if it is beyond its limit."""
         worst = int(np.argmax(np.abs(residual) / limit))
-        if abs(residual[worst]) > limit[worst]:
-            return (
-                f"reading {self._readings[worst].reading} at {self._readings[worst].position} is off by "
-                f"{residual[worst] * 1e3:.1f} um, limit {limit[worst] * 1e3:.1f} um"
-            )
-        return ""
+        if abs(residual[worst]) <= limit[worst]:
+            return None
+        return because(
+            "reading_beyond_limit",
+            reading=self._readings[worst].reading,
+            position=self._readings[worst].position,
+            residual_um=float(residual[worst]) * 1e3,
+            limit_um=float(limit[worst]) * 1e3,
+        )

@@ -3,12 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
-
-
-def vars_of(q: Quantity) -> dict[str, Any]:
-    """A quantity as JSON."""
-    return {"name": q.name, "value": q.value, "sd": q.sd, "unit": q.unit}
 
 
 @dataclass(frozen=True, slots=True)

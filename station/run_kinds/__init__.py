@@ -1,22 +1,26 @@
-"""What a run can do, one kind a module."""
+"""What a run can do, one kind a module.  Importing the package registers them all."""
 
 from __future__ import annotations
 
-from station.run_kinds.apply import start_application
-from station.run_kinds.calibrate import start_procedure
+from station.run_kinds import apply, calibrate, diagnose, import_file, separate
 from station.run_kinds.diagnose import diagnosed
 from station.run_kinds.import_file import Upload, import_dataset
-from station.run_kinds.separate import check_separating, learned, planned, since_start_s, start_separating
+from station.run_kinds.kind import RUN_KINDS, Continued, RunKind, Start, kind_of_plan
+from station.run_kinds.separate import planned
+from station.run_kinds.zero_state import application
+
+_MODULES = (apply, calibrate, diagnose, import_file, separate)
+"""Imported for what they register."""
 
 __all__ = [
+    "RUN_KINDS",
+    "Continued",
+    "RunKind",
+    "Start",
     "Upload",
-    "check_separating",
+    "application",
     "diagnosed",
     "import_dataset",
-    "learned",
+    "kind_of_plan",
     "planned",
-    "since_start_s",
-    "start_application",
-    "start_procedure",
-    "start_separating",
 ]

@@ -12,28 +12,27 @@ from dataclasses import dataclass, replace
 from typing import Any, Literal
 
 from drivers.errors import DeviceError
-from station.errors import StepFailed, sentence
-from station.identification import (
-    LIMIT_SDS,
-    Identification,
-    Verification,
-    fresh_stops,
-    prediction_fault,
-    verify,
-    weak_direction_of,
-)
+from station.errors import InputRefused, StepFailed
+from station.five_bar import FiveBar
+from station.identification import Identification, Verification, fresh_stops, prediction_fault, verify
 from station.motion import shift_of
 from station.records import (
+    LIMIT_SDS,
+    Accuracy,
     Angles,
-    CalibrationRequest,
     CalibrationResult,
     Procedure,
     Reading,
+    Reason,
     SetZeros,
     Walk,
+    because,
     from_readings,
+    residual_rows,
 )
 from station.run_kinds.calibrate import fit_of
+from station.run_kinds.kind import RunKind, Start, register
+from station.run_kinds.zero_state import check_apply, check_roll_back, rolled_back_by
 from station.store import Store
 
 CHECK_PLACES = 4
@@ -48,7 +47,7 @@ class Source:
     """A passed calibration: its frozen model, and the offsets that its result states."""
 
     id: int
-    fit: Identification
+    fit: Identification[FiveBar]
     offsets_deg: Angles
 
 
@@ -60,25 +59,29 @@ def source_of(store: Store, calibration_id: int) -> Source:
     """
     calibration = store.calibration(calibration_id)
     readings = store.readings(calibration_id)
-    if calibration["plan"] == "paper":  # a place's passes stand at different angles: they are no repeats
+    if calibration.plan == "paper":  # a place's passes stand at different angles: they are no repeats
         readings = [replace(r, position=f"{r.position} pass {r.walk}") for r in readings]
     else:  # the second walk verified, it took no part in the fit
         readings = [r for r in readings if r.walk == 1]
-    use = calibration["memory"] or {"used": False, "age_days": 0.0}
-    memory = store.memory_left_by(use["from_calibration"]) if use["used"] else None
-    fit = fit_of(store.robot_of(calibration_id), readings, memory, use["age_days"])
-    first, second = (zero["value_deg"] for zero in calibration["zero_offsets"])
+    use = calibration.memory
+    memory = store.memory_left_by(use.from_calibration) if use and use.used else None
+    fit = fit_of(store.robot_of(calibration_id), readings, memory, (use.age_days if use else None) or 0.0)
+    first, second = (zero.value_deg for zero in calibration.zero_offsets)
+    if first is None or second is None:
+        raise InputRefused(f"Run {calibration_id} has no zero offsets; calibrate again.")
     return Source(calibration_id, fit, (first, second))
 
 
-def start_application(store: Store, request: CalibrationRequest) -> Procedure:
-    """The procedure of a request to apply or roll back a calibration, not yet started."""
-    assert request.of is not None
-    source = source_of(store, request.of)
-    if request.plan == "apply":
-        return apply(source)
-    verified = any(run["verdict"] == "pass" for run in store.runs_of(source.id))
-    writes = store.zero_writes(request.robot_serial, since=source.id)
+def start_apply(start: Start) -> Procedure:
+    """The procedure that applies a calibration, not yet started."""
+    return apply(source_of(start.store, start.of))
+
+
+def start_roll_back(start: Start) -> Procedure:
+    """The procedure that rolls a calibration back, not yet started."""
+    source = source_of(start.store, start.of)
+    verified = any(run.verdict == "pass" for run in start.store.runs_of(source.id))
+    writes = start.store.zero_writes(start.request.robot_serial, since=source.id)
     return roll_back(source, shift_of(writes) if verified else None)
 
 
@@ -87,7 +90,7 @@ def apply(source: Source) -> Procedure:
     doubt = prediction_fault((yield from _measured(source.fit, "Checking the machine", 1, CHECK_PLACES))[1])
     if doubt:
         raise StepFailed(
-            f"Nothing was written: the machine is not as run {source.id} measured it, {doubt}."
+            f"Nothing was written: the machine is not as run {source.id} measured it. {doubt.text}"
             " Calibrate again."
         )
     try:
@@ -98,11 +101,10 @@ def apply(source: Source) -> Procedure:
         yield from _way_back(source, str(error))
         raise StepFailed(f"{error} The old zero offsets are in the drives.") from error
     if doubt := prediction_fault(check):
-        shift = yield from _way_back(source, sentence(f"{doubt}."))
-        text = f"{doubt}; rolled back, the old zero offsets are in the drives"
-        return _result(source, shift, "fail", text, readings, check)
-    text = f"verified: fresh readings agree within {check.rms_mm * 1e3:.1f} um"
-    return _result(source, shift, "pass", text, readings, check)
+        shift = yield from _way_back(source, doubt.text)
+        undone = because("rolled_back_after", text=doubt.text)
+        return _result(source, shift, "not_verified", undone, readings, check)
+    return _result(source, shift, "good", because("verified", rms_um=check.rms_mm * 1e3), readings, check)
 
 
 def roll_back(source: Source, verified_shift: Angles | None) -> Procedure:
@@ -117,13 +119,13 @@ def roll_back(source: Source, verified_shift: Angles | None) -> Procedure:
         readings, check = yield from _measured(fit, "Checking the machine", 1, CHECK_PLACES)
         if doubt := prediction_fault(check):
             raise StepFailed(
-                f"Nothing was written: the drives are not as they were left, {doubt}. Calibrate again."
+                f"Nothing was written: the drives are not as they were left. {doubt.text} Calibrate again."
             )
     shift: Angles = yield SetZeros("Rolling back", 2, source.id, OLD_ZEROS)
-    return _result(source, shift, "pass", "the old zero offsets are in the drives", readings, check)
+    return _result(source, shift, "good", because("rolled_back"), readings, check)
 
 
-def _measured(fit: Identification, title: str, number: int, count: int | None = None) -> _Measured:
+def _measured(fit: Identification[FiveBar], title: str, number: int, count: int | None = None) -> _Measured:
     """Fresh readings and what they say about a model."""
     stops = fresh_stops(fit, seed=number) if count is None else fresh_stops(fit, count, number, "C")
     readings: list[Reading] = yield Walk(title, number, stops)
@@ -141,35 +143,32 @@ def _way_back(source: Source, cause: str) -> _Steps:
 def _result(
     source: Source,
     shift: Angles,
-    verdict: Literal["pass", "fail"],
-    reason: str,
+    outcome: Literal["good", "not_verified"],
+    reason: Reason,
     readings: list[Reading],
     check: Verification | None,
 ) -> CalibrationResult:
     """What is left of the offsets in the drives as they now count, and how well that was confirmed."""
     fit = source.fit.moved(shift)
     quantities = fit.quantities()
-    residuals = () if check is None else zip(readings, check.residual_mm, check.sd_mm, strict=True)
     return CalibrationResult(
-        verdict=verdict,
+        verdict="pass" if outcome == "good" else "fail",
+        outcome=outcome,
         reason=reason,
         method=f"zero offsets of run {source.id}",
         zero_offsets=quantities[:2],
         parameters=quantities[2:],
-        weak_direction=weak_direction_of(fit),
-        before={"predicted_position_error_mm": source.fit.position_error(compensated=False)},
-        after={
-            "reading_rms_mm": None if check is None else check.rms_mm,
-            "predicted_position_error_mm": fit.position_error(compensated=False),
-        },
-        iterations=(),
-        residuals=tuple(
-            {
-                "reading": reading.reading,
-                "position": reading.position,
-                "residual_mm": float(residual),
-                "limit_mm": LIMIT_SDS * float(sd),
-            }
-            for reading, residual, sd in residuals
+        weak_direction=fit.weak_direction,
+        before=Accuracy(predicted_position_error_mm=source.fit.position_error(compensated=False)),
+        after=Accuracy(
+            reading_rms_mm=None if check is None else check.rms_mm,
+            predicted_position_error_mm=fit.position_error(compensated=False),
         ),
+        residuals=()
+        if check is None
+        else residual_rows(readings, check.residual_mm, LIMIT_SDS * check.sd_mm),
     )
+
+
+APPLY = register(RunKind("apply", start_apply, check=check_apply))
+ROLL_BACK = register(RunKind("rollback", start_roll_back, check=check_roll_back, done_by=rolled_back_by))

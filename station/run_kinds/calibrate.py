@@ -1,11 +1,6 @@
-"""A calibration as a generator: yields walks, is sent their readings, returns the result.
-
-A procedure never touches a device; `station.service.orchestrator` walks, stores and sends.
-"""
+"""A calibration: measure by a plan, identify, verify by readings that took no part in the fit."""
 
 from __future__ import annotations
-
-from dataclasses import replace
 
 from station.errors import InputRefused
 from station.five_bar import FiveBar, Robot
@@ -13,29 +8,27 @@ from station.identification import (
     Identification,
     Memory,
     fresh_stops,
+    gate_record,
     identify,
-    memory_of,
     not_identified,
     result_of,
 )
 from station.plans import make_plan
 from station.published import MAX_PASSES, PublishedRun
-from station.records import PlanName, Procedure, Reading, Remembered, Walk, from_readings
-from station.run_kinds.diagnose import diagnostic
+from station.records import MemoryUse, PlanName, Procedure, Reading, Remembered, Walk, from_readings
+from station.run_kinds.kind import RunKind, Start, register
 
 DAYS_PER_YEAR = 365.25
 
 
-def start_procedure(plan: PlanName, robot: Robot, memory: Remembered | None = None) -> Procedure:
+def calibrate(start: Start) -> Procedure:
     """The procedure of a plan, not yet started.
 
-    :param memory: what earlier runs of this robot know; the published method has no use for it, and
-        what looks for a cause takes nothing for known.
     :raises InputRefused: the plan cannot be made for this robot.
     """
-    if plan == "paper":
-        return published(robot)
-    return diagnostic(robot) if plan == "diagnostic" else measured_and_verified(plan, robot, memory)
+    if start.plan == "paper":  # the published method has no use for what earlier runs know
+        return published(start.robot)
+    return measured_and_verified(start.plan, start.robot, start.store.memory(start.robot.serial))
 
 
 def published(robot: Robot) -> Procedure:
@@ -59,16 +52,16 @@ def measured_and_verified(plan: PlanName, robot: Robot, memory: Remembered | Non
     except InputRefused as refusal:
         return not_identified(str(refusal))
     fresh: list[Reading] = yield Walk("Verifying at fresh places", 2, fresh_stops(fit))
-    result = replace(result_of(fit, readings, fresh), lasting=memory_of(fit).as_json())
-    if memory is None or fit.memory is None:
+    result = result_of(fit, readings, fresh).model_copy(update={"lasting": fit.lasting.record()})
+    if memory is None or fit.gate is None:
         return result
-    use = {"from_calibration": memory.calibration_id, "age_days": age_days}
-    return replace(result, memory={**fit.memory.as_json(), **use})
+    use = MemoryUse(**dict(gate_record(fit.gate)), from_calibration=memory.calibration_id, age_days=age_days)
+    return result.model_copy(update={"memory": use})
 
 
 def fit_of(
     robot: Robot, readings: list[Reading], memory: Remembered | None, age_days: float
-) -> Identification:
+) -> Identification[FiveBar]:
     """The measurement model on readings, with what is remembered as it was at that age.
 
     :raises InputRefused: as `identify`.
@@ -80,5 +73,8 @@ def fit_of(
     return identify(
         robot,
         measurements,
-        Memory.from_json(memory.memory).aged(parameters, age_days / DAYS_PER_YEAR),
+        Memory.of(memory.memory).aged(parameters, age_days / DAYS_PER_YEAR),
     )
+
+
+CALIBRATE = register(RunKind("calibrate", calibrate, plans=("paper", "rapid", "full"), offsets=True))

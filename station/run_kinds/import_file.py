@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import hashlib
 from dataclasses import dataclass, replace
-from typing import Any
 
 from station.errors import InputRefused
-from station.records import CalibrationRequest, Reading, Submitted, parse_readings
+from station.records import CalibrationRequest, DataSource, Reading, Submitted, parse_readings
 from station.run_kinds.diagnose import diagnosed, result_of
-from station.store import Store
+from station.run_kinds.kind import RunKind, register
+from station.store import Store, request_hash
 
 MOST_READINGS = 2000
 """Of both files together.  The loop takes about a second for these, and its time grows with their square."""
@@ -47,7 +47,7 @@ def import_dataset(
         request,
         metadata={k: {"name": f.name, "sha256": f.sha256} for k, f in files.items() if f is not None},
     )
-    body_hash = hashlib.sha256(repr(request).encode()).digest()[:16]
+    body_hash = request_hash(request)
     if idempotency_key is not None:
         known = store.find_key(idempotency_key, body_hash)
         if known is not None:
@@ -64,10 +64,18 @@ def import_dataset(
         )
     result = result_of(diagnosed(robot, [*readings, *later]), readings, _described(learned, len(readings)))
     created = store.add_run(
-        request, robot, [*readings, *later], result, key=idempotency_key, body_hash=body_hash
+        request,
+        robot,
+        [*readings, *later],
+        result,
+        key=idempotency_key,
+        body_hash=body_hash,
     )
     return Submitted(created, created=True)
 
 
-def _described(file: Upload, readings: int) -> dict[str, Any]:
-    return {"file": file.name, "readings": readings, "sha256": file.sha256}
+def _described(file: Upload, readings: int) -> DataSource:
+    return DataSource(file=file.name, readings=readings, sha256=file.sha256)
+
+
+IMPORT = register(RunKind("import", None))

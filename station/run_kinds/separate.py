@@ -1,14 +1,14 @@
-"""The motion that tells look-alikes apart, on the machine: it goes on from the readings of a diagnostic run.
+"""Further diagnosis: the motion that distinguishes causes which an earlier diagnostic run left open.
 
 Its readings continue the numbers and the clock of that run, and all of them are diagnosed together: effects
-of time are the ones that motion separates best, and they need one clock.  Fresh readings then judge anew.
+of time are the ones that motion separates best, and they need one clock.  New fresh readings then confirm.
 """
 
 from __future__ import annotations
 
 from collections.abc import Generator
 from dataclasses import dataclass
-from datetime import datetime
+from datetime import UTC, datetime
 
 import numpy as np
 
@@ -18,13 +18,14 @@ from station.five_bar import Robot
 from station.plans import FRESH_PLACES
 from station.records import CalibrationRequest, CalibrationResult, Procedure, Reading, Walk
 from station.run_kinds.diagnose import diagnosed, judged
+from station.run_kinds.kind import Continued, RunKind, Start, register
 from station.store import Store
 
-_NOT_GONE_ON_FROM = {
-    "separating": "was the motion that tells apart what motion can; the causes name what else could",
-    "dataset": "was imported from a file, not measured here; no run can go on from it",
+_NOT_CONTINUED = {
+    "separate": "was the motion that distinguishes what motion can; each cause lists the experiment that can",
+    "import": "was imported from a file, not measured here; no run can continue it",
 }
-NOTHING = "Motion alone can tell nothing more apart here; the causes name what could."
+NOTHING = "No further motion can distinguish these causes. Each lists the experiment that can."
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,8 +45,8 @@ def planned(store: Store, calibration_id: int) -> Planned:
     """
     store.diagnosis(calibration_id)
     run = store.summary(calibration_id)
-    if run["plan"] != "diagnostic":
-        what = _NOT_GONE_ON_FROM.get(run["plan"], "is no diagnostic run; find the cause first")
+    if run.kind != "diagnose":
+        what = _NOT_CONTINUED.get(run.kind, "is no diagnostic run; find the cause first")
         raise NotApplicable(f"Run {calibration_id} {what}.")
     robot = store.robot_of(calibration_id)
     if robot.to_json() != store.robot(robot.serial).to_json():
@@ -62,15 +63,14 @@ def planned(store: Store, calibration_id: int) -> Planned:
     return Planned(found, (len(found.stops) + FRESH_PLACES) * pace_s)
 
 
-def check_separating(store: Store, calibration_id: int) -> None:
+def check_separate(store: Store, request: CalibrationRequest) -> None:
     """:raises NotApplicable: saying why; :raises NotFound: no such run, or it has no diagnosis."""
-    planned(store, calibration_id)
+    planned(store, request.of or 0)
 
 
-def start_separating(store: Store, request: CalibrationRequest) -> Procedure:
-    """The procedure that goes on from the run `of`, not yet started."""
-    of = request.of or 0
-    return separating(store.robot_of(of), store.readings(of))
+def separate(start: Start) -> Procedure:
+    """The procedure that continues an earlier run, not yet started."""
+    return separating(start.store.robot_of(start.of), start.store.readings(start.of))
 
 
 def separating(robot: Robot, readings: list[Reading]) -> Generator[Walk, list[Reading], CalibrationResult]:
@@ -81,7 +81,7 @@ def separating(robot: Robot, readings: list[Reading]) -> Generator[Walk, list[Re
     found = experiment(diagnosed(robot, readings))
     if found is None:
         raise InputRefused(NOTHING)
-    more = yield Walk("Telling look-alikes apart", 1, found.stops)
+    more = yield Walk("Distinguishing the causes", 1, found.stops)
     return (yield from judged(robot, [*learned(readings), *more]))
 
 
@@ -90,7 +90,12 @@ def learned(readings: list[Reading]) -> list[Reading]:
     return [r for r in readings if r.walk == 1]
 
 
-def since_start_s(store: Store, earlier: int, now: int) -> float:
-    """Real time from the start of one run to that of a later one; 0 where the clock was set back."""
-    first, second = (datetime.fromisoformat(store.summary(i)["started_at"]) for i in (earlier, now))
-    return max((second - first).total_seconds(), 0.0)
+def continued(store: Store, request: CalibrationRequest) -> Continued:
+    """The readings that the earlier run learned from, and the time since it started."""
+    assert request.of is not None
+    earlier = store.summary(request.of).started_at
+    elapsed_s = 0.0 if earlier is None else (datetime.now(UTC) - earlier).total_seconds()
+    return Continued(learned(store.readings(request.of)), max(elapsed_s, 0.0))
+
+
+SEPARATE = register(RunKind("separate", separate, check=check_separate, continues=continued))

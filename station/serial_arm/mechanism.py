@@ -15,15 +15,13 @@ from scipy.spatial.transform import Rotation
 from station.errors import InputRefused
 from station.fitting import NotConvergedError, Prior, solve
 from station.mechanism import Conditions, Observation, Parameter, Reference, temperature_rise
-from station.records import Index, Measurements, Real
+from station.records import Complex, Index, Measurements, Real
 from station.serial_arm.dh import LINK_ERRORS, Reach, reach
-from station.serial_arm.robot_file import Arm
+from station.serial_arm.robot_file import ARM_MODEL, Arm
 
 DEGREES = 180.0 / np.pi
 MISFIT = 0.03
 """Misfit over the arm's length beyond which angles and positions are not of one machine."""
-PLACED = ("tool", "base", "origin")
-"""What the names of parameters begin with that belong to the place of arm and target, not to the arm."""
 _OTHERS = LINK_ERRORS[1:]
 """Errors of a link beside the zero offset of its joint."""
 
@@ -35,7 +33,10 @@ class SerialArm:
     arm about that origin changes no distance.
     """
 
+    model = ARM_MODEL
     needs_repeats = False
+    workspace: Complex = np.zeros(0, dtype=complex)
+    """None is declared: an arm is judged at the poses that were measured."""
 
     def __init__(self, robot: Arm, measurements: Measurements, frame: Real | None = None) -> None:
         """`frame` (3, 3): orientation of the base that its three turns count from; found when left out."""
@@ -59,18 +60,18 @@ class SerialArm:
         angle = ("deg", 0.0, np.radians(t.angle_deg), DEGREES)
         length = ("mm", 0.0, t.length_mm)
         zero_sd = np.radians(t.zero_offset_deg)
-        out = [Parameter(f"dtheta{i + 1}", "deg", 0.0, zero_sd, DEGREES) for i in range(n)]
+        out = [Parameter(f"dtheta{i + 1}", "zero_offset", "deg", 0.0, zero_sd, DEGREES) for i in range(n)]
         for i in range(n):
             out += [
-                Parameter(f"{name}{i + 1}", *(angle if name in ("alpha", "beta") else length))
+                Parameter(f"{name}{i + 1}", "geometry", *(angle if name in ("alpha", "beta") else length))
                 for name in _OTHERS
             ]
-        out += [Parameter(f"tool_{axis}", "mm", 0.0, self.robot.tool_sd_mm) for axis in "xyz"]
+        out += [Parameter(f"tool_{axis}", "placement", "mm", 0.0, self.robot.tool_sd_mm) for axis in "xyz"]
         if self.by_range:
-            out += [Parameter(f"origin_{axis}", "mm", 0.0, np.inf) for axis in "xyz"]
+            out += [Parameter(f"origin_{axis}", "placement", "mm", 0.0, np.inf) for axis in "xyz"]
         else:
-            out += [Parameter(f"base_{axis}", "mm", 0.0, np.inf) for axis in "xyz"]
-            out += [Parameter(f"base_r{axis}", "deg", 0.0, np.inf, DEGREES) for axis in "xyz"]
+            out += [Parameter(f"base_{axis}", "placement", "mm", 0.0, np.inf) for axis in "xyz"]
+            out += [Parameter(f"base_r{axis}", "placement", "deg", 0.0, np.inf, DEGREES) for axis in "xyz"]
         return tuple(out)
 
     @cached_property
@@ -95,7 +96,7 @@ class SerialArm:
     @property
     def simplest(self) -> tuple[str, tuple[str, ...]]:
         """Nominal links: only tool point and base are unknown."""
-        return "nominal", tuple(p.name for p in self.parameters if p.name.split("_")[0] in PLACED)
+        return "nominal", tuple(p.name for p in self.parameters if p.role == "placement")
 
     def of(self, measurements: Measurements) -> SerialArm:
         """The same arm under other readings, its base where it was."""
@@ -183,6 +184,14 @@ class SerialArm:
             pull=np.zeros_like(theta),
             load=self._load(theta),
         )
+
+    def implausible(self, p: Real) -> str:
+        """Nothing is held against an arm: tool and base may be anywhere."""
+        return ""
+
+    def position_errors(self, p: Real) -> None:
+        """There is no workspace to predict them over."""
+        return
 
     def places(self, p: Real) -> Real:
         """(K, 3) where the target stood in the frame of the base, mm."""

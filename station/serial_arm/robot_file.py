@@ -3,18 +3,16 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Annotated, Any, Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import Field, ValidationError
 
 from station.errors import InputRefused
-from station.records import Columns
+from station.records import Columns, Finite, Positive, Section, Sections, refusal
 from station.serial_arm.dh import Convention, Links
 
 Triple = tuple[float, float, float]
-Finite = Annotated[float, Field(allow_inf_nan=False)]
-Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 ARM_MODEL = "serial-dh"
 
 
@@ -31,6 +29,7 @@ class ArmTolerances:
 class Arm:
     """One serial arm under an instrument that follows a target on its tool."""
 
+    model: ClassVar[str] = ARM_MODEL
     serial: str
     a: tuple[float, ...]
     d: tuple[float, ...]
@@ -46,16 +45,14 @@ class Arm:
     """Its direction in the frame of the base."""
 
     @classmethod
-    def from_dict(cls, data: dict[str, Any], *, source: str = "robot") -> Arm:
+    def from_dict(cls, data: Sections, *, source: str = "robot") -> Arm:
         """From the robot file's sections.  :raises InputRefused: with section and key."""
         try:
             return ArmFile.model_validate(data).to_arm(source)
         except ValidationError as error:
-            first = error.errors()[0]
-            where = ".".join(str(part) for part in first["loc"])
-            raise InputRefused(f"{source}: [{where}] {first['msg']} (given: {first['input']!r}).") from error
+            raise refusal(error, source) from error
 
-    def to_json(self) -> dict[str, Any]:
+    def to_json(self) -> Sections:
         """The sections of the robot file; `from_dict` reads them back."""
         t = self.tolerances
         return {
@@ -105,17 +102,13 @@ class Arm:
         )
 
 
-class _Section(BaseModel):
-    model_config = ConfigDict(extra="forbid")
-
-
-class _ToleranceSection(_Section):
+class _ToleranceSection(Section):
     zero_offset_deg: Positive = ArmTolerances.zero_offset_deg
     length_mm: Positive = ArmTolerances.length_mm
     angle_deg: Positive = ArmTolerances.angle_deg
 
 
-class _RobotSection(_Section):
+class _RobotSection(Section):
     serial: Annotated[str, Field(min_length=1)] = "unnamed"
     model: Literal["serial-dh"]
     convention: Convention = "standard"
@@ -127,16 +120,16 @@ class _RobotSection(_Section):
     tolerance: _ToleranceSection = _ToleranceSection()
 
 
-class _ToolSection(_Section):
+class _ToolSection(Section):
     position_mm: tuple[Finite, Finite, Finite] = Arm.tool_mm
     sd_mm: Positive = Arm.tool_sd_mm
 
 
-class _InstrumentSection(_Section):
+class _InstrumentSection(Section):
     sd_mm: Positive = Arm.reading_sd_mm
 
 
-class ArmFile(_Section):
+class ArmFile(Section):
     """The sections of a serial arm's robot file."""
 
     robot: _RobotSection

@@ -7,11 +7,12 @@ to the drives directly, past the worker and past every queue.
 
 from __future__ import annotations
 
-import hashlib
 import logging
 import sqlite3
-from collections.abc import Callable
+import time
+from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
+from datetime import UTC, datetime
 from queue import Empty, Queue
 from threading import Lock, Thread
 from typing import Any
@@ -19,23 +20,28 @@ from typing import Any
 from drivers.errors import DeviceError
 from station.errors import Busy, InputRefused, KeyReused, NotFound, StepFailed
 from station.five_bar import Robot
+from station.messages import display_name
 from station.motion import Cancelled, Devices, Listener, Listeners, LiveEvent, Machine, Walker, Zeroing
 from station.records import (
     CalibrationRequest,
     CalibrationResult,
-    PlanName,
+    CalibrationSummary,
     Procedure,
     Reading,
-    RunKind,
+    Reason,
     SetZeros,
     State,
+    StationInfo,
+    StationView,
     Submitted,
     Walk,
+    Workspace,
+    because,
 )
-from station.run_kinds import check_separating, learned, since_start_s, start_application, start_separating
+from station.run_kinds import RUN_KINDS, RunKind, Start
 from station.service.run import Run
 from station.settings import Settings
-from station.store import Store, check_apply, check_roll_back, compact, rolled_back_by
+from station.store import Store, request_hash
 
 __all__ = ["Busy", "InputRefused", "KeyReused", "LiveEvent", "NotFound", "Orchestrator", "Submitted"]
 
@@ -44,20 +50,11 @@ log = logging.getLogger(__name__)
 IDLE_S = 0.5
 SHUTDOWN_LIMIT_S = 10.0
 
-_CHECKS: dict[RunKind, Callable[[Store, int], None]] = {
-    "apply": check_apply,
-    "rollback": check_roll_back,
-    "separating": check_separating,
-}
-"""Whether the run that another one is about allows it."""
-
-ProcedureFactory = Callable[[PlanName, Robot], Procedure]
-
 
 @dataclass(frozen=True, slots=True)
 class _Ending:
     state: State
-    reason: str = ""
+    reason: Reason | None = None
     result: CalibrationResult | None = None
 
 
@@ -65,11 +62,15 @@ class Orchestrator:
     """The station's only way to move; every method may be called from any thread."""
 
     def __init__(
-        self, devices: Devices, store: Store, settings: Settings, procedure_factory: ProcedureFactory
+        self,
+        devices: Devices,
+        store: Store,
+        settings: Settings,
+        kinds: Mapping[str, RunKind] = RUN_KINDS,
     ) -> None:
         self._store = store
         self._settings = settings
-        self._start_procedure = procedure_factory
+        self._kinds = kinds
         self._listeners = Listeners()
         self._machine = Machine(devices, settings.limits, self._listeners)
         self._submitting = Lock()
@@ -91,7 +92,8 @@ class Orchestrator:
         :raises InputRefused: the robot does not fit this station, or the station is shutting down.
         :raises NotApplicable: the offsets of the run it is about cannot be written or taken back.
         """
-        body_hash = hashlib.sha256(compact(asdict(request)).encode()).digest()[:16]
+        kind = self._kinds[request.kind]
+        body_hash = request_hash(request)
         with self._submitting:
             if idempotency_key is not None:
                 known = self._store.find_key(idempotency_key, body_hash)
@@ -101,9 +103,10 @@ class Orchestrator:
                 raise InputRefused("The station is shutting down; start it again first.")
             if (holder := self._run) is not None:
                 raise Busy(holder.id)
+            if kind.procedure is None:
+                raise InputRefused(f"{display_name('run_kinds', kind.name)} is not carried out on the rig.")
             robot = self._robot(request.robot_serial)
-            if request.of is not None:
-                _CHECKS[request.plan](self._store, request.of)
+            kind.check(self._store, request)
             calibration_id = self._store.create(request, robot, key=idempotency_key, body_hash=body_hash)
             run = Run(calibration_id, request, robot)
             with self._lock:
@@ -112,35 +115,20 @@ class Orchestrator:
         self._queue.put(run)
         return Submitted(calibration_id, created=True)
 
-    def apply(self, calibration_id: int, operator: str, *, idempotency_key: str | None = None) -> Submitted:
-        """Write the offsets of a passed run to the drives, verify, roll back by itself when that fails.
-
-        :raises NotFound: there is no such run; else as `submit`.
-        """
-        serial = self._store.summary(calibration_id)["robot_serial"]
-        request = CalibrationRequest(serial, "apply", operator, of=calibration_id)
-        return self.submit(request, idempotency_key=idempotency_key)
-
-    def roll_back(self, calibration_id: int, operator: str) -> Submitted:
-        """Put the zeros back that the drives had before a run was applied; again is harmless.
-
-        :raises NotFound: there is no such run; else as `submit`.
-        """
-        done = rolled_back_by(self._store, calibration_id)
-        if done is not None:
-            return Submitted(done, created=False)
-        serial = self._store.summary(calibration_id)["robot_serial"]
-        return self.submit(CalibrationRequest(serial, "rollback", operator, of=calibration_id))
-
-    def separate(
-        self, calibration_id: int, operator: str, *, idempotency_key: str | None = None
+    def follow(
+        self, kind: str, calibration_id: int, operator: str, *, idempotency_key: str | None = None
     ) -> Submitted:
-        """Tell the cause that a diagnostic run found from its look-alikes by more readings.
+        """Start a run that is about an earlier one: apply it, roll it back, distinguish its causes.
 
-        :raises NotFound: there is no such run, or it has no diagnosis; else as `submit`.
+        Where it has been done already, and doing it again would be harmless, that run answers.
+
+        :raises NotFound: there is no such run; else as `submit`.
         """
-        serial = self._store.summary(calibration_id)["robot_serial"]
-        request = CalibrationRequest(serial, "separating", operator, of=calibration_id)
+        done_by = self._kinds[kind].done_by
+        if done_by is not None and (done := done_by(self._store, calibration_id)) is not None:
+            return Submitted(done, created=False)
+        serial = self._store.summary(calibration_id).robot_serial
+        request = CalibrationRequest(serial, kind, operator, of=calibration_id)
         return self.submit(request, idempotency_key=idempotency_key)
 
     def _robot(self, serial: str) -> Robot:
@@ -167,7 +155,7 @@ class Orchestrator:
         if run is not None and run.id == calibration_id:
             self._halt(run, who)
         else:
-            self._store.calibration(calibration_id)
+            self._store.summary(calibration_id)
 
     def stop(self, who: str) -> dict[str, str | None]:
         """Quick stop of both axes, now, whatever else happens; a run that is under way is aborted.
@@ -194,7 +182,7 @@ class Orchestrator:
         run = self._run
         if run is not None and run.id == calibration_id and not run.ended.wait(timeout_s):
             return run.state
-        return State(self._store.calibration(calibration_id)["state"])
+        return self._store.summary(calibration_id).state
 
     def shutdown(self) -> None:
         """Abort what runs, make the machine safe, end the worker, close the devices.  Twice is harmless."""
@@ -215,24 +203,24 @@ class Orchestrator:
         """Every event from now on, called in the worker's thread; returns the way to unsubscribe."""
         return self._listeners.subscribe(listener)
 
-    def snapshot(self) -> dict[str, Any]:
-        """Everything a page needs, as docs/architecture.md says.  Never waits for a device."""
+    def snapshot(self) -> StationView:
+        """Everything a page needs.  Never waits for a device."""
         with self._lock:
             run, last = self._run, self._last
         robot = run.robot if run else self._machine.robot
-        return {
-            "station": {
-                "name": self._settings.name,
-                "emulated": self._machine.devices.emulated,
-                "limits": self._settings.limits.model_dump(),
-            },
-            "devices": self._machine.device_views(),
-            "interlocks": self._machine.interlocks(),
-            "machine": self._machine.view(),
-            "workspace": {"x": list(robot.workspace_x), "y": list(robot.workspace_y)},
-            "run": run and run.view(),
-            "last": last,
-        }
+        return StationView(
+            station=StationInfo(
+                name=self._settings.name,
+                emulated=self._machine.devices.emulated,
+                limits=self._settings.limits.model_dump(),
+            ),
+            devices=self._machine.device_views(),
+            interlocks=self._machine.interlocks(),
+            machine=self._machine.view(),
+            workspace=Workspace(x=robot.workspace_x, y=robot.workspace_y),
+            run=run.view() if run else None,
+            last=last,
+        )
 
     # The worker ----------------------------------------------------------------------------------
 
@@ -264,18 +252,34 @@ class Orchestrator:
                 "The end of run %d could not be stored; the next start marks it interrupted", run.id
             )
             run.state = State.FAILED
-            reason = f"The end of the run could not be stored: {error}."
-            summary = {
-                **run.brief(),
-                "state": "failed",
-                "verdict": None,
-                "reason": reason,
-                "zero_offsets": [],
-            }
+            summary = self._unstored(run, because("store_failed", text=str(error)))
         with self._lock:
             self._last, self._run = summary, None
         run.ended.set()
         self._listeners.publish("ended", summary)
+
+    def _unstored(self, run: Run, reason: Reason) -> CalibrationSummary:
+        """How a run ended whose end the store did not take."""
+        brief = run.brief()
+        return CalibrationSummary(
+            id=run.id,
+            robot_serial=brief.robot_serial,
+            kind=brief.kind,
+            plan=brief.plan,
+            of=brief.of,
+            operator=brief.operator,
+            work_order=brief.work_order,
+            state=run.state,
+            verdict=None,
+            outcome="failed",
+            step=brief.step,
+            steps=brief.steps,
+            started_at=brief.started_at,
+            reason=reason.text,
+            reason_code=reason.code,
+            reason_params=reason.params,
+            created_at=brief.started_at or datetime.now(UTC),
+        )
 
     def _perform(self, run: Run) -> _Ending:
         try:
@@ -283,13 +287,13 @@ class Orchestrator:
         except Cancelled:
             return _Ending(State.ABORTED)
         except (DeviceError, StepFailed, InputRefused) as error:
-            return _Ending(State.FAILED, str(error))
+            return _Ending(State.FAILED, because("step_failed", text=str(error)))
         except sqlite3.Error as error:
             log.exception("Run %d cannot be stored", run.id)
-            return _Ending(State.FAILED, f"The database does not take what was measured: {error}.")
+            return _Ending(State.FAILED, because("store_failed", text=str(error)))
         except Exception as error:  # the worker must outlive any mistake in a procedure
             log.exception("Run %d failed unexpectedly", run.id)
-            return _Ending(State.FAILED, f"Unexpected {type(error).__name__}: {error}")
+            return _Ending(State.FAILED, because("unexpected", type=type(error).__name__, text=str(error)))
         return _Ending(State.SUCCEEDED, result.reason, result)
 
     def _bring_to_rest(self, run: Run, ending: _Ending) -> _Ending:
@@ -305,20 +309,23 @@ class Orchestrator:
             if not run.has_moved:
                 doubt = None
         if run.cancel.is_set():
-            ending = _Ending(State.ABORTED, f"Stopped by {run.stopped_by}.")
-        return _Ending(ending.state, " ".join(part for part in (ending.reason, doubt) if part))
+            ending = _Ending(State.ABORTED, because("stopped", by=run.stopped_by or "somebody"))
+        return _Ending(ending.state, _with_doubt(ending.reason, doubt))
 
     def _calibrate(self, run: Run) -> CalibrationResult:
         if run.cancel.is_set():
             raise Cancelled
         self._set_state(run, State.RUNNING)
-        walker = Walker(self._machine, run.robot, self._settings.joints, run.cancel)
+        kind = self._kinds[run.request.kind]
+        assert kind.procedure is not None
+        elapsed_s = self._continue(run, kind)
+        walker = Walker(
+            self._machine, run.robot, self._settings.joints, run.cancel, time.monotonic() - elapsed_s
+        )
         walker.prepare()
         zeroing = Zeroing(run.id, self._machine, walker, self._store)
         zeroing.settle()
-        if run.request.plan == "separating":
-            self._go_on(run, walker)
-        procedure = self._procedure(run)
+        procedure = kind.procedure(Start(self._store, run.request, run.robot))
 
         def carry_out(step: Walk | SetZeros) -> Any:
             return self._walk(run, walker, step) if isinstance(step, Walk) else self._set(run, zeroing, step)
@@ -330,24 +337,14 @@ class Orchestrator:
         self._listeners.publish("residuals", run.add_result(result))
         return result
 
-    def _go_on(self, run: Run, walker: Walker) -> None:
-        """With the readings and the clock of the run before."""
-        of = run.request.of or 0
-        readings = learned(self._store.readings(of))
-        self._store.add_readings(run.id, readings)
-        run.inherit(len(readings))
-        last_s = readings[-1].t_s / self._machine.devices.speed
-        walker.started -= max(since_start_s(self._store, of, run.id), last_s)
-
-    def _procedure(self, run: Run) -> Procedure:
-        request = run.request
-        if request.plan == "apply" or request.plan == "rollback":
-            return start_application(self._store, request)
-        if request.plan == "separating":
-            return start_separating(self._store, request)
-        if request.plan == "dataset":
-            raise InputRefused("A data set is imported, not run.")
-        return self._start_procedure(request.plan, run.robot)
+    def _continue(self, run: Run, kind: RunKind) -> float:
+        """Take over the readings of an earlier run; real time since it started, 0 where there is none."""
+        if kind.continues is None:
+            return 0.0
+        earlier = kind.continues(self._store, run.request)
+        self._store.add_readings(run.id, earlier.readings)
+        run.inherit(len(earlier.readings))
+        return max(earlier.elapsed_s, earlier.readings[-1].t_s / self._machine.devices.speed)
 
     def _set(self, run: Run, zeroing: Zeroing, step: SetZeros) -> tuple[float, float]:
         self._listeners.publish("walk", run.begin_walk(Walk(step.title, step.number, ())))
@@ -374,6 +371,14 @@ class Orchestrator:
         self._store.set_state(run.id, state, steps=run.steps)
         run.state = state
         self._listeners.publish("run", run.brief())
+
+
+def _with_doubt(reason: Reason | None, doubt: str | None) -> Reason | None:
+    """A reason with what could not be confirmed about standstill."""
+    if doubt is None:
+        return reason
+    said = [reason.text] if reason else []
+    return because("step_failed", text=" ".join([*said, doubt]))
 
 
 def _follow(procedure: Procedure, carry_out: Callable[[Walk | SetZeros], Any]) -> CalibrationResult:

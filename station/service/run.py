@@ -7,10 +7,23 @@ import time
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from threading import Event, Lock
-from typing import Any
 
 from station.five_bar import Robot
-from station.records import CalibrationRequest, CalibrationResult, Reading, State, Walk
+from station.records import (
+    CalibrationRequest,
+    CalibrationResult,
+    Iteration,
+    Reading,
+    ResidualOfReading,
+    RunBrief,
+    RunReading,
+    RunStop,
+    RunView,
+    SequenceTitle,
+    SequenceView,
+    State,
+    Walk,
+)
 
 Place = tuple[float, float] | None
 
@@ -30,10 +43,10 @@ class Run:
     inherited: int = 0
     """Steps that an earlier run made."""
     steps: int = 0
-    iterations: list[dict[str, Any]] = field(default_factory=list)
+    iterations: tuple[Iteration, ...] = ()
     _walk: Walk | None = None
-    _stops: list[dict[str, Any]] = field(default_factory=list)
-    _readings: list[dict[str, Any]] = field(default_factory=list)
+    _stops: list[RunStop] = field(default_factory=list)
+    _readings: list[RunReading] = field(default_factory=list)
     _started: float = field(default_factory=time.monotonic)
     _started_at: datetime = field(default_factory=lambda: datetime.now(UTC))
     _lock: Lock = field(default_factory=Lock)
@@ -44,90 +57,83 @@ class Run:
         return self._walk is not None
 
     def inherit(self, steps: int) -> None:
-        """Go on after the steps of an earlier run."""
+        """Continue after the steps of an earlier run."""
         self.inherited = self.step = self.steps = steps
 
-    def begin_walk(self, walk: Walk) -> dict[str, Any]:
+    def begin_walk(self, walk: Walk) -> SequenceView:
         """Returns the `walk` event."""
         with self._lock:
             self._walk = walk
             self.steps += len(walk.stops)
             self._stops = [
-                {
-                    "position": stop.position,
-                    "x_mm": stop.target_mm[0],
-                    "y_mm": stop.target_mm[1],
-                    "done": False,
-                }
+                RunStop(position=stop.position, x_mm=stop.target_mm[0], y_mm=stop.target_mm[1], done=False)
                 for stop in walk.stops
             ]
-            return {"number": walk.number, "title": walk.title, "stops": [dict(stop) for stop in self._stops]}
+            return SequenceView(number=walk.number, title=walk.title, stops=tuple(self._stops))
 
-    def add_reading(self, index: int, reading: Reading, place: Place) -> dict[str, Any]:
-        """Reading of the walk's stop `index`, already stored.  Returns the `reading` event."""
-        row = {
-            "reading": reading.reading,
-            "position": reading.position,
-            "x_mm": place and place[0],
-            "y_mm": place and place[1],
-            "theta1_deg": reading.theta_deg[0],
-            "theta2_deg": reading.theta_deg[1],
-            "scale_mm": reading.scale_mm,
-            "sd_mm": statistics.stdev(reading.samples_mm),
-            "residual_mm": None,
-            "limit_mm": None,
-            "t_s": reading.t_s,
-            "walk": reading.walk,
-        }
+    def add_reading(self, index: int, reading: Reading, place: Place) -> RunReading:
+        """Reading of the sequence's stop `index`, already stored.  Returns the `reading` event."""
+        row = RunReading(
+            reading=reading.reading,
+            position=reading.position,
+            x_mm=place and place[0],
+            y_mm=place and place[1],
+            theta1_deg=reading.theta_deg[0],
+            theta2_deg=reading.theta_deg[1],
+            scale_mm=reading.scale_mm,
+            sd_mm=statistics.stdev(reading.samples_mm),
+            t_s=reading.t_s,
+            walk=reading.walk,
+        )
         with self._lock:
             self.step += 1
-            self._stops[index]["done"] = True
+            self._stops[index] = self._stops[index].model_copy(update={"done": True})
             self._readings.append(row)
-            return dict(row)
+            return row
 
-    def add_result(self, result: CalibrationResult) -> list[dict[str, Any]]:
+    def add_result(self, result: CalibrationResult) -> list[ResidualOfReading]:
         """Returns the `residuals` event."""
-        residuals = {row["reading"]: row for row in result.residuals}
+        residuals = {row.reading: row for row in result.residuals}
         with self._lock:
-            self.iterations = [dict(row) for row in result.iterations]
-            for row in self._readings:
-                if found := residuals.get(row["reading"]):
-                    row["residual_mm"], row["limit_mm"] = found["residual_mm"], found["limit_mm"]
+            self.iterations = result.iterations
+            for k, row in enumerate(self._readings):
+                if found := residuals.get(row.reading):
+                    judged = {"residual_mm": found.residual_mm, "limit_mm": found.limit_mm}
+                    self._readings[k] = row.model_copy(update=judged)
             return [
-                {key: row[key] for key in ("reading", "residual_mm", "limit_mm")} for row in self._readings
+                ResidualOfReading(reading=r.reading, residual_mm=r.residual_mm, limit_mm=r.limit_mm)
+                for r in self._readings
             ]
 
-    def brief(self) -> dict[str, Any]:
+    def brief(self) -> RunBrief:
         """The `run` event: without stops and readings."""
         with self._lock:
             return self._brief()
 
-    def view(self) -> dict[str, Any]:
+    def view(self) -> RunView:
         """The `run` part of the snapshot."""
         with self._lock:
-            return {
-                **self._brief(),
-                "stops": [dict(stop) for stop in self._stops],
-                "readings": [dict(row) for row in self._readings],
-            }
+            return RunView(**dict(self._brief()), stops=tuple(self._stops), readings=tuple(self._readings))
 
-    def _brief(self) -> dict[str, Any]:
+    def _brief(self) -> RunBrief:
         elapsed_s = time.monotonic() - self._started
-        walk = self._walk
-        to_do = sum(not stop["done"] for stop in self._stops)
-        return {
-            "id": self.id,
-            "state": str(self.state),
-            "robot_serial": self.request.robot_serial,
-            "plan": self.request.plan,
-            "of": self.request.of,
-            "operator": self.request.operator,
-            "work_order": self.request.work_order,
-            "started_at": self._started_at.isoformat(timespec="milliseconds").replace("+00:00", "Z"),
-            "elapsed_s": round(elapsed_s, 1),
-            "remaining_s": round(to_do * elapsed_s / own, 1) if (own := self.step - self.inherited) else None,
-            "walk": {"number": walk.number, "title": walk.title} if walk else None,
-            "step": self.step,
-            "steps": self.steps,
-            "iterations": [dict(row) for row in self.iterations],
-        }
+        walk, request = self._walk, self.request
+        to_do = sum(not stop.done for stop in self._stops)
+        own = self.step - self.inherited
+        return RunBrief(
+            id=self.id,
+            state=self.state,
+            robot_serial=request.robot_serial,
+            kind=request.kind,
+            plan=request.label,
+            of=request.of,
+            operator=request.operator,
+            work_order=request.work_order,
+            started_at=self._started_at,
+            elapsed_s=round(elapsed_s, 1),
+            remaining_s=round(to_do * elapsed_s / own, 1) if own else None,
+            walk=SequenceTitle(number=walk.number, title=walk.title) if walk else None,
+            step=self.step,
+            steps=self.steps,
+            iterations=self.iterations,
+        )

@@ -11,10 +11,7 @@ from pathlib import Path
 from typing import Self
 
 from station.errors import InputRefused
-from station.five_bar import Robot
 from station.motion import EmulatedRig, build_devices
-from station.records import PlanName, Procedure
-from station.run_kinds import start_procedure
 from station.service.orchestrator import Orchestrator
 from station.settings import Settings, database_path
 from station.store import Store
@@ -55,10 +52,7 @@ class Runtime:
                 settings, speed = rig.settings(settings), rig.speed
             devices = build_devices(settings, emulated=emulated, speed=speed)
 
-            def procedure(plan: PlanName, robot: Robot) -> Procedure:
-                return start_procedure(plan, robot, store.memory(robot.serial))
-
-            orchestrator = Orchestrator(devices, store, settings, procedure)
+            orchestrator = Orchestrator(devices, store, settings)
             opened.callback(orchestrator.shutdown)
             return cls(settings, home, store, orchestrator, opened.pop_all())
 

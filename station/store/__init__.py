@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from station.store.rows import Page, compact
+from station.store.rows import Page, compact, request_hash
 from station.store.store import Store
-from station.store.zero_state import application, check_apply, check_roll_back, rolled_back_by
 
 __all__ = [
     "Page",
     "Store",
-    "application",
-    "check_apply",
-    "check_roll_back",
     "compact",
-    "rolled_back_by",
+    "request_hash",
 ]

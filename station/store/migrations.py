@@ -5,6 +5,9 @@ Times are integer milliseconds since 1970 (UTC): six bytes instead of the 27 of 
 
 from __future__ import annotations
 
+import json
+import zlib
+
 from sqlite_utils import Database, Migrations
 
 APPLICATION_ID = 0x35426172  # "5Bar": tells this database from anybody else's
@@ -90,3 +93,61 @@ def zero_writes(db: Database) -> None:
 def diagnoses(db: Database) -> None:
     """The whole diagnosis document of a run that has one, compressed; read by itself."""
     db.execute("ALTER TABLE results ADD COLUMN diagnosis BLOB")
+
+
+# Results of version 0.1.0 were compressed with these words as a dictionary.  Only the migration needs them.
+_WORDS = (
+    b'measure the mechanism\'s mounting error, or use the plan `full`","separating_experiment":"alias_set":'
+    b'both arms together with a sideways error of the mechanism","share":"p_value":"effect":"joint":"source":'
+    b'"findings":[{"effect":"predicted_position_error_mm":{"rms":,"max":}}"before":{"reading_rms_mm":,"after":'
+    b'{"reading_rms_mm":"method":"published","parameters":[{"name":"rMx","value":,"sd":,"unit":"mm"},{"name":'
+    b'"rMy","unit":"deg"}],"weak_direction":{"singular_ratio":0.00,"text":","sd_deg":,"remedy":"remedies":'
+    b'"iterations":[{"pass":1,"dtheta1_deg":,"dtheta2_deg":-,"total1_deg":,"total2_deg":-,"mu_deg":null,'
+    b'"condition":47"residuals":[{"reading":1,"position":"P1","residual_mm":0.000,"limit_mm":0.00},{"reading":'
+)
+
+
+@migrations()
+def readable_results(db: Database) -> None:
+    """Results as JSON text that SQL can query, documents as plain zlib; kind, outcome, reason as columns."""
+    db.execute("ALTER TABLE results ADD COLUMN result TEXT")
+    rows = db.execute(
+        "SELECT calibration_id, zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg, rest, diagnosis"
+        " FROM results"
+    )
+    for calibration_id, value1, sd1, value2, sd2, rest, diagnosis in rows.fetchall():
+        offsets = [
+            {"joint": joint, "value_deg": value, "sd_deg": sd}
+            for joint, value, sd in ((1, value1, sd1), (2, value2, sd2))
+            if value is not None
+        ]
+        result = {"zero_offsets": offsets, **json.loads(_expand(rest))}
+        document = None if diagnosis is None else zlib.compress(_expand(diagnosis), 9)
+        db.execute(
+            "UPDATE results SET result = ?, diagnosis = ? WHERE calibration_id = ?",
+            [json.dumps(result, separators=(",", ":"), ensure_ascii=False), document, calibration_id],
+        )
+    db.execute("ALTER TABLE results DROP COLUMN rest")
+    for column in ("kind", "outcome", "reason_code", "reason_params"):
+        db.execute(f"ALTER TABLE calibrations ADD COLUMN {column} TEXT")
+    db.execute(
+        """UPDATE calibrations SET kind = CASE plan
+            WHEN 'diagnostic' THEN 'diagnose' WHEN 'separating' THEN 'separate' WHEN 'apply' THEN 'apply'
+            WHEN 'rollback' THEN 'rollback' WHEN 'dataset' THEN 'import' ELSE 'calibrate' END"""
+    )
+    # a diagnosis that found a cause was a pass; what it asks for is a repair
+    db.execute(
+        """UPDATE calibrations SET outcome = CASE
+            WHEN state IN ('failed', 'aborted', 'interrupted') THEN state
+            WHEN verdict = 'pass' AND kind IN ('diagnose', 'separate', 'import')
+                AND (SELECT json_array_length(result, '$.findings') FROM results
+                    WHERE calibration_id = id) > 0 THEN 'repair'
+            WHEN verdict = 'pass' THEN 'good'
+            WHEN verdict = 'fail' AND kind IN ('apply', 'rollback') THEN 'not_verified'
+            WHEN verdict = 'fail' THEN 'unexplained' END
+        WHERE state NOT IN ('queued', 'running')"""
+    )
+
+
+def _expand(blob: bytes) -> bytes:
+    return zlib.decompressobj(zdict=_WORDS).decompress(blob)

@@ -1,7 +1,8 @@
-"""Between the rows of the database and the records and dictionaries of the program."""
+"""Between the rows of the database and the records of the program."""
 
 from __future__ import annotations
 
+import hashlib
 import json
 import math
 import sqlite3
@@ -9,64 +10,51 @@ import zlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from typing import Any
+
+from pydantic import BaseModel, JsonValue
 
 from station.errors import InputRefused
-from station.records import CalibrationResult, Reading, ZeroWrite
+from station.records import (
+    Calibration,
+    CalibrationRequest,
+    CalibrationResult,
+    CalibrationSummary,
+    DiagnosisDocument,
+    Reading,
+    ResultParts,
+    ZeroWrite,
+)
 
 READING_COLUMNS = (
     "reading, walk, t_s, theta1_deg, theta2_deg, approach1, approach2, scale_mm, position,"
     " samples, temperature_c, payload_kg, mount"
 )
 LIST_COLUMNS = (
-    "id, robot_serial, plan, operator, work_order, of_id, state, verdict, reason, step, steps,"
-    " created_ms, started_ms, ended_ms, zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg"
-)
-# What results have in common need not be stored with each.  Never change it: old results need it.
-_WORDS = (
-    b'measure the mechanism\'s mounting error, or use the plan `full`","separating_experiment":"alias_set":'
-    b'both arms together with a sideways error of the mechanism","share":"p_value":"effect":"joint":"source":'
-    b'"findings":[{"effect":"predicted_position_error_mm":{"rms":,"max":}}"before":{"reading_rms_mm":,"after":'
-    b'{"reading_rms_mm":"method":"published","parameters":[{"name":"rMx","value":,"sd":,"unit":"mm"},{"name":'
-    b'"rMy","unit":"deg"}],"weak_direction":{"singular_ratio":0.00,"text":","sd_deg":,"remedy":"remedies":'
-    b'"iterations":[{"pass":1,"dtheta1_deg":,"dtheta2_deg":-,"total1_deg":,"total2_deg":-,"mu_deg":null,'
-    b'"condition":47"residuals":[{"reading":1,"position":"P1","residual_mm":0.000,"limit_mm":0.00},{"reading":'
+    "id, robot_serial, kind, plan, operator, work_order, of_id, state, verdict, outcome, reason,"
+    " reason_code, reason_params, step, steps, created_ms, started_ms, ended_ms,"
+    " zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg"
 )
 _SAMPLE_DIGITS = 5
 _SAMPLE_UNIT_MM = 10.0**-_SAMPLE_DIGITS
 """A tenth of the finest step of any supported readout."""
-_REST = (
-    "before",
-    "after",
-    "findings",
-    "method",
-    "parameters",
-    "weak_direction",
-    "iterations",
-    "residuals",
-    "memory",
-    "lack_of_fit",
-)
 
 
 @dataclass(frozen=True, slots=True)
 class Page:
     """Summaries, newest first, and the cursor of the next page (None: this was the last)."""
 
-    items: list[dict[str, Any]]
+    items: list[CalibrationSummary]
     next: int | None
 
 
-def compact(value: Any) -> str:
+def compact(value: object) -> str:
     """JSON without blanks; NaN is refused, it is not JSON."""
     return json.dumps(value, separators=(",", ":"), ensure_ascii=False, allow_nan=False)
 
 
-def utc(ms: int | None) -> str | None:
-    """ISO 8601 with milliseconds and Z."""
-    if ms is None:
-        return None
-    return datetime.fromtimestamp(ms / 1000, UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
+def moment(ms: int | None) -> datetime | None:
+    """UTC."""
+    return None if ms is None else datetime.fromtimestamp(ms / 1000, UTC)
 
 
 def millis(time: datetime) -> int:
@@ -85,13 +73,13 @@ def row_id(cursor: int | str) -> int:
     return number
 
 
-def unsound(value: Any, where: str = "") -> str | None:
+def unsound(value: object, where: str = "") -> str | None:
     """Where in a result the first number stands that is not finite; None when all are."""
-    if isinstance(value, CalibrationResult):
-        value = value.to_json()
+    if isinstance(value, BaseModel):
+        value = value.model_dump()
     if isinstance(value, float) and not math.isfinite(value):
         return where
-    parts: list[tuple[str, Any]] = []
+    parts: list[tuple[str, object]] = []
     if isinstance(value, Mapping):
         parts = [(f"{where}.{key}" if where else str(key), part) for key, part in value.items()]
     elif isinstance(value, Sequence) and not isinstance(value, str):
@@ -99,47 +87,42 @@ def unsound(value: Any, where: str = "") -> str | None:
     return next((bad for name, part in parts if (bad := unsound(part, name)) is not None), None)
 
 
-def pack_result(
+def result_row(
     result: CalibrationResult,
-) -> tuple[float | None, float | None, float | None, float | None, bytes]:
-    """Zero offsets as columns, the rest as one compressed JSON text."""
+) -> tuple[float | None, float | None, float | None, float | None, str]:
+    """Zero offsets as columns for lists, and the whole as one JSON text that SQL can query."""
     zeros = {offset.name: offset for offset in result.zero_offsets}
     first, second = zeros.get("dtheta1"), zeros.get("dtheta2")
-    rest = {key: value for key, value in _storable(result.to_json()).items() if key in _REST and value}
+    parts = ResultParts.model_validate(dict(result)).model_dump(mode="json", by_alias=True)
+    kept = {key: value for key, value in parts.items() if value not in (None, "", [], {})}
+    offsets: list[JsonValue] = [
+        {"joint": int(q.name.removeprefix("dtheta")), "value_deg": q.value, "sd_deg": q.sd}
+        for q in result.zero_offsets
+    ]
     return (
         *((_finite(first.value), _finite(first.sd)) if first else (None, None)),
         *((_finite(second.value), _finite(second.sd)) if second else (None, None)),
-        _press(compact(rest)),
+        compact(_storable({"zero_offsets": offsets, **kept})),
     )
 
 
-def pack_document(document: dict[str, Any] | None) -> bytes | None:
-    """With every digit: joint commands are computed from it."""
-    return None if document is None else _press(compact(document))
+def pack_document(document: DiagnosisDocument | None) -> bytes | None:
+    """With every digit: joint commands are computed from it.  Plain zlib."""
+    return None if document is None else zlib.compress(document.model_dump_json(by_alias=True).encode(), 9)
 
 
-def document_from(blob: bytes) -> dict[str, Any]:
-    """The document again."""
-    document: dict[str, Any] = json.loads(_expand(blob))
-    return document
+def document_from(blob: bytes) -> DiagnosisDocument:
+    """The document again, also one of an older schema."""
+    return DiagnosisDocument.model_validate_json(zlib.decompress(blob))
 
 
-def _press(text: str) -> bytes:
-    pressing = zlib.compressobj(level=9, zdict=_WORDS)
-    return pressing.compress(text.encode()) + pressing.flush()
-
-
-def _expand(blob: bytes) -> str:
-    return zlib.decompressobj(zdict=_WORDS).decompress(blob).decode()
-
-
-def _storable(value: Any) -> Any:
+def _storable(value: JsonValue) -> JsonValue:
     """Six significant digits are more than any uncertainty asks for, and a third of the bytes."""
     if isinstance(value, float):
         return float(f"{value:.6g}") if math.isfinite(value) else None
-    if isinstance(value, Mapping):
-        return {str(key): _storable(part) for key, part in value.items()}
-    if isinstance(value, Sequence) and not isinstance(value, str):
+    if isinstance(value, dict):
+        return {key: _storable(part) for key, part in value.items() if part is not None}
+    if isinstance(value, list):
         return [_storable(part) for part in value]
     return value
 
@@ -148,27 +131,51 @@ def _finite(value: float) -> float | None:
     return value if math.isfinite(value) else None
 
 
-def calibration_dict(row: sqlite3.Row, *, full: bool) -> dict[str, Any]:
-    """As `GET /api/v1/calibrations` lists it; `full` as the single one is answered."""
-    zeros = [
-        {"joint": joint, "value_deg": row[f"zero{joint}_deg"], "sd_deg": row[f"zero{joint}_sd_deg"]}
-        for joint in (1, 2)
-        if row[f"zero{joint}_deg"] is not None
-    ]
-    columns = ("id", "robot_serial", "plan", "operator", "work_order", "state", "verdict", "reason")
-    item: dict[str, Any] = {key: row[key] for key in columns}
-    item |= {"of": row["of_id"], "step": row["step"], "steps": row["steps"]}
-    item |= {f"{moment}_at": utc(row[f"{moment}_ms"]) for moment in ("created", "started", "ended")}
-    item["zero_offsets"] = zeros
-    if full:
-        item["metadata"] = json.loads(row["metadata"]) if row["metadata"] else {}
-        rest = json.loads(_expand(row["rest"])) if row["rest"] else {}
-        empty = dict.fromkeys(("before", "after", "method", "weak_direction", "memory", "lack_of_fit"))
-        item |= {key: rest.get(key, empty.get(key, [])) for key in _REST}
-    return item
+def summary_from_row(row: sqlite3.Row) -> CalibrationSummary:
+    """As lists show it."""
+    return CalibrationSummary.model_validate(_summary(row))
 
 
-def reading_row(reading: Reading) -> tuple[Any, ...]:
+def calibration_from_row(row: sqlite3.Row) -> Calibration:
+    """All that the store knows of it; what the drives hold of it is not in its row."""
+    parts = json.loads(row["result"]) if row["result"] else {}
+    parts.pop("zero_offsets", None)
+    metadata = json.loads(row["metadata"]) if row["metadata"] else {}
+    return Calibration.model_validate({**parts, **_summary(row), "metadata": metadata})
+
+
+def _summary(row: sqlite3.Row) -> dict[str, object]:
+    same = (
+        "id", "robot_serial", "kind", "plan", "operator", "work_order", "state", "verdict", "outcome",
+        "reason", "reason_code", "step", "steps",
+    )  # fmt: skip
+    return {
+        **{key: row[key] for key in same},
+        "of": row["of_id"],
+        "reason_params": json.loads(row["reason_params"]) if row["reason_params"] else {},
+        **{f"{name}_at": moment(row[f"{name}_ms"]) for name in ("created", "started", "ended")},
+        "zero_offsets": [
+            {"joint": joint, "value_deg": row[f"zero{joint}_deg"], "sd_deg": row[f"zero{joint}_sd_deg"]}
+            for joint in (1, 2)
+            if row[f"zero{joint}_deg"] is not None
+        ],
+    }
+
+
+def request_hash(request: CalibrationRequest) -> bytes:
+    """Tells whether an idempotency key came with the same request."""
+    fields = {
+        "robot_serial": request.robot_serial,
+        "plan": request.label,
+        "operator": request.operator,
+        "work_order": request.work_order,
+        "metadata": request.metadata,
+        "of": request.of,
+    }
+    return hashlib.sha256(compact(fields).encode()).digest()[:16]
+
+
+def reading_row(reading: Reading) -> tuple[object, ...]:
     """In the order of READING_COLUMNS.  :raises ValueError: a number that is not finite."""
     numbers = (reading.t_s, *reading.theta_deg, reading.scale_mm, *reading.samples_mm)
     if not all(math.isfinite(number) for number in numbers):

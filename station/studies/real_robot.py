@@ -13,19 +13,17 @@ import numpy as np
 from station.diagnosis import (
     Curve,
     Findings,
-    ModelPart,
-    StageErrors,
     Transfer,
     curve_chart,
     curves,
     diagnose,
-    model_json,
+    model_document,
     shown,
     transfer,
     without_a_quarter,
 )
 from station.machines import Measured, read_readings
-from station.records import Measurements
+from station.records import Measurements, StageErrors
 from station.report import standalone
 from station.serial_arm import Arm
 
@@ -72,7 +70,7 @@ def study(robot: Arm, logs: Sequence[Path]) -> Study:
     first, *others = logs
     if others:
         whole = diagnose(robot, read_readings(robot, first))
-        part = ModelPart.model_validate(model_json(whole, whole.last, 1.0))
+        part = model_document(whole, whole.last, 1.0, stage="last", confirmed=None)
         transfers = [
             (first.stem, path.stem, transfer(part, robot, read_readings(robot, path), first.stem))
             for path in others
@@ -106,7 +104,7 @@ def _found(robot: Arm, path: Path, measured: Measured) -> Found:
             for e in findings.effects
         ),
         curves=curves(d.last) if measured == "position" else (),
-        tied=tuple(findings.weak_direction["blind"]),
+        tied=tuple(findings.weak_direction.blind),
         hints=tuple(f"{h.text} ({100.0 * h.strength:.0f} %)" for h in d.hints),
         left_out=tuple(o.reading for o in d.outliers),
     )

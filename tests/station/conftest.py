@@ -9,9 +9,10 @@ from pathlib import Path
 
 import pytest
 
-from station.service.orchestrator import Orchestrator, ProcedureFactory
+from station.service.orchestrator import Orchestrator
 from station.settings import LimitSettings, Settings
 from station.store.store import Store
+from tests.station.asking import ProcedureFactory, kinds_with
 from tests.station.fakes import Rig, make_rig, two_walks
 
 SETTINGS = Settings(limits=LimitSettings(settle_s=0.1, samples=2))
@@ -49,7 +50,7 @@ def start(store: Store, rig: Rig) -> Iterator[Start]:
     with ExitStack() as opened:
 
         def start(procedure: ProcedureFactory = two_walks, settings: Settings = SETTINGS) -> Orchestrator:
-            orchestrator = Orchestrator(rig.devices, store, settings, procedure)
+            orchestrator = Orchestrator(rig.devices, store, settings, kinds_with(procedure))
             opened.callback(orchestrator.shutdown)
             opened.callback(rig.released.set)
             return orchestrator

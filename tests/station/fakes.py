@@ -13,9 +13,8 @@ from drivers.protocols import AxisStatus
 from station.five_bar.kinematics import forward, inverse
 from station.five_bar.robot_file import Robot
 from station.motion.devices import Devices
-from station.records.quantity import Quantity
-from station.records.reading import Reading
-from station.records.run import CalibrationResult, PlanName, Procedure, Stop, Walk
+from station.records import CalibrationResult, PlanName, Procedure, Quantity, Reading, Stop, Walk, because
+from tests.station.asking import result
 
 GEOMETRY = Robot.default().geometry
 HOME_DEG = (0.0, 180.0)
@@ -175,20 +174,23 @@ STOPS = (
 
 
 def result_of(readings: Sequence[Reading], verdict: str = "pass") -> CalibrationResult:
-    return CalibrationResult(
-        verdict=verdict,  # type: ignore[arg-type]
-        reason="converged" if verdict == "pass" else "mu stays above 0.1 deg",
+    passed = verdict == "pass"
+    return result(
+        verdict=verdict,
+        outcome="good" if passed else "failed",
+        reason=because("converged", passes=2, mu_deg=0.01)
+        if passed
+        else because("mu_too_large", limit_deg=0.1, passes=8),
         method="fake",
         zero_offsets=(Quantity("dtheta1", 0.5, 0.1, "deg"), Quantity("dtheta2", -0.5, 0.1, "deg")),
-        parameters=(),
         weak_direction={"text": "both arms together"},
         before={"reading_rms_mm": 3.0},
         after={"reading_rms_mm": 0.01},
-        iterations=({"pass": 1, "mu_deg": None}, {"pass": 2, "mu_deg": 0.01}),
-        residuals=tuple(
+        iterations=[{"pass": 1, "mu_deg": None}, {"pass": 2, "mu_deg": 0.01}],
+        residuals=[
             {"reading": r.reading, "position": r.position, "residual_mm": 0.001, "limit_mm": 0.01}
             for r in readings
-        ),
+        ],
     )
 
 

@@ -11,10 +11,7 @@ import pytest
 from station.five_bar.error_model import perturbed, pose
 from station.five_bar.kinematics import inverse
 from station.five_bar.robot_file import Robot
-from station.records.measurements import Measurements
-from station.records.reading import Reading
-from station.records.run import CalibrationResult, Procedure, Walk
-from station.records.types import Complex, Real
+from station.records import CalibrationResult, Complex, Measurements, Procedure, Reading, Real, Walk
 
 DATA = Path(__file__).parents[3] / "shared" / "data"
 needs_data = pytest.mark.skipif(not DATA.exists(), reason=f"the measured files are not at {DATA}")

@@ -16,6 +16,7 @@ from fastapi.testclient import TestClient
 from station.service.orchestrator import Orchestrator
 from station.service.runtime import Runtime
 from station.store.store import Store
+from tests.station.asking import kinds_with
 from tests.station.conftest import SETTINGS
 from tests.station.fakes import Rig, make_rig, two_walks
 from web.app import create_app
@@ -77,7 +78,7 @@ def service(tmp_path: Path) -> Iterator[Service]:
     with ExitStack() as opened:
         store = Store(tmp_path / "station.db")
         opened.callback(store.close)
-        orchestrator = Orchestrator(rig.devices, store, SETTINGS, two_walks)
+        orchestrator = Orchestrator(rig.devices, store, SETTINGS, kinds_with(two_walks))
         opened.callback(orchestrator.shutdown)
         opened.callback(rig.released.set)
         runtime = Runtime(SETTINGS, tmp_path, store, orchestrator, ExitStack())

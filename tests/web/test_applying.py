@@ -10,10 +10,10 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 
-from station.run_kinds.calibrate import start_procedure
 from station.service.orchestrator import Orchestrator
 from station.service.runtime import Runtime
 from station.store.store import Store
+from tests.station.asking import kinds_with, start_procedure
 from tests.station.conftest import SETTINGS
 from tests.station.fakes import make_rig
 from tests.station.run_kinds.test_apply import OFFSETS, ROBOT
@@ -34,7 +34,7 @@ def service(tmp_path: Path) -> Iterator[Service]:
         store = Store(tmp_path / "station.db")
         opened.callback(store.close)
         store.save_robot(ROBOT)
-        orchestrator = Orchestrator(rig.devices, store, SETTINGS, start_procedure)
+        orchestrator = Orchestrator(rig.devices, store, SETTINGS, kinds_with(start_procedure))
         opened.callback(orchestrator.shutdown)
         runtime = Runtime(SETTINGS, tmp_path, store, orchestrator, ExitStack())
         client = TestClient(create_app(runtime), base_url="http://station", raise_server_exceptions=False)

@@ -17,7 +17,11 @@ def test_a_start_is_accepted_and_says_where_the_run_is(service: Service) -> None
     place = answer.headers["location"]
     service.runtime.orchestrator.wait(answer.json()["id"], LIMIT_S)
     run = service.client.get(place).json()
-    assert (run["state"], run["verdict"], run["reason"]) == ("succeeded", "pass", "converged")
+    assert (run["state"], run["verdict"], run["reason"]) == (
+        "succeeded",
+        "pass",
+        "Converged in 2 passes, mu = 0.0100°.",
+    )
     assert run["zero_offsets"] == [
         {"joint": 1, "value_deg": 0.5, "sd_deg": 0.1},
         {"joint": 2, "value_deg": -0.5, "sd_deg": 0.1},
@@ -30,6 +34,7 @@ def test_a_start_is_accepted_and_says_where_the_run_is(service: Service) -> None
         "dtheta2_deg": None,
         "total1_deg": None,
         "total2_deg": None,
+        "condition": None,
     }
     assert run["zero_offset_tolerance_deg"] == 3.0
     assert run["after"]["reading_rms_mm"] == 0.01

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from station.records.measurement_file import parse_readings, readings_to_csv
+from station.records import parse_readings, readings_to_csv
 from station.run_kinds import import_file as dataset
 from tests.station.run_kinds.test_diagnose import BACKLASH, machine, run
 from tests.web.conftest import Service
@@ -47,7 +47,7 @@ def test_a_file_with_fresh_readings_becomes_a_run_with_its_cause_confirmed(
     assert answer.status_code == 201
     summary = answer.json()
     assert answer.headers["location"] == f"{LIST}/{summary['id']}"
-    assert summary["reason"].startswith("backlash of joint 1 explains 9")
+    assert summary["reason"].startswith("backlash of joint 1 explained 9")
     kept = {k: summary[k] for k in ("robot_serial", "plan", "operator", "work_order", "state", "verdict")}
     assert kept == {
         "robot_serial": "FB-9",
@@ -86,7 +86,7 @@ def test_a_plain_csv_body_is_diagnosed_but_without_fresh_readings_it_is_no_pass(
     assert answer.status_code == 201
     summary = answer.json()
     assert (summary["robot_serial"], summary["verdict"]) == ("FB-2", "fail")
-    assert summary["reason"].endswith("no fresh readings confirm it")
+    assert summary["reason"].endswith("No fresh readings confirm it.")
 
 
 def test_readings_that_miss_nothing_pass_only_when_fresh_ones_agree(service: Service) -> None:
@@ -118,13 +118,13 @@ def test_what_was_imported_is_never_shown_as_the_rigs_last_run(
     imported = send(service, *worn).json()["id"]
     assert service.client.get("/api/v1/station").json()["last"]["id"] == own
     last = service.runtime.store.last_on_rig()
-    assert last is not None and last["id"] == own < imported
+    assert last is not None and last.id == own < imported
 
 
 def test_its_offsets_are_never_written_to_the_drives(service: Service, worn: tuple[bytes, bytes]) -> None:
     where = send(service, *worn).headers["location"]
     document = problem_of(service.client.post(f"{where}/apply", json={"operator": "ada"}), 409)
-    assert "was imported from a file" in document["detail"]
+    assert "of kind import" in document["detail"]
 
 
 def test_the_same_key_answers_the_same_run(service: Service, worn: tuple[bytes, bytes]) -> None:

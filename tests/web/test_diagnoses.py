@@ -7,7 +7,8 @@ from collections.abc import Iterable
 import numpy as np
 import pytest
 
-from station.records.run import CalibrationRequest, State
+from station.records import State
+from tests.station.asking import asked
 from tests.station.run_kinds.test_diagnose import BACKLASH, ROBOT, machine, run
 from tests.station.run_kinds.test_separate import FAST_WARMING
 from tests.web.conftest import Service
@@ -19,7 +20,7 @@ def diagnosed_run(service: Service) -> int:
     """A run on a robot with backlash as it is stored."""
     store = service.runtime.store
     readings, result = run(machine(BACKLASH))
-    number = store.create(CalibrationRequest("R1", "diagnostic", "ada"), ROBOT)
+    number = store.create(asked("R1", "diagnostic"), ROBOT)
     store.add_readings(number, readings)
     assert store.finish(number, State.SUCCEEDED, result) is State.SUCCEEDED
     return number
@@ -87,7 +88,7 @@ def test_a_run_without_a_diagnosis_says_so(service: Service) -> None:
 def test_the_motion_that_separates_is_planned_for_whoever_asks(service: Service) -> None:
     store = service.runtime.store
     readings, result = run(machine(FAST_WARMING))
-    number = store.add_run(CalibrationRequest("R1", "diagnostic", "ada"), ROBOT, readings, result)
+    number = store.add_run(asked("R1", "diagnostic"), ROBOT, readings, result)
     plan = service.client.get(f"{LIST}/{number}/separating").json()
     assert (plan["apart"], len(plan["stops"]), plan["refused"]) == (["drift"], 40, None)
     assert plan["duration_s"] > 0
@@ -100,7 +101,7 @@ def test_why_nothing_is_separated(service: Service) -> None:
     assert (plan["apart"], plan["stops"], plan["duration_s"]) == ([], [], None)
     answer = service.client.post(f"{LIST}/{number}/separate", json={"operator": "ada"})
     assert (answer.status_code, answer.json()["detail"]) == (409, plan["refused"])
-    assert "Motion alone" in plan["refused"]
+    assert "No further motion" in plan["refused"]
     plain = service.complete()
     answer = service.client.post(f"{LIST}/{plain}/separate", json={"operator": "ada"})
     assert (answer.status_code, answer.json()["detail"]) == (404, f"Run {plain} has no diagnosis.")
@@ -110,7 +111,7 @@ def test_why_nothing_is_separated(service: Service) -> None:
 def test_the_separating_run_goes_on_from_the_readings_and_the_clock_of_the_run(service: Service) -> None:
     store = service.runtime.store
     readings, result = run(machine(FAST_WARMING))
-    number = store.add_run(CalibrationRequest("FB-1", "diagnostic", "ada"), ROBOT, readings, result)
+    number = store.add_run(asked("FB-1", "diagnostic"), ROBOT, readings, result)
     service.rig.axes[0].stuck = True
     answer = service.client.post(f"{LIST}/{number}/separate", json={"operator": "ada"})
     assert answer.status_code == 202

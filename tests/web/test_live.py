@@ -11,6 +11,7 @@ import pytest
 from starlette.websockets import WebSocketDisconnect
 
 from station.motion.events import LiveEvent
+from station.records import MachineView, StationInfo, StationView, Workspace
 from station.service.orchestrator import Orchestrator
 from tests.web.conftest import Service
 from web.live import LiveFeed
@@ -87,17 +88,29 @@ class Source:
         self.publish = listener
         return lambda: None
 
-    def snapshot(self) -> dict[str, Any]:
-        values = dict.fromkeys(("theta1_deg", "theta2_deg", "x_mm", "y_mm", "scale_mm"), float("nan"))
-        return {
-            "station": {"name": "source", "emulated": True},
-            "devices": [],
-            "interlocks": [],
-            "machine": {**values, "age_s": 0.0},
-            "workspace": {"x": (-240, 240), "y": (-782, -632)},
-            "run": None,
-            "last": None,
-        }
+    def snapshot(self) -> StationView:
+        nowhere = float("nan")
+        return StationView(
+            station=StationInfo(name="source", emulated=True, limits={}),
+            devices=(),
+            interlocks=(),
+            machine=MachineView(
+                theta1_deg=nowhere,
+                theta2_deg=nowhere,
+                x_mm=nowhere,
+                y_mm=nowhere,
+                scale_mm=nowhere,
+                age_s=0.0,
+            ),
+            workspace=Workspace(x=(-240, 240), y=(-782, -632)),
+            run=None,
+            last=None,
+        )
+
+
+def at(x_mm: float) -> MachineView:
+    """Live values that a number tells from others."""
+    return MachineView(theta1_deg=0.0, theta2_deg=180.0, x_mm=x_mm, y_mm=0.0, scale_mm=0.0, age_s=0.0)
 
 
 def make_feed(**options: Any) -> tuple[Source, LiveFeed]:
@@ -122,15 +135,15 @@ def test_a_slow_client_gets_a_snapshot_instead_of_a_longer_queue() -> None:
             serving = asyncio.create_task(feed.serve(send))
             while not received:
                 await asyncio.sleep(0.001)
-            source.publish(LiveEvent("machine", 1))
+            source.publish(LiveEvent("machine", at(1)))
             await stuck.wait()
             for value in range(2, 1001):
-                source.publish(LiveEvent("machine", value))
+                source.publish(LiveEvent("machine", at(value)))
             await asyncio.sleep(0.05)
             free.set()
             while received[-1]["type"] != "snapshot":
                 await asyncio.sleep(0.001)
-            source.publish(LiveEvent("machine", 1001))
+            source.publish(LiveEvent("machine", at(1001)))
             while received[-1]["type"] == "snapshot":
                 await asyncio.sleep(0.001)
             serving.cancel()
@@ -159,7 +172,7 @@ def test_beats_go_on_while_events_flow() -> None:
         with feed.attached():
             serving = asyncio.create_task(feed.serve(send))
             for value in range(60):
-                source.publish(LiveEvent("machine", value))
+                source.publish(LiveEvent("machine", at(value)))
                 await asyncio.sleep(0.005)
             serving.cancel()
             await asyncio.gather(serving, return_exceptions=True)

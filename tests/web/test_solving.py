@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from station.diagnosis.closed_loop import diagnose
-from station.model.identified_machine import IdentifiedMachine, Situation
-from station.records.types import Complex, Real
+from station.model.identified_machine import Situation, identified
+from station.records import Complex, Real
 from tests.station.diagnosis.learned.test_commands import BACKLASH, rms, true_error_mm
 from tests.station.diagnosis.machines import ROBOT, Emulated, to_csv
 from tests.web.conftest import Service
@@ -54,7 +54,9 @@ def test_the_true_position_error_falls(service: Service) -> None:
     assert "with backlash of joint 1" in solution["range"]
     after = np.radians([[c["theta1_deg"], c["theta2_deg"]] for c in solution["commands"]])
     situation = Situation(approach, np.zeros(len(place)), np.zeros(len(place)))
-    before = IdentifiedMachine.of(diagnose(ROBOT, walk).base).commands(place, situation)
+    machine_before = identified(diagnose(ROBOT, walk).base)
+    assert machine_before is not None
+    before = machine_before.commands(place, situation)
     was, now = (rms(true_error_mm(machine, place, approach, theta)) for theta in (before, after))
     assert now < 0.5 * was
 

@@ -8,11 +8,11 @@ from typing import Annotated, Any, Literal
 from fastapi import APIRouter, Query, Response
 from starlette.exceptions import HTTPException
 
-from station.records import CalibrationRequest, State, Submitted
+from station.records import Calibration, CalibrationRequest, CalibrationSummary, State, Submitted
+from station.run_kinds import application, kind_of_plan
 from station.service import Runtime
-from station.store import Page, application
 from web.aside import aside
-from web.bodies import ApplyBody, Calibration, CalibrationBody, CalibrationList, CalibrationSummary
+from web.bodies import ApplyBody, CalibrationBody, CalibrationList
 from web.problems import documented
 from web.routes.parts import LARGEST_ID, LOCATION, CalibrationId, IdempotencyKey, TheRuntime
 
@@ -32,9 +32,9 @@ def start_calibration(
     runtime: TheRuntime,
     response: Response,
     idempotency_key: IdempotencyKey = None,
-) -> dict[str, Any]:
+) -> CalibrationSummary:
     """Start a run.  The same `Idempotency-Key` with the same body answers the same run."""
-    request = CalibrationRequest(**body.model_dump())
+    request = CalibrationRequest(kind=kind_of_plan(body.plan), **body.model_dump())
     submitted = runtime.orchestrator.submit(request, idempotency_key=idempotency_key)
     return _started(submitted, runtime, response)
 
@@ -49,9 +49,9 @@ def list_calibrations(
     verdict: Literal["pass", "fail"] | None = None,
     since: Annotated[datetime | None, Query(description="created at or after")] = None,
     until: Annotated[datetime | None, Query(description="created before")] = None,
-) -> Page:
+) -> CalibrationList:
     """Newest first, page by page."""
-    return runtime.store.calibrations(
+    page = runtime.store.calibrations(
         limit=limit,
         cursor=cursor,
         robot_serial=robot_serial,
@@ -60,17 +60,18 @@ def list_calibrations(
         since=since,
         until=until,
     )
+    return CalibrationList(items=page.items, next=page.next)
 
 
 @router.get("/{calibration_id}", response_model=Calibration, responses=documented(404))
-def read_calibration(calibration_id: CalibrationId, runtime: TheRuntime) -> dict[str, Any]:
+def read_calibration(calibration_id: CalibrationId, runtime: TheRuntime) -> Calibration:
     """One run in full."""
     calibration = runtime.store.calibration(calibration_id)
-    return {
-        **calibration,
+    known = {
         "application": application(runtime.store, calibration),
-        "zero_offset_tolerance_deg": _tolerance(runtime, calibration_id),
+        "zero_offset_tolerance_deg": runtime.store.robot_of(calibration_id).tolerances.zero_offset_deg,
     }
+    return calibration.model_copy(update=known)
 
 
 @router.post(
@@ -79,12 +80,12 @@ def read_calibration(calibration_id: CalibrationId, runtime: TheRuntime) -> dict
     response_model=CalibrationSummary,
     responses=documented(404, 504),
 )
-async def abort_calibration(calibration_id: CalibrationId, runtime: TheRuntime) -> dict[str, Any]:
+async def abort_calibration(calibration_id: CalibrationId, runtime: TheRuntime) -> CalibrationSummary:
     """End a run at once and make the machine safe; calling it again changes nothing."""
 
-    def abort() -> dict[str, Any]:
+    def abort() -> CalibrationSummary:
         runtime.orchestrator.abort(calibration_id)
-        return runtime.store.calibration(calibration_id)
+        return runtime.store.summary(calibration_id)
 
     try:
         return await aside(abort, timeout_s=ABORT_TIMEOUT_S)
@@ -106,12 +107,14 @@ def apply_calibration(
     runtime: TheRuntime,
     response: Response,
     idempotency_key: IdempotencyKey = None,
-) -> dict[str, Any]:
+) -> CalibrationSummary:
     """Write the zero offsets to the drives, read them back, verify at fresh places.
 
     A run of its own; when its verification fails it puts the old zeros back by itself.
     """
-    submitted = runtime.orchestrator.apply(calibration_id, body.operator, idempotency_key=idempotency_key)
+    submitted = runtime.orchestrator.follow(
+        "apply", calibration_id, body.operator, idempotency_key=idempotency_key
+    )
     return _started(submitted, runtime, response)
 
 
@@ -123,9 +126,9 @@ def apply_calibration(
 )
 def roll_back_calibration(
     calibration_id: CalibrationId, body: ApplyBody, runtime: TheRuntime, response: Response
-) -> dict[str, Any]:
+) -> CalibrationSummary:
     """Put the old zeros back; a run of its own.  Calling it again answers the run that did it."""
-    return _started(runtime.orchestrator.roll_back(calibration_id, body.operator), runtime, response)
+    return _started(runtime.orchestrator.follow("rollback", calibration_id, body.operator), runtime, response)
 
 
 @router.post(
@@ -140,20 +143,17 @@ def separate(
     runtime: TheRuntime,
     response: Response,
     idempotency_key: IdempotencyKey = None,
-) -> dict[str, Any]:
-    """Tell the cause that a diagnostic run found from its look-alikes, by the motion of `/separating`.
+) -> CalibrationSummary:
+    """Distinguish the causes that a diagnostic run left open, by the motion of `/separating`.
 
-    A run of its own, of plan `separating`: it goes on from the readings of that run, and fresh ones judge.
+    A run of its own: it continues the readings of that run, and new fresh readings confirm.
     """
-    submitted = runtime.orchestrator.separate(calibration_id, body.operator, idempotency_key=idempotency_key)
+    submitted = runtime.orchestrator.follow(
+        "separate", calibration_id, body.operator, idempotency_key=idempotency_key
+    )
     return _started(submitted, runtime, response)
 
 
-def _started(submitted: Submitted, runtime: Runtime, response: Response) -> dict[str, Any]:
+def _started(submitted: Submitted, runtime: Runtime, response: Response) -> CalibrationSummary:
     response.headers["Location"] = f"/api/v1/calibrations/{submitted.id}"
-    return runtime.store.calibration(submitted.id)
-
-
-def _tolerance(runtime: Runtime, calibration_id: int) -> float:
-    """Of a zero offset, from the robot file as it was at the time."""
-    return runtime.store.robot_of(calibration_id).tolerances.zero_offset_deg
+    return runtime.store.summary(submitted.id)

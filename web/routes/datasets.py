@@ -2,17 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from threading import Lock
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import APIRouter, Query, Request, Response
 from fastapi.exceptions import RequestValidationError
 from pydantic import ValidationError
 
-from station.records import CalibrationRequest
+from station.records import CalibrationRequest, CalibrationSummary
 from station.run_kinds import import_dataset
 from web.aside import aside
-from web.bodies import CalibrationSummary, DatasetFields
+from web.bodies import DatasetFields
 from web.problems import documented
 from web.routes.parts import LOCATION, IdempotencyKey, TheRuntime
 from web.uploads import csv_or_form, uploaded
@@ -37,7 +38,7 @@ async def import_measurement_file(
     response: Response,
     query: Annotated[DatasetFields, Query()],
     idempotency_key: IdempotencyKey = None,
-) -> dict[str, Any]:
+) -> CalibrationSummary:
     """Diagnose a measurement file and keep it as a finished run of plan `dataset`.
 
     A CSV body, or a form with `file` and, to confirm the cause, `fresh`: readings taken afterwards at
@@ -46,11 +47,11 @@ async def import_measurement_file(
     sent = await uploaded(request, *FILES)
     fields = _with(query, sent.fields)
 
-    def work() -> dict[str, Any]:
+    def work() -> CalibrationSummary:
         with _one_at_a_time:
             submitted = import_dataset(
                 runtime.store,
-                CalibrationRequest(plan="dataset", **fields.model_dump()),
+                CalibrationRequest(kind="import", **fields.model_dump()),
                 sent.files["file"],
                 sent.files.get("fresh"),
                 idempotency_key=idempotency_key,
@@ -58,11 +59,11 @@ async def import_measurement_file(
         return runtime.store.summary(submitted.id)
 
     summary = await aside(work)
-    response.headers["Location"] = f"/api/v1/calibrations/{summary['id']}"
+    response.headers["Location"] = f"/api/v1/calibrations/{summary.id}"
     return summary
 
 
-def _with(query: DatasetFields, form: Any) -> DatasetFields:
+def _with(query: DatasetFields, form: Mapping[str, str]) -> DatasetFields:
     """Form fields count before those of the query.  :raises RequestValidationError:"""
     try:
         return DatasetFields.model_validate({**query.model_dump(exclude_unset=True), **form})

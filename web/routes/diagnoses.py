@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import Any
 
 import numpy as np
 from fastapi import APIRouter
 from fastapi.responses import HTMLResponse
 
-from station.diagnosis import Findings, model_of, page, range_text, residuals, solve_targets, targets_of
+from station.diagnosis import Findings, learned_model, page, range_text, residuals, solve_targets, targets_of
 from station.errors import NotApplicable
-from station.records import Reading
+from station.records import DiagnosisDocument, Reading
 from station.run_kinds import diagnosed, planned
 from station.service import Runtime
 from web.bodies import (
@@ -35,8 +34,8 @@ REPORT_POLICY = (
 router = APIRouter(prefix="/calibrations/{calibration_id}", tags=["diagnosis"])
 
 
-@router.get("/diagnosis", responses=documented(404))
-def read_diagnosis(calibration_id: CalibrationId, runtime: TheRuntime) -> dict[str, Any]:
+@router.get("/diagnosis", response_model=DiagnosisDocument, responses=documented(404))
+def read_diagnosis(calibration_id: CalibrationId, runtime: TheRuntime) -> DiagnosisDocument:
     """The whole document, schema `station.diagnosis/1`, as `station diagnose --json` writes it."""
     return runtime.store.diagnosis(calibration_id)
 
@@ -85,7 +84,7 @@ def solve(calibration_id: CalibrationId, body: SolveBody, runtime: TheRuntime) -
     Refused are targets out of reach or beyond what an effect was learned on, and those without the
     approach, temperature or payload that an effect needs; the problem names target and field.
     """
-    model = model_of(runtime.store.diagnosis(calibration_id), f"of run {calibration_id}")
+    model = learned_model(runtime.store.diagnosis(calibration_id).model, f"of run {calibration_id}")
     theta_deg = np.degrees(solve_targets(model, targets_of([t.model_dump() for t in body.targets])))
     return Solution(
         commands=[JointCommand(theta1_deg=float(a), theta2_deg=float(b)) for a, b in theta_deg],

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from fastapi import APIRouter
 from fastapi.responses import JSONResponse
 
+from station.records import StationView
 from web.aside import aside
 from web.bodies import Alive, Ready
 from web.problems import documented, problem
@@ -27,7 +26,7 @@ async def healthz() -> Alive:
 async def readyz(runtime: TheRuntime) -> Ready | JSONResponse:
     """200 when a run could start; else what is missing."""
 
-    def look() -> dict[str, Any]:
+    def look() -> StationView:
         runtime.store.calibrations(limit=1)
         return runtime.orchestrator.snapshot()
 
@@ -42,10 +41,6 @@ async def readyz(runtime: TheRuntime) -> Ready | JSONResponse:
     return Ready()
 
 
-def _missing(snapshot: dict[str, Any]) -> list[str]:
-    devices = [
-        f"{d['name']}: {d['text'] or d['state']}"
-        for d in snapshot["devices"]
-        if d["state"] in ("lost", "fault")
-    ]
-    return devices + [f"interlock: {i['text']}" for i in snapshot["interlocks"] if not i["ok"]]
+def _missing(snapshot: StationView) -> list[str]:
+    devices = [f"{d.name}: {d.text or d.state}" for d in snapshot.devices if d.state in ("lost", "fault")]
+    return devices + [f"interlock: {i.text}" for i in snapshot.interlocks if not i.ok]

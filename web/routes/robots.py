@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from fastapi import APIRouter
 
 from web.bodies import Robot, Serial
@@ -14,14 +12,14 @@ router = APIRouter(prefix="/robots", tags=["robots"])
 
 
 @router.get("/{serial:path}", response_model=Robot, responses=documented(404))
-def read_robot(serial: Serial, runtime: TheRuntime) -> dict[str, Any]:
+def read_robot(serial: Serial, runtime: TheRuntime) -> Robot:
     """Its file, and what its next run will know of geometry and mechanism."""
     memory = runtime.store.memory(serial)
-    return {
-        "serial": serial,
-        "file": runtime.store.robot(serial).to_json(),
-        "memory": memory and memory.to_json(),
-    }
+    return Robot(
+        serial=serial,
+        file=runtime.store.robot(serial).to_json(),
+        memory=memory.summary() if memory else None,
+    )
 
 
 @router.delete("/{serial:path}/memory", status_code=204, responses=documented(404))

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from fastapi import APIRouter
 
-from web.bodies import Station
+from station.records import StationView
 from web.routes.parts import TheRuntime
 
 router = APIRouter(tags=["station"])
 
 
-@router.get("/station", response_model=Station)
-def read_station(runtime: TheRuntime) -> dict[str, Any]:
+@router.get("/station", response_model=StationView)
+def read_station(runtime: TheRuntime) -> StationView:
     """The whole station at this moment."""
     return runtime.orchestrator.snapshot()

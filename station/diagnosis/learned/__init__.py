@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 from station.diagnosis.learned.commands import range_text, solve_targets
-from station.diagnosis.learned.model_file import ModelPart, model_json, model_of, read_model, read_part
+from station.diagnosis.learned.model_file import learned_model, model_document, read_model, read_part
 from station.diagnosis.learned.other_log import Transfer, transfer
 from station.diagnosis.learned.targets import commands_csv, read_targets, targets_of
 
 __all__ = [
-    "ModelPart",
     "Transfer",
     "commands_csv",
-    "model_json",
-    "model_of",
+    "learned_model",
+    "model_document",
     "range_text",
     "read_model",
     "read_part",

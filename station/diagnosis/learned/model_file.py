@@ -6,10 +6,10 @@ import json
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Any
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import ValidationError
 
 from station.diagnosis.closed_loop import Diagnosis
 from station.effects import Acts, Effect, five_bar_catalogue
@@ -17,60 +17,19 @@ from station.errors import InputRefused
 from station.five_bar import Robot
 from station.machines import robot_of
 from station.model import Fit, IdentifiedMachine, Situation, Term
-from station.records import Real, visited_in_degrees, visited_ranges
+from station.records import (
+    MODEL_SCHEMA,
+    LearnedRanges,
+    ModelDocument,
+    Real,
+    Span,
+    TemperatureReference,
+    TermOfModel,
+    visited_in_degrees,
+    visited_ranges,
+)
 
-SCHEMA = "station.model/1"
 MANY = 100
-
-Finite = Annotated[float, Field(allow_inf_nan=False)]
-Span = tuple[Finite, Finite]
-
-
-class _Part(BaseModel):
-    model_config = ConfigDict(extra="ignore")
-
-
-class TermPart(_Part):
-    """One effect with its searched parameters settled."""
-
-    effect: str
-    """Label in the catalogue."""
-    on_joint: Annotated[int, Field(ge=1)] | None
-    on_lengths: dict[str, Finite] | None
-    """mm per unit of strength; None as well as no joint: it acts on the reading."""
-    hidden: dict[str, Finite]
-    amplitudes: Annotated[list[Finite], Field(min_length=1)]
-
-
-class Ranges(_Part):
-    """What the readings learned on covered."""
-
-    joints_deg: Annotated[list[Span], Field(min_length=2)]
-    visited_deg: list[list[Span]]
-    """A joint: the stretches that readings are dense enough in."""
-    travel_mm: Span | None
-    time_s: Span
-
-
-class Reference(_Part):
-    """From where temperatures are counted."""
-
-    temperature_c: Finite | None
-
-
-class ModelPart(_Part):
-    """The `model` of a diagnosis."""
-
-    schema_: Literal["station.model/1"] = Field(alias="schema")
-    robot: dict[str, Any]
-    names: list[str]
-    values: list[Finite]
-    covariance: list[list[Finite]] | None
-    """None where there are hundreds of values."""
-    terms: list[TermPart]
-    ranges: Ranges
-    reference: Reference
-    confirmed: bool | None = None
 
 
 @dataclass(frozen=True)
@@ -78,41 +37,45 @@ class LearnedModel:
     """A model read back."""
 
     machine: IdentifiedMachine
-    joint_range_deg: list[Span]
+    joint_range_deg: tuple[Span, ...]
     temperature_c: float | None
     """Where temperatures are counted from; None when nothing warmed up."""
     confirmed: bool | None
     """Whether it predicted fresh readings; None when it was not asked to."""
 
 
-def model_json(diagnosis: Diagnosis, fit: Fit, sd_factor: float) -> dict[str, Any]:
-    """mm and rad, in the order base parameters, then each term's amplitudes."""
+def model_document(
+    diagnosis: Diagnosis, fit: Fit, sd_factor: float, *, stage: str, confirmed: bool | None
+) -> ModelDocument:
+    """All that commands and a transfer need; mm and rad, base parameters, then each term's amplitudes."""
     m = diagnosis.measurements
     degrees = np.degrees(m.theta)
-    return {
-        "schema": SCHEMA,
-        "robot": diagnosis.robot.to_json(),
-        "names": [*fit.model.names, *(t.effect.label for t in fit.model.terms for _ in range(t.size))],
-        "values": fit.x.tolist(),
-        "covariance": (fit.solution.covariance * sd_factor**2).tolist() if len(fit.x) < MANY else None,
-        "terms": [
-            {
-                "effect": term.effect.label,
-                "on_joint": None if term.acts.joint is None else term.acts.joint + 1,
-                "on_lengths": None if term.acts.lengths is None else dict(term.acts.lengths),
-                "hidden": dict(term.hidden),
-                "amplitudes": fit.amplitudes(k)[0].tolist(),
-            }
+    covariance = (fit.solution.covariance * sd_factor**2).tolist() if len(fit.x) < MANY else None
+    return ModelDocument(
+        robot=diagnosis.robot.to_json(),
+        names=(*fit.model.names, *(t.effect.label for t in fit.model.terms for _ in range(t.size))),
+        values=tuple(fit.x.tolist()),
+        covariance=covariance,
+        terms=tuple(
+            TermOfModel(
+                effect=term.effect.label,
+                on_joint=None if term.acts.joint is None else term.acts.joint + 1,
+                on_lengths=None if term.acts.lengths is None else dict(term.acts.lengths),
+                hidden=dict(term.hidden),
+                amplitudes=tuple(fit.amplitudes(k)[0].tolist()),
+            )
             for k, term in enumerate(fit.model.terms)
-        ],
-        "ranges": {
-            "joints_deg": [_span(a) for a in degrees.T],
-            "visited_deg": [visited_in_degrees(stretches) for stretches in visited_ranges(m.theta)],
-            "travel_mm": _span(m.distance) if np.isfinite(m.distance).all() else None,
-            "time_s": [float(m.t_s.min()), float(m.t_s.max())],
-        },
-        "reference": {"temperature_c": fit.model.reference.temperature_c},
-    }
+        ),
+        ranges=LearnedRanges(
+            joints_deg=tuple(_span(a) for a in degrees.T),
+            visited_deg=tuple(tuple(visited_in_degrees(stretches)) for stretches in visited_ranges(m.theta)),
+            travel_mm=_span(m.distance) if np.isfinite(m.distance).all() else None,
+            time_s=(float(m.t_s.min()), float(m.t_s.max())),
+        ),
+        reference=TemperatureReference(temperature_c=fit.model.reference.temperature_c),
+        stage=stage,
+        confirmed=confirmed,
+    )
 
 
 def _span(values: Real) -> Span:
@@ -127,7 +90,7 @@ def read_model(path: Path) -> LearnedModel:
     return learned_model(read_part(path), str(path))
 
 
-def read_part(path: Path) -> ModelPart:
+def read_part(path: Path) -> ModelDocument:
     """The `model` of a diagnosis, of whatever machine.
 
     :raises InputRefused: missing, broken, of another schema, or a value out of place.
@@ -149,27 +112,27 @@ def model_of(content: Any, source: str) -> LearnedModel:
     return learned_model(part_of(content, source), source)
 
 
-def part_of(content: Any, source: str) -> ModelPart:
+def part_of(content: Any, source: str) -> ModelDocument:
     """:raises InputRefused: as `read_part`."""
     part = content.get("model") if isinstance(content, dict) else None
     if not isinstance(part, dict):
         raise InputRefused(
             f"Model {source} has no section `model`; give the file of `station diagnose --json`."
         )
-    if part.get("schema") != SCHEMA:
+    if part.get("schema") != MODEL_SCHEMA:
         raise InputRefused(
-            f"Model {source} is of schema {part.get('schema')!r}; this station reads {SCHEMA}: "
+            f"Model {source} is of schema {part.get('schema')!r}; this station reads {MODEL_SCHEMA}: "
             "diagnose again."
         )
     try:
-        return ModelPart.model_validate(part)
+        return ModelDocument.model_validate(part)
     except ValidationError as error:
         first = error.errors()[0]
         where = ".".join(str(step) for step in first["loc"])
         raise InputRefused(f"Model {source}: [model.{where}] {first['msg']}.") from error
 
 
-def learned_model(part: ModelPart, source: str) -> LearnedModel:
+def learned_model(part: ModelDocument, source: str) -> LearnedModel:
     """A five-bar that can be commanded.  :raises InputRefused: values that do not belong together."""
     robot = robot_of(part.robot, source=f"{source}: [model.robot]")
     if not isinstance(robot, Robot):
@@ -180,12 +143,14 @@ def learned_model(part: ModelPart, source: str) -> LearnedModel:
     terms = terms_of(part, five_bar_catalogue(), source)
     size = len(part.values)
     amplitudes = [a for term in part.terms for a in term.amplitudes]
-    rows = part.covariance or []
+    rows = part.covariance or ()
     covariance = np.array(rows) if {len(row) for row in rows} == {size} else np.empty(0)
     if covariance.shape != (size, size) or len(part.names) != size:
-        raise InputRefused(f"Model {source}: [model.covariance] does not have a row and column a value.")
-    if size < len(amplitudes) + 13 or part.values[size - len(amplitudes) :] != amplitudes:
-        raise InputRefused(f"Model {source}: [model.values] do not end with the amplitudes of the terms.")
+        raise InputRefused(
+            f"Model {source}: [model.covariance] must be square, with one row and one column per value."
+        )
+    if size < len(amplitudes) + 13 or list(part.values[size - len(amplitudes) :]) != amplitudes:
+        raise InputRefused(f"Model {source}: [model.values] must end with the amplitudes of the terms.")
     machine = IdentifiedMachine(robot, np.array(part.values), covariance, terms, part.ranges.time_s[1])
     centre = np.array([complex(np.mean(robot.workspace_x), np.mean(robot.workspace_y))])
     try:
@@ -195,12 +160,12 @@ def learned_model(part: ModelPart, source: str) -> LearnedModel:
     return LearnedModel(machine, part.ranges.joints_deg, part.reference.temperature_c, part.confirmed)
 
 
-def terms_of(part: ModelPart, effects: Sequence[Effect], source: str) -> tuple[Term, ...]:
+def terms_of(part: ModelDocument, effects: Sequence[Effect], source: str) -> tuple[Term, ...]:
     """The effects of a model, found again in a catalogue.  :raises InputRefused: one that is not in it."""
     return tuple(_term(term, effects, source) for term in part.terms)
 
 
-def _term(part: TermPart, effects: Sequence[Effect], source: str) -> Term:
+def _term(part: TermOfModel, effects: Sequence[Effect], source: str) -> Term:
     effect = next((e for e in effects if e.label == part.effect), None)
     if effect is None:
         raise InputRefused(f"Model {source}: [model.terms] effect {part.effect!r} is not in the catalogue.")

@@ -8,13 +8,12 @@ curve is not applied.
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from typing import Any
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from station.diagnosis.learned.model_file import ModelPart, terms_of
+from station.diagnosis.learned.model_file import terms_of
 from station.diagnosis.tests_of_fit import folds
 from station.errors import InputRefused
 from station.fitting import (
@@ -29,7 +28,7 @@ from station.fitting import (
 from station.machines import AnyMechanism, AnyRobot, effects_of, mechanism_of
 from station.mechanism import Reference, by_reading
 from station.model import Model, Term
-from station.records import Measurements, Real, inside_visited
+from station.records import Measurements, ModelDocument, Real, inside_visited
 
 FEWEST_AN_UNKNOWN = 4
 
@@ -60,11 +59,8 @@ class Transfer:
     beyond: tuple[Errors, Errors] | None
     """The same pair within the outer limits of the learned range, gaps included; None when there are none."""
 
-    def as_json(self) -> dict[str, Any]:
-        return asdict(self)
 
-
-def transfer(part: ModelPart, robot: AnyRobot, readings: Measurements, source: str) -> Transfer:
+def transfer(part: ModelDocument, robot: AnyRobot, readings: Measurements, source: str) -> Transfer:
     """Apply the effects of a learned model to readings of the same machine.
 
     :raises InputRefused: nothing to apply, or too few readings inside the learned range.
@@ -96,13 +92,13 @@ def transfer(part: ModelPart, robot: AnyRobot, readings: Measurements, source: s
     return Transfer(len(readings), off, int((inside & sound).sum()), labels, alone, applied, beyond)
 
 
-def _been(part: ModelPart, readings: Measurements, joint: int) -> NDArray[np.bool_]:
+def _been(part: ModelDocument, readings: Measurements, joint: int) -> NDArray[np.bool_]:
     """(K,) whether a joint (index) stands where it was when the model was learned."""
     stretches = [(np.radians(a), np.radians(b)) for a, b in part.ranges.visited_deg[joint]]
     return inside_visited(readings.theta[:, [joint]], [stretches])
 
 
-def _off(mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelPart) -> tuple[Outlier, ...]:
+def _off(mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelDocument) -> tuple[Outlier, ...]:
     frozen = _Frozen(mechanism, terms, part)
     found = find_outliers(mechanism, frozen.solved, mechanism.row_sd)
     check_outlier_share(found, len(mechanism.measurements))
@@ -110,13 +106,13 @@ def _off(mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelPart) -> t
 
 
 def _both(
-    mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelPart, chosen: NDArray[np.bool_]
+    mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelDocument, chosen: NDArray[np.bool_]
 ) -> tuple[Errors, Errors]:
     some = mechanism.of(mechanism.measurements.take(chosen))
     return _held_out(some, (), part), _held_out(some, terms, part)
 
 
-def _held_out(mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelPart) -> Errors:
+def _held_out(mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelDocument) -> Errors:
     """Every fold predicted by the mechanism as fitted to the others, the terms frozen."""
     m = mechanism.measurements
     fold = folds(m)
@@ -131,7 +127,7 @@ def _held_out(mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelPart)
 class _Frozen:
     """A mechanism with effects that are not fitted."""
 
-    def __init__(self, mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelPart) -> None:
+    def __init__(self, mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelDocument) -> None:
         m = mechanism.measurements
         reference = Reference(part.reference.temperature_c, m.theta[-1], float(m.distance[-1]))
         self.mechanism = mechanism

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-from station.diagnosis.report.by_machine import extent
 from station.diagnosis.report.document import Findings
 from station.diagnosis.report.joint_curves import Curve, curves
 from station.diagnosis.report.report_page import curve_chart, page, shown
 from station.diagnosis.report.residual_rows import residuals
-from station.diagnosis.report.stages import StageErrors, kept_fresh
+from station.diagnosis.report.stages import kept_fresh
 
 __all__ = [
     "Curve",
     "Findings",
-    "StageErrors",
     "curve_chart",
     "curves",
-    "extent",
     "kept_fresh",
     "page",
     "residuals",

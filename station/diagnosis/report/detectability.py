@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass
-from typing import Any
 
 import numpy as np
 from scipy.special import fdtri, ncfdtrinc
@@ -12,46 +10,30 @@ from scipy.special import fdtri, ncfdtrinc
 from station.diagnosis.search import INVISIBLE_SHARE, SIGNIFICANT, Scan
 from station.effects import Effect, Variants
 from station.model import Fit
+from station.records import Quantity, SmallestVisible
 
 POWER = 0.8
 
 
-@dataclass(frozen=True, slots=True)
-class Detectable:
-    """One effect that was not found."""
-
-    effect: str
-    joint: int | None
-    label: str
-    parameter: str | None
-    minimum_detectable: float | None
-    """Size found in four of five such walks; None when these readings cannot show the effect at all."""
-    unit: str | None
-    text: str
-
-    def as_json(self) -> dict[str, Any]:
-        return asdict(self)
-
-
-def detectable(fit: Fit, effects: Sequence[Effect]) -> tuple[Detectable, ...]:
+def detectable(fit: Fit, effects: Sequence[Effect]) -> tuple[SmallestVisible, ...]:
     """For every effect of the catalogue that is not in the fit."""
     present = {term.effect.label for term in fit.model.terms}
     scan = Scan(fit)
     return tuple(_one(scan, effect, len(effects)) for effect in effects if effect.label not in present)
 
 
-def _one(scan: Scan, effect: Effect, tests: int) -> Detectable:
+def _one(scan: Scan, effect: Effect, tests: int) -> SmallestVisible:
     variants = effect.variants(scan.fit.conditions)
     if variants is None:
         text = "these readings were not taken in a way that could show it"
-        return Detectable(effect.id, effect.joint, effect.label, None, None, None, text)
+        return _told(effect, None, text)
     if variants.spread is not None:
         return _of_many(scan, effect, variants, tests)
     _, share, information = scan.reductions(variants, variants.basis)
     visible = share >= INVISIBLE_SHARE
     if not visible.any():
         text = "invisible in these readings: geometry and zero offsets take up its signature"
-        return Detectable(effect.id, effect.joint, effect.label, None, None, None, text)
+        return _told(effect, None, text)
     size = variants.basis.shape[2]
     # variants compared differ in the values of their hidden parameters only, not in what they act on
     kind = variants.hidden[int(np.argmax(visible))].keys()
@@ -61,17 +43,17 @@ def _one(scan: Scan, effect: Effect, tests: int) -> Detectable:
     amplitude[0] = np.sqrt(_noncentrality(scan, variants, size, tests) / information[typical])
     shown = effect.quantities(variants.hidden[typical], amplitude, np.zeros((size, size)))[0]
     text = "" if len(alike) == 1 else "typical of what was searched"
-    return Detectable(effect.id, effect.joint, effect.label, shown.name, abs(shown.value), shown.unit, text)
+    return _told(effect, shown, text)
 
 
-def _of_many(scan: Scan, effect: Effect, variants: Variants, tests: int) -> Detectable:
+def _of_many(scan: Scan, effect: Effect, variants: Variants, tests: int) -> SmallestVisible:
     """Of many amplitudes together: the shape that shows best."""
     values, vectors = np.linalg.eigh(scan.information(variants)[0])
     amplitudes = vectors[:, -1] * np.sqrt(_noncentrality(scan, variants, 1, tests) / values[-1])
     size = len(amplitudes)
     shown = effect.quantities(variants.hidden[0], amplitudes, np.zeros((size, size)))[0]
     text = "of the shape that shows best"
-    return Detectable(effect.id, effect.joint, effect.label, shown.name, abs(shown.value), shown.unit, text)
+    return _told(effect, shown, text)
 
 
 def _noncentrality(scan: Scan, variants: Variants, size: int, tests: int) -> float:
@@ -80,3 +62,15 @@ def _noncentrality(scan: Scan, variants: Variants, size: int, tests: int) -> flo
     level = SIGNIFICANT / (tests * variants.trials)
     critical = float(fdtri(size, dof, 1.0 - level))
     return float(ncfdtrinc(size, dof, 1.0 - POWER, critical))
+
+
+def _told(effect: Effect, smallest: Quantity | None, text: str) -> SmallestVisible:
+    return SmallestVisible(
+        effect=effect.id,
+        joint=effect.joint,
+        label=effect.label,
+        parameter=smallest.name if smallest else None,
+        minimum_detectable=None if smallest is None else abs(smallest.value),
+        unit=smallest.unit if smallest else None,
+        text=text,
+    )

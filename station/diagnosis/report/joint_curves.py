@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from station.effects import GearCurve, curve_basis, fast_basis
 from station.model import Fit
-from station.records import Real, visited_ranges
+from station.records import JointCurve, Real, visited_ranges
 
 STEP_DEG = 0.5
 BIN_DEG = 2.0
@@ -34,13 +33,14 @@ class Curve:
     binned_deg: Real
     """(B,) mean of what the readings in each say of the curve when everything else in the model is right."""
 
-    def as_json(self) -> dict[str, Any]:
-        return {
-            "joint": self.joint,
-            "angle_deg": np.round(self.angle_deg, 3).tolist(),
-            "value_deg": np.round(self.value_deg, 6).tolist(),
-            "sd_deg": np.round(self.sd_deg, 6).tolist(),
-        }
+    def record(self) -> JointCurve:
+        """As the document shows it."""
+        return JointCurve(
+            joint=self.joint,
+            angle_deg=tuple(np.round(self.angle_deg, 3).tolist()),
+            value_deg=tuple(np.round(self.value_deg, 6).tolist()),
+            sd_deg=tuple(np.round(self.sd_deg, 6).tolist()),
+        )
 
 
 def curves(fit: Fit, sd_factor: float = 1.0) -> tuple[Curve, ...]:
@@ -53,7 +53,7 @@ def curves(fit: Fit, sd_factor: float = 1.0) -> tuple[Curve, ...]:
 
 
 def _curve(fit: Fit, k: int, effect: GearCurve, sd_factor: float) -> Curve:
-    i = (effect.joint or 1) - 1
+    i = effect.index
     amplitudes, covariance = fit.amplitudes(k)
     theta = fit.conditions.theta[:, i]
     parts = [

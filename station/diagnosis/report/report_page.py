@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 from markupsafe import Markup
 
-from station.diagnosis.report.by_machine import extent
 from station.diagnosis.report.document import Findings, FoundEffect
 from station.diagnosis.report.joint_curves import Curve, curves
+from station.machines import kind_of
 from station.mechanism import by_reading
 from station.model import Fit
 from station.records import Quantity, Real, guesses_in_words
@@ -72,14 +72,14 @@ def _errors(findings: Findings) -> Section:
 
 
 def _position_errors(findings: Findings) -> Iterator[Table]:
-    predicted = f"Predicted position error over {extent(findings.fit)}, mm"
+    predicted = f"Predicted position error over {kind_of(findings.fit.model.mechanism).extent}, mm"
     for by, errors, caption in (
         ("commands by", findings.position_errors, predicted),
         ("position by", findings.true_position_errors, "True position error, against the tracker, mm"),
     ):
         if errors is not None:
             named = zip(("base model", "last model"), errors, strict=True)
-            rows = [(name, f"{e['rms']:.3f}", f"{e['max']:.3f}") for name, e in named]
+            rows = [(name, f"{e.rms:.3f}", f"{e.max:.3f}") for name, e in named]
             yield Table((by, "rms", "largest"), rows, caption)
 
 
@@ -99,7 +99,7 @@ def _causes(findings: Findings) -> Section:
         for found in findings.effects
     ]
     return Section(
-        "Effects tried" if findings.refuted else "Effects added",
+        "Effects tried" if findings.decision.refuted else "Effects added",
         _explanations(findings.effects),
         (
             Table(
@@ -259,12 +259,13 @@ def _parameters(findings: Findings) -> Section:
     weak = findings.weak_direction
     d = findings.diagnosis
     text = [
-        f"From the model “{findings.stages[findings.trusted + 1].model}”. Held least: {weak['text']}, "
-        f"sd {weak['sd_deg']:.4f} deg. Not seen by one distance at all: {'; '.join(weak['blind'])}."
+        f"From the model “{findings.stages[findings.decision.trusted + 1].model}”. Determined least: "
+        f"{weak.text}, standard uncertainty {weak.sd_deg or 0.0:.4f} deg. "
+        f"Not seen by one distance at all: {'; '.join(weak.blind)}."
     ]
-    if findings.sd_factor > 1.0:
+    if findings.decision.sd_factor > 1.0:
         text.append(
-            f"The model does not fit: every sd is widened by {findings.sd_factor:.1f}, "
+            f"The model does not fit: every sd is widened by {findings.decision.sd_factor:.1f}, "
             "the ratio of what is left to the noise."
         )
     text += [f"Left out: reading {o.reading}, {o.reason}." for o in d.outliers]
@@ -272,7 +273,7 @@ def _parameters(findings: Findings) -> Section:
         names = ", ".join(map(str, d.confirmations[-1].left_out))
         text.append(f"Left out of the confirmation: fresh reading {names}.")
     rows = [(q.name, f"{q.value:.5f}", f"{q.sd:.5f}", q.unit) for q in findings.parameters]
-    remedies = [(r["text"], f"{r['sd_deg']:.4f}") for r in weak["remedies"]]
+    remedies = [(r.text, f"{r.sd_deg:.4f}") for r in weak.remedies]
     return Section(
         "Parameters",
         text,

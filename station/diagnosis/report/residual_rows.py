@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from station.diagnosis.report.document import Findings
-from station.identification import LIMIT_SDS
+from station.records import LIMIT_SDS
 
 
 @dataclass(frozen=True, slots=True)

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -14,26 +11,9 @@ from station.errors import InputRefused
 from station.fitting import NotConvergedError, Prior, Solution, solve
 from station.mechanism import Mechanism, by_reading
 from station.model import Term
-from station.records import Real
+from station.records import Real, StageErrors
 
 Mask = NDArray[np.bool_]
-
-
-@dataclass(frozen=True, slots=True)
-class StageErrors:
-    """Measured less predicted under one model: readings learned, each place left out in turn, fresh ones."""
-
-    model: str
-    unknowns: int
-    """Of geometry, mechanism and effects; reading offsets are not counted."""
-    fit_rms_mm: float
-    holdout_rms_mm: float
-    holdout_max_mm: float
-    confirm_rms_mm: float | None
-    confirm_max_mm: float | None
-
-    def as_json(self) -> dict[str, Any]:
-        return asdict(self)
 
 
 def stage_errors(diagnosis: Diagnosis) -> tuple[StageErrors, ...]:
@@ -68,7 +48,7 @@ def kept_fresh(diagnosis: Diagnosis) -> Mask:
 
 def base_unknowns(mechanism: Mechanism) -> int:
     """Number of parameters of geometry and mechanism."""
-    return sum(not p.name.startswith("rho0") for p in mechanism.parameters)
+    return sum(p.role != "reading_offset" for p in mechanism.parameters)
 
 
 def len_of(term: Term) -> int:
@@ -87,13 +67,13 @@ def _errors(
     fit_mm = by_reading(mechanism, solution.residual * row_sd)
     out_mm = by_reading(mechanism, predicted_by_others(solution, mechanism) * row_sd)
     return StageErrors(
-        model,
-        unknowns,
-        _rms(fit_mm),
-        _rms(out_mm),
-        float(out_mm.max()),
-        None if fresh_mm is None else _rms(fresh_mm),
-        None if fresh_mm is None else float(fresh_mm.max()),
+        model=model,
+        unknowns=unknowns,
+        fit_rms_mm=_rms(fit_mm),
+        holdout_rms_mm=_rms(out_mm),
+        holdout_max_mm=float(out_mm.max()),
+        confirm_rms_mm=None if fresh_mm is None else _rms(fresh_mm),
+        confirm_max_mm=None if fresh_mm is None else float(fresh_mm.max()),
     )
 
 
@@ -126,7 +106,7 @@ def _simplest(diagnosis: Diagnosis) -> StageErrors:
         fresh = mechanism.of(diagnosis.fresh)
         rows = fresh.measured - fresh.observe(full(solution.x), fresh.theta).value
         fresh_mm = by_reading(fresh, rows)[kept_fresh(diagnosis)]
-    unknowns = sum(not n.startswith("rho0") for n in names)
+    unknowns = sum(p.role != "reading_offset" for p in mechanism.parameters if p.name in names)
     return _errors(name, unknowns, solution, row_sd, mechanism, fresh_mm)
 
 

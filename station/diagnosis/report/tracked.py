@@ -5,13 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from station.fitting import rms_and_max
-from station.five_bar import FiveBar
 from station.mechanism import temperature_rise
-from station.model import Fit, IdentifiedMachine, Situation
-from station.records import Measurements
-
-PositionError = dict[str, float]
-"""rms and max, mm"""
+from station.model import Fit, Situation, identified
+from station.records import Measurements, PositionError
 
 
 def true_position_errors(
@@ -23,7 +19,8 @@ def true_position_errors(
     frame is the robot's.
     """
     tracked = next((m for m in (fresh, walk) if m is not None and m.tracker is not None), None)
-    if tracked is None or not isinstance(last.model.mechanism, FiveBar):
+    machines = identified(base), identified(last)
+    if tracked is None or machines[0] is None or machines[1] is None:
         return None
     rise = temperature_rise(tracked, last.model.reference)
     nothing = np.zeros(len(tracked))
@@ -35,6 +32,6 @@ def true_position_errors(
     assert tracked.tracker is not None
     stood = tracked.tracker @ [1.0, 1.0j]
     before, after = (
-        np.abs(IdentifiedMachine.of(fit).positions(tracked.theta, situation) - stood) for fit in (base, last)
+        np.abs(machine.positions(tracked.theta, situation) - stood) for machine in machines if machine
     )
     return rms_and_max(before), rms_and_max(after)

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from station.diagnosis.search.evidence import relearned
 from station.diagnosis.search.scan import Candidate, Scan
 from station.fitting import Prior
-from station.model import Fit, Model, Term, fit, fitted
+from station.model import Fit, Model, Term, fit
 from station.records import Real
 
 
@@ -83,4 +83,4 @@ def _moved(
         residual=residual,
         jacobian=J,
     )
-    return fitted(model, solution, prior, row_sd)
+    return Fit(model, solution, prior, row_sd)

@@ -10,15 +10,16 @@ import subprocess
 import sys
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
+from dataclasses import replace
 from pathlib import Path
 from threading import Thread
 
 import uvicorn
 
-from station.five_bar import Robot
 from station.plans import make_plan
 from station.published import MAX_PASSES, PublishedRun
-from station.records import PlanName, Procedure, Walk
+from station.records import Procedure, Walk
+from station.run_kinds import RUN_KINDS, Start
 from station.service import Orchestrator, Runtime
 from station.settings import LimitSettings, Settings, database_path
 from station.store import Store
@@ -28,15 +29,18 @@ from web.app import create_app
 SETTINGS = Settings(limits=LimitSettings(settle_s=0.0))
 
 
-def six_steps(plan: PlanName, robot: Robot) -> Procedure:
+def six_steps(start: Start) -> Procedure:
     """One walk over the six positions, the published iteration on its readings."""
-    run = PublishedRun(robot)
-    readings = yield Walk("Measuring", 1, make_plan("paper", robot).stops)
+    run = PublishedRun(start.robot)
+    readings = yield Walk("Measuring", 1, make_plan("paper", start.robot).stops)
     for _ in range(MAX_PASSES):
         run.absorb(readings)
         if run.converged:
             break
     return run.result()
+
+
+KINDS = {**RUN_KINDS, "calibrate": replace(RUN_KINDS["calibrate"], procedure=six_steps)}
 
 
 @contextmanager
@@ -57,7 +61,7 @@ def _serve(home: Path) -> None:
     with ExitStack() as opened:
         store = Store(database_path(SETTINGS, home))
         opened.callback(store.close)
-        orchestrator = Orchestrator(instant_devices(), store, SETTINGS, six_steps)
+        orchestrator = Orchestrator(instant_devices(), store, SETTINGS, KINDS)
         opened.callback(orchestrator.shutdown)
         application = create_app(Runtime(SETTINGS, home, store, orchestrator, ExitStack()))
         server = uvicorn.Server(uvicorn.Config(application, log_config=None, access_log=False))

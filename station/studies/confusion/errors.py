@@ -6,10 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from station.diagnosis import Diagnosis, Findings, kept_fresh
+from station.diagnosis import Diagnosis, kept_fresh
 from station.five_bar import Robot
 from station.mechanism import temperature_rise
-from station.model import IdentifiedMachine, Situation
+from station.model import Situation, identified
 from station.records import Real
 from station.studies.confusion.machines import Drawn
 
@@ -29,7 +29,7 @@ class BeforeAndAfter:
 
 def before_and_after(robot: Robot, drawn: Drawn, found: Diagnosis) -> BeforeAndAfter:
     """Of one machine, which goes on from where its fresh readings ended."""
-    trusted = Findings(found).trusted
+    trusted = found.decision.trusted
     models = found.base, found.trace.stages[trusted].fit
     kept = kept_fresh(found)
     checks = found.confirmations[0], found.confirmations[trusted]
@@ -39,9 +39,9 @@ def before_and_after(robot: Robot, drawn: Drawn, found: Diagnosis) -> BeforeAndA
     warm = np.full(len(place), 0.0 if rise is None else rise[-1])
     position = []
     for model in models:
-        commands = IdentifiedMachine.of(model).commands(
-            place, Situation(approach, warm, np.zeros(len(place)))
-        )
+        machine = identified(model)
+        assert machine is not None, "five-bars alone are drawn here"
+        commands = machine.commands(place, Situation(approach, warm, np.zeros(len(place))))
         # every place is come to from the side that was asked for
         theta = np.degrees(commands)
         stops = np.stack([theta - RUN_UP_DEG * approach, theta], axis=1).reshape(-1, 2)

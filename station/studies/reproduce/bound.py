@@ -8,7 +8,7 @@ import numpy as np
 
 from station.fitting import Prior, tolerance_prior
 from station.five_bar import FiveBar
-from station.identification import FORGOTTEN, Memory
+from station.identification import Memory
 from station.records import Measurements, Real
 from station.studies.reproduce.trial import (
     FULL,
@@ -100,11 +100,10 @@ def _remembering(conditions: Conditions, run: _Linear, rng: np.random.Generator)
     readings = conditions.machine(1, truth).walk(stops_of(conditions, "full"), conditions.samples)
     earlier = _Linear.of(conditions, readings, truth)
     errors, covariance = earlier.errors(tolerance_prior(earlier.mechanism), earlier.prior_error(), rng)
-    names = [p.name for p in earlier.mechanism.parameters]
-    lasting = [i for i, name in enumerate(names) if name not in FORGOTTEN]
-    memory = Memory(
-        tuple(names[i] for i in lasting), run.truth[lasting], covariance[np.ix_(lasting, lasting)]
-    )
+    parameters = earlier.mechanism.parameters
+    lasting = [i for i, p in enumerate(parameters) if p.lasting]
+    names = tuple(parameters[i].name for i in lasting)
+    memory = Memory(names, run.truth[lasting], covariance[np.ix_(lasting, lasting)])
     prior_error = run.prior_error()
     prior_error[:, lasting] = errors[:, lasting]
     return run.errors(memory.prior(run.mechanism.parameters), prior_error, rng)[0]

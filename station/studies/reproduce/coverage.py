@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 
 from station.errors import InputRefused
-from station.five_bar import SIZE
-from station.identification import Identification, identify, memory_of
+from station.five_bar import SIZE, FiveBar
+from station.identification import Identification, identify
 from station.plans import make_plan, predict
 from station.records import Complex, Real
 from station.studies.reproduce.position_error import position_errors, position_vectors, whole_workspace
@@ -67,27 +67,27 @@ def coverage_of(seed: int) -> Coverage:
     turn = rng.uniform(0.0, 2.0 * np.pi)
     moved[10:] += MOUNTED_OFF_MM * np.cos(turn), MOUNTED_OFF_MM * np.sin(turn)
     readings = CONDITIONS.machine(3 * seed + 1, later).walk(rapid)
-    memory = memory_of(first)
+    memory = first.lasting
     remembering = identify(robot, readings, memory)
     misled = identify(robot, CONDITIONS.machine(3 * seed + 2, moved).walk(rapid), memory)
-    assert remembering.memory is not None and misled.memory is not None
+    assert remembering.gate is not None and misled.gate is not None
     fits = dict(
         zip(CASES, ((first, truth), (identify(robot, readings), later), (remembering, later)), strict=True)
     )
     return Coverage(
         offsets={case: _offsets_held(fit, true) for case, (fit, true) in fits.items()},
         positions={case: _positions_held(fit, true) for case, (fit, true) in fits.items()},
-        memory_kept=remembering.memory.used,
-        wrong_memory_dropped=not misled.memory.used,
+        memory_kept=remembering.gate.used,
+        wrong_memory_dropped=not misled.gate.used,
     )
 
 
-def _offsets_held(fit: Identification, truth: Real) -> list[bool]:
+def _offsets_held(fit: Identification[FiveBar], truth: Real) -> list[bool]:
     reach = fit.noise.coverage_factor * np.sqrt(np.diag(fit.covariance)[:2])
     return [bool(v) for v in np.abs(fit.dtheta - truth[:2]) <= reach]
 
 
-def _positions_held(fit: Identification, truth: Real) -> float:
+def _positions_held(fit: Identification[FiveBar], truth: Real) -> float:
     """Commands made with the identified model leave an error whose x and y have predicted sd each."""
     robot = fit.mechanism.robot
     jacobian = fit.mechanism.position_errors(fit.p)[1]
@@ -157,7 +157,7 @@ def positions_summary(machines: Sequence[dict[str, float | None]]) -> list[dict[
                 "workspace_mm": spread(values),
                 "median_error_mm": median_error(values),
                 "refused": 1.0 - len(values) / len(machines),
-                "predicted": predict(robot, places),
+                "predicted": predict(robot, places).model_dump(),
             }
         )
     return rows

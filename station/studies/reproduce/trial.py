@@ -19,8 +19,8 @@ from functools import cache
 
 import numpy as np
 
-from station.five_bar import SIZE, Robot, Tolerances, inverse
-from station.identification import Identification, identify, memory_of
+from station.five_bar import SIZE, FiveBar, Robot, Tolerances, inverse
+from station.identification import Identification, identify
 from station.plans import make_plan
 from station.published import MU_0_DEG, compensation_accuracy
 from station.published import identify as identify_as_published
@@ -140,14 +140,14 @@ def by_ours(conditions: Conditions, seed: int) -> dict[str, Outcome]:
     return {method: _outcome(conditions, fit.p[:SIZE]) for method, fit in fits.items()}
 
 
-def fits_of(conditions: Conditions, seed: int) -> dict[str, Identification]:
+def fits_of(conditions: Conditions, seed: int) -> dict[str, Identification[FiveBar]]:
     """The identifications behind `by_ours`."""
     robot, samples = conditions.robot, conditions.samples
     full, rapid = stops_of(conditions, "full"), stops_of(conditions, "rapid")
     machine = conditions.machine(seed)
     six_readings = machine.walk(rapid, samples)
     earlier = conditions.machine(-1 - seed, conditions.earlier_truth)
-    memory = memory_of(identify(robot, earlier.walk(full, samples)))
+    memory = identify(robot, earlier.walk(full, samples)).lasting
     careful = with_known_mechanism(robot, conditions.truth, seed)
     return {
         FULL: identify(robot, machine.walk(full, samples)),

@@ -20,10 +20,9 @@ from click.testing import CliRunner, Result
 
 from station.cli import main
 from station.five_bar.robot_file import Robot
-from station.records.measurement_file import readings_to_csv
-from station.records.reading import Reading
-from station.records.run import CalibrationRequest, State
+from station.records import Reading, State, because, readings_to_csv
 from station.store.store import Store
+from tests.station.asking import asked
 from tests.station.fakes import result_of
 from tests.station.run_kinds.test_diagnose import BACKLASH, machine, run
 
@@ -39,9 +38,14 @@ def home(tmp_path: Path) -> Path:
     """A history of three runs."""
     store = Store(tmp_path / "station.db")
     for serial, state in (("R1", State.SUCCEEDED), ("R2", State.ABORTED), ("R1", State.FAILED)):
-        run = store.create(CalibrationRequest(serial, "paper", "ada"), Robot.default(serial))
+        run = store.create(asked(serial, "paper"), Robot.default(serial))
         store.add_reading(run, READING)
-        store.finish(run, state, result_of([READING]) if state is State.SUCCEEDED else None, "because")
+        store.finish(
+            run,
+            state,
+            result_of([READING]) if state is State.SUCCEEDED else None,
+            because("stopped", by="ada"),
+        )
     store.add_event(2, "stop", {"by": "ada"})
     store.close()
     return tmp_path
@@ -83,10 +87,10 @@ def test_import_keeps_a_file_as_a_run_and_passes_only_what_fresh_readings_confir
     for number, file in enumerate((walk, fresh), start=1):
         file.write_text(readings_to_csv(r for r in readings if r.walk == number))
     confirmed = station(tmp_path, "import", str(walk), "--confirm", str(fresh), "--serial", "FB-5")
-    assert (confirmed.exit_code, confirmed.output[:33]) == (0, "Run 1: pass, backlash of joint 1 ")
+    assert (confirmed.exit_code, confirmed.output[:33]) == (0, "Run 1: pass. backlash of joint 1 ")
     alone = station(tmp_path, "import", str(walk), "--serial", "FB-5")
     assert alone.exit_code == 1
-    assert "no fresh readings confirm it" in alone.output
+    assert "No fresh readings confirm it" in alone.output
     assert "dataset" in station(tmp_path, "show", "2").output
 
 
@@ -178,7 +182,7 @@ def test_ctrl_c_stops_the_machine_and_stores_the_abort(tmp_path: Path, sig: sign
     assert (child.returncode, complaints) == (1, "")
     assert "ABORTED: Stopped by the operator at the terminal." in output
     store = Store(tmp_path / "station.db")
-    assert store.calibration(1)["state"] == "aborted"
+    assert store.calibration(1).state == "aborted"
     assert len(store.readings(1)) >= 1
     store.close()
 
@@ -193,9 +197,9 @@ def test_kill_in_the_middle_of_a_real_run_keeps_its_readings(tmp_path: Path) -> 
         child.communicate(timeout=30)
     assert child.returncode == 0, "the rig of the killed process has let go"
     store = Store(tmp_path / "station.db")
-    assert store.calibration(1)["state"] == "interrupted"
+    assert store.calibration(1).state == "interrupted"
     assert [r.position for r in store.readings(1)][:2] == ["P1", "P2"]
-    assert store.calibration(2)["verdict"] == "pass"
+    assert store.calibration(2).verdict == "pass"
     store.close()
 
 

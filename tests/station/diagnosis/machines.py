@@ -13,8 +13,7 @@ from drivers.emulated.spec import MachineSpec
 from drivers.emulated.virtual import VirtualReading, VirtualRig
 from station.five_bar.kinematics import inverse
 from station.five_bar.robot_file import Robot
-from station.records.measurements import Measurements, number
-from station.records.types import Complex, Real
+from station.records import Complex, Measurements, Real, number
 
 ROBOT = Robot.default()
 ZERO_OFFSETS_DEG = (1.1, -0.7)

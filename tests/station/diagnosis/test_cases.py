@@ -12,7 +12,7 @@ import pytest
 from station.diagnosis.closed_loop import diagnose
 from station.diagnosis.report.document import Findings
 from station.five_bar.robot_file import Robot
-from station.records.measurement_file import read_measurements
+from station.records import read_measurements
 from tests.station.groups import DATA, needs_data
 
 CASES = DATA / "undeclared"
@@ -40,9 +40,9 @@ def test_right_verdict_and_cause(name: str) -> None:
     truth, found = answers()[name], findings(name)
     verdict, confirmed = found.diagnosis.verdict, found.diagnosis.confirmed
     if truth["effect"] == "none":
-        assert (verdict, confirmed, found.effects, found.passed) == ("adequate", True, (), True)
+        assert (verdict, confirmed, found.effects, found.decision.passed) == ("adequate", True, (), True)
     elif truth["effect"] is None:
-        assert not found.passed
+        assert not found.decision.passed
         assert not (verdict == "explained" and confirmed)
         (kind,) = truth["detail"]
         assert found.diagnosis.hints[0].depends_on == OUTSIDE_HINTS[kind]
@@ -81,5 +81,5 @@ def test_every_stage_is_better_than_the_one_before_and_the_last_no_worse_than_no
     assert fits == sorted(fits, reverse=True)
     for s in found.stages:
         assert s.holdout_rms_mm >= s.fit_rms_mm
-    if found.passed:
+    if found.decision.passed:
         assert found.stages[-1].holdout_rms_mm < 1.5 * NOISE_MM

@@ -90,7 +90,7 @@ def test_physics_is_named_and_its_size_recovered(
 def test_drift_is_in_its_alias_set(seed: int) -> None:
     machine = Emulated({"kind": "drift", "mm_per_hour": 0.4}, seed=seed)
     found = Findings(diagnose(ROBOT, machine.walk(), machine.fresh()))
-    assert found.passed
+    assert found.decision.passed
     (effect,) = found.effects
     assert "drift" in [t.effect.id for t in (effect.term, *effect.aliases)]
 
@@ -102,7 +102,7 @@ def test_two_effects_at_once() -> None:
         seed=3,
     )
     found = Findings(diagnose(ROBOT, machine.walk(), machine.fresh()))
-    assert found.passed
+    assert found.decision.passed
     assert [e.term.effect.label for e in found.effects] == ["backlash of joint 1", "scale_cyclic"]
     assert found.effects[0].share > found.effects[1].share
     assert len(found.stages) == 4
@@ -124,7 +124,7 @@ def test_two_effects_at_once() -> None:
 def test_outside_the_catalogue_nothing_is_blamed(effect: dict[str, Any], hint: str, seed: int) -> None:
     machine = Emulated(effect, seed=seed)
     found = Findings(diagnose(ROBOT, machine.walk(), machine.fresh()))
-    assert not found.passed
+    assert not found.decision.passed
     assert found.diagnosis.confirmed is False
     assert found.diagnosis.hints[0].depends_on == hint
 
@@ -135,7 +135,7 @@ def test_clean_machine_is_adequate(seed: int) -> None:
     found = Findings(diagnose(ROBOT, machine.walk(), machine.fresh()))
     assert (found.diagnosis.verdict, found.diagnosis.confirmed) == ("adequate", True)
     assert found.effects == ()
-    assert found.sd_factor == 1.0
+    assert found.decision.sd_factor == 1.0
 
 
 def test_dirty_readings_are_named_and_left_out() -> None:
@@ -143,7 +143,7 @@ def test_dirty_readings_are_named_and_left_out() -> None:
     walk = machine.walk()
     walk.distance[[20, 77]] += [0.05, -0.08]
     found = Findings(diagnose(ROBOT, walk, machine.fresh()))
-    assert found.passed
+    assert found.decision.passed
     assert {o.reading for o in found.diagnosis.outliers} == {21, 78}
 
 
@@ -152,5 +152,5 @@ def test_repeats_that_disagree_grossly_are_never_adequate() -> None:
     walk = Emulated(seed=3).walk()
     walk.distance[::10] += 5.0
     found = Findings(diagnose(ROBOT, walk))
-    assert not found.passed
+    assert not found.decision.passed
     assert "times more than specified" in found.sentence

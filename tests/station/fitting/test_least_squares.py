@@ -10,7 +10,7 @@ from station.fitting.least_squares import NotConvergedError, Prior, Solution, so
 from station.fitting.prior import tolerance_prior
 from station.five_bar.mechanism import FiveBar
 from station.five_bar.robot_file import Robot
-from station.records.types import Real
+from station.records import Real
 from tests.station.groups import group, measure
 
 ROBOT = Robot.default()

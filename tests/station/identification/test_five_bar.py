@@ -12,10 +12,11 @@ from station.errors import InputRefused
 from station.five_bar.kinematics import inverse
 from station.five_bar.mechanism import FiveBar
 from station.five_bar.robot_file import Robot
-from station.identification.five_bar import identify
+from station.identification import identification_document
+from station.identification.estimate import identify
 from station.plans.plans import make_plan
-from station.records.measurement_file import read_measurements
-from station.run_kinds.calibrate import start_procedure
+from station.records import read_measurements
+from tests.station.asking import start_procedure
 from tests.station.groups import DATA, calibrate, group, measure, needs_data, value_and_sd
 
 ROBOT = Robot.default()
@@ -123,7 +124,8 @@ def test_derivatives_with_two_mounts_agree_with_differences() -> None:
 
 
 def test_the_result_says_what_is_weak_and_blind() -> None:
-    content = identify(ROBOT, measure(ROBOT, group(1), GRID, np.random.default_rng(0))).as_json()
+    found = identify(ROBOT, measure(ROBOT, group(1), GRID, np.random.default_rng(0)))
+    content = identification_document(found).model_dump(by_alias=True)
     weak = content["weak_direction"]
     assert weak["text"] == "both arms together with a sideways error of the mechanism"
     assert len(weak["blind"]) == 3
@@ -146,7 +148,7 @@ def test_measured_and_verified_calibration(plan: str) -> None:
     value, sd = value_and_sd(result)
     assert result.verdict == "pass", result.reason
     assert (np.abs(np.array(value) - np.degrees(truth[:2])) < 3 * np.array(sd)).all()
-    assert result.after["fresh_reading_rms_mm"] < 0.1
+    assert result.after is not None and (result.after.fresh_reading_rms_mm or 1.0) < 0.1
 
 
 def test_an_effect_that_the_model_lacks_fails_the_calibration() -> None:
@@ -164,7 +166,7 @@ def test_an_effect_that_the_model_lacks_fails_the_calibration() -> None:
 
     result = calibrate(Sloppy(), ROBOT, group(1), seed=4)  # type: ignore[arg-type]
     assert result.verdict == "fail"
-    assert "does not fit" in result.reason
+    assert result.reason.code == "lack_of_fit"
 
 
 def test_full_plan_reads_every_place_from_both_sides_and_keeps_time_apart() -> None:

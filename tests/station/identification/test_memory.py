@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from dataclasses import replace
 
 import numpy as np
@@ -10,9 +9,11 @@ import pytest
 
 from station.five_bar.mechanism import FiveBar
 from station.five_bar.robot_file import Robot
-from station.identification.five_bar import Identification, identify, memory_of
-from station.identification.memory import FORGOTTEN, Memory
+from station.identification import gate_record
+from station.identification.estimate import Identification, identify
+from station.identification.memory import Memory
 from station.published.method import boundary_positions
+from station.records import LastingParameters
 from tests.station.groups import group, measure
 
 ROBOT = replace(Robot.default(), feedback_sd_deg=0.0)
@@ -23,16 +24,16 @@ PLACES = boundary_positions(ROBOT.workspace_x, ROBOT.workspace_y, 3)
 def learned(seed: int) -> tuple[np.ndarray, Memory]:
     truth = group(1)
     fit = identify(ROBOT, measure(ROBOT, truth, ROBOT.workspace_grid(6, 4), np.random.default_rng(seed), 5))
-    return truth, memory_of(fit)
+    return truth, fit.lasting
 
 
-def six_readings(truth: np.ndarray, memory: Memory | None) -> Identification:
+def six_readings(truth: np.ndarray, memory: Memory | None) -> Identification[FiveBar]:
     return identify(ROBOT, measure(ROBOT, truth, PLACES, np.random.default_rng(7)), memory)
 
 
 def test_geometry_and_mechanism_are_kept_and_zero_offsets_are_not() -> None:
     _, memory = learned(0)
-    assert not set(FORGOTTEN) & set(memory.names)
+    assert not {"dtheta1", "dtheta2", "rho0"} & set(memory.names)
     assert len(memory.names) == 10
 
 
@@ -40,8 +41,8 @@ def test_six_readings_with_memory_are_surer_and_still_right() -> None:
     truth, memory = learned(0)
     truth[:2] = np.radians([-1.5, 2.5])
     alone, remembering = six_readings(truth, None), six_readings(truth, memory)
-    assert remembering.memory is not None
-    assert remembering.memory.used
+    assert remembering.gate is not None
+    assert remembering.gate.used
     sd = [q.sd for q in remembering.quantities()[:2]]
     assert sd < [0.75 * q.sd for q in alone.quantities()[:2]]
     assert (np.abs(np.degrees(remembering.dtheta - truth[:2])) < 3 * np.array(sd)).all()
@@ -53,9 +54,9 @@ def test_a_mechanism_mounted_anew_drops_the_memory(seed: int) -> None:
     turn = np.random.default_rng(seed).uniform(0, 2 * np.pi)
     truth[10:12] += np.cos(turn), np.sin(turn)
     fit = six_readings(truth, memory)
-    assert fit.memory is not None
-    assert not fit.memory.used
-    assert "dropped" in fit.as_json()["memory"]["text"]
+    assert fit.gate is not None
+    assert not fit.gate.used
+    assert "not used" in gate_record(fit.gate).text
     assert fit.p == pytest.approx(six_readings(truth, None).p)
 
 
@@ -69,6 +70,6 @@ def test_age_makes_less_sure() -> None:
 
 def test_a_memory_survives_the_way_to_json_and_back() -> None:
     _, memory = learned(0)
-    back = Memory.from_json(json.loads(json.dumps(memory.as_json())))
+    back = Memory.of(LastingParameters.model_validate_json(memory.record().model_dump_json()))
     assert back.names == memory.names
     assert back.covariance == pytest.approx(memory.covariance)

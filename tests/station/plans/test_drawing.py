@@ -28,5 +28,5 @@ def test_the_page_needs_nothing_from_outside() -> None:
 
 def test_predicted_error_is_mapped_over_the_workspace() -> None:
     predicted = make_plan("rapid", ROBOT).predicted
-    spread = [p["sd_mm"] for p in predicted["map"]]
-    assert max(spread) == pytest.approx(predicted["position_error_mm"]["max"])
+    spread = [p.sd_mm for p in predicted.map]
+    assert max(spread) == pytest.approx(predicted.position_error_mm.max)

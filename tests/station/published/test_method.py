@@ -18,7 +18,7 @@ from station.published.method import (
     tsvd,
 )
 from station.published.positions import conditioning, positions_per_edge
-from station.run_kinds.calibrate import start_procedure
+from tests.station.asking import start_procedure
 from tests.station.groups import calibrate, group, value_and_sd
 
 ROBOT = Robot.default()
@@ -107,11 +107,11 @@ def test_published_calibration_ends_near_the_truth(number: int) -> None:
     assert result.verdict == "pass", result.reason
     assert np.abs(np.array(value) - np.degrees(truth[:2])).max() < 0.15
     assert all(0.02 < s < 0.2 for s in sd)
-    assert result.iterations[-1]["mu_deg"] < 0.1
-    assert (
-        result.after["predicted_position_error_mm"]["rms"]
-        < result.before["predicted_position_error_mm"]["rms"]
-    )
+    mu_deg, before, after = result.iterations[-1].mu_deg, result.before, result.after
+    assert mu_deg is not None and mu_deg < 0.1
+    assert before is not None and before.predicted_position_error_mm is not None
+    assert after is not None and after.predicted_position_error_mm is not None
+    assert after.predicted_position_error_mm.rms < before.predicted_position_error_mm.rms
 
 
 def test_a_published_run_with_a_wrong_reading_fails() -> None:
@@ -132,4 +132,4 @@ def test_a_published_run_with_a_wrong_reading_fails() -> None:
 
     result = calibrate(Disturbed(), ROBOT, group(4), seed=1)  # type: ignore[arg-type]
     assert result.verdict == "fail"
-    assert "off by" in result.reason or "mu did not" in result.reason
+    assert result.reason.code in ("reading_beyond_limit", "mu_too_large")

@@ -12,9 +12,9 @@ from click.testing import CliRunner
 from station.cli.numerics import identify_command
 from station.errors import InputRefused
 from station.five_bar.robot_file import Robot
-from station.identification.five_bar import identify
+from station.identification.estimate import identify
+from station.records import Reading
 from station.records.measurement_file import parse_measurements, read_measurements, readings_to_csv
-from station.records.reading import Reading
 
 HEADER = "reading,t_s,theta1_deg,theta2_deg,approach1,approach2,scale_mm,position,temperature_c"
 ROWS = [

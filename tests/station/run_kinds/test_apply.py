@@ -5,18 +5,17 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
-from typing import Any
 
 import pytest
 
 from drivers.errors import DeviceFault, LinkLost
 from station.errors import Busy, NotApplicable, NotFound
 from station.five_bar.robot_file import Robot
-from station.records.run import CalibrationRequest, PlanName, Procedure, State
-from station.run_kinds.calibrate import start_procedure
+from station.records import Application, PlanName, Procedure, State
+from station.run_kinds.zero_state import application
 from station.service.orchestrator import Orchestrator
 from station.store.store import Store
-from station.store.zero_state import application
+from tests.station.asking import asked, start_procedure
 from tests.station.conftest import SETTINGS, Start
 from tests.station.fakes import HOME_DEG, Rig, result_of, two_walks
 
@@ -42,24 +41,24 @@ def ended(orchestrator: Orchestrator, run: int) -> State:
 
 
 def calibrate(orchestrator: Orchestrator, plan: PlanName = "rapid") -> int:
-    run = orchestrator.submit(CalibrationRequest("R1", plan, "ada")).id
+    run = orchestrator.submit(asked("R1", plan)).id
     assert ended(orchestrator, run) is State.SUCCEEDED
     return run
 
 
 def apply(orchestrator: Orchestrator, calibration: int) -> int:
-    run = orchestrator.apply(calibration, "ada").id
+    run = orchestrator.follow("apply", calibration, "ada").id
     assert ended(orchestrator, run).ended
     return run
 
 
 def roll_back(orchestrator: Orchestrator, calibration: int) -> int:
-    run = orchestrator.roll_back(calibration, "ada").id
+    run = orchestrator.follow("rollback", calibration, "ada").id
     assert ended(orchestrator, run).ended
     return run
 
 
-def known(store: Store, calibration: int) -> dict[str, Any]:
+def known(store: Store, calibration: int) -> Application:
     found = application(store, store.calibration(calibration))
     assert found is not None
     return found
@@ -74,22 +73,22 @@ def test_applied_offsets_are_gone_and_come_back(
     plan: PlanName, station: Orchestrator, store: Store, rig: Rig
 ) -> None:
     calibration = calibrate(station, plan)
-    assert known(store, calibration)["state"] == "unwritten"
+    assert known(store, calibration).state == "unwritten"
     run = apply(station, calibration)
     outcome = store.calibration(run)
-    assert outcome["reason"].startswith("verified: fresh readings agree within")
-    assert (outcome["state"], outcome["verdict"], outcome["plan"]) == ("succeeded", "pass", "apply")
-    assert outcome["of"] == calibration
+    assert (outcome.reason or "").startswith("Verified: fresh readings agree within")
+    assert (outcome.state, outcome.verdict, outcome.plan) == ("succeeded", "pass", "apply")
+    assert outcome.of == calibration
     assert [r.walk for r in store.readings(run)] == [1] * 4 + [3] * 8
-    assert (known(store, calibration)["state"], known(store, calibration)["verified"]) == ("applied", True)
+    assert (known(store, calibration).state, known(store, calibration).verified) == ("applied", True)
     assert offsets(rig) == pytest.approx([0.0, 0.0], abs=0.05)
     after = store.calibration(calibrate(station, plan))
-    for zero, offset in zip(after["zero_offsets"], offsets(rig), strict=True):
-        assert zero["value_deg"] == pytest.approx(offset, abs=3 * zero["sd_deg"] + 1e-3)
+    for zero, offset in zip(after.zero_offsets, offsets(rig), strict=True):
+        assert zero.value_deg == pytest.approx(offset, abs=3 * (zero.sd_deg or 0.0) + 1e-3)
     back = store.calibration(roll_back(station, calibration))
-    assert (back["verdict"], back["reason"]) == ("pass", "the old zero offsets are in the drives")
+    assert (back.verdict, back.reason) == ("pass", "The old zero offsets are in the drives.")
     assert offsets(rig) == pytest.approx(OFFSETS, abs=1e-6)
-    assert known(store, calibration)["state"] == "rolled back"
+    assert known(store, calibration).state == "rolled back"
 
 
 def test_what_the_servo_stands_beside_its_command_is_accounted_for(
@@ -99,49 +98,49 @@ def test_what_the_servo_stands_beside_its_command_is_accounted_for(
         axis.stands_off_deg = pulses * PULSE
     calibration = calibrate(station)
     apply(station, calibration)
-    for joint, axis in zip(known(store, calibration)["joints"], rig.axes, strict=True):
-        assert joint["shift_deg"] == pytest.approx(axis.offset_deg - OFFSETS[joint["joint"] - 1])
+    for joint, axis in zip(known(store, calibration).joints, rig.axes, strict=True):
+        assert joint.shift_deg == pytest.approx(axis.offset_deg - OFFSETS[joint.joint - 1])
     roll_back(station, calibration)
-    for joint, axis in zip(known(store, calibration)["joints"], rig.axes, strict=True):
-        assert joint["shift_deg"] == pytest.approx(axis.offset_deg - OFFSETS[joint["joint"] - 1])
-        assert abs(joint["shift_deg"]) < 9 * PULSE
+    for joint, axis in zip(known(store, calibration).joints, rig.axes, strict=True):
+        assert joint.shift_deg == pytest.approx(axis.offset_deg - OFFSETS[joint.joint - 1])
+        assert abs(joint.shift_deg or 0.0) < 9 * PULSE
 
 
 def test_only_a_pass_is_applied_and_only_once(station: Orchestrator, store: Store, rig: Rig) -> None:
-    failed = store.create(CalibrationRequest("R1", "paper", "ada"), ROBOT)
+    failed = store.create(asked("R1", "paper"), ROBOT)
     store.finish(failed, State.SUCCEEDED, result_of([], "fail"))
-    aborted = store.create(CalibrationRequest("R1", "paper", "ada"), ROBOT)
+    aborted = store.create(asked("R1", "paper"), ROBOT)
     store.finish(aborted, State.ABORTED)
     for run in (failed, aborted):
         with pytest.raises(NotApplicable, match="has not passed"):
-            station.apply(run, "ada")
+            station.follow("apply", run, "ada")
         assert application(store, store.calibration(run)) is None
     with pytest.raises(NotFound):
-        station.apply(99, "ada")
+        station.follow("apply", 99, "ada")
     calibration = calibrate(station)
     with pytest.raises(NotApplicable, match="nothing to roll back"):
-        station.roll_back(calibration, "ada")
+        station.follow("rollback", calibration, "ada")
     run = apply(station, calibration)
     with pytest.raises(NotApplicable, match=f"has been applied by run {run}"):
-        station.apply(calibration, "ada")
+        station.follow("apply", calibration, "ada")
     with pytest.raises(NotApplicable, match=f"it belongs to run {calibration}"):
-        station.apply(run, "ada")
+        station.follow("apply", run, "ada")
 
 
 def test_the_same_key_applies_once(station: Orchestrator) -> None:
     calibration = calibrate(station)
-    first = station.apply(calibration, "ada", idempotency_key="k")
+    first = station.follow("apply", calibration, "ada", idempotency_key="k")
     assert ended(station, first.id).ended
-    again = station.apply(calibration, "ada", idempotency_key="k")
+    again = station.follow("apply", calibration, "ada", idempotency_key="k")
     assert (again.id, again.created) == (first.id, False)
 
 
 def test_while_another_run_holds_the_rig_nothing_is_applied(station: Orchestrator, rig: Rig) -> None:
     calibration = calibrate(station)
     rig.axes[0].stuck = True
-    running = station.submit(CalibrationRequest("R1", "paper", "ada")).id
+    running = station.submit(asked("R1", "paper")).id
     with pytest.raises(Busy):
-        station.apply(calibration, "ada")
+        station.follow("apply", calibration, "ada")
     station.abort(running)
     assert ended(station, running) is State.ABORTED
 
@@ -150,30 +149,30 @@ def test_rolling_back_twice_answers_the_same_run(station: Orchestrator, store: S
     calibration = calibrate(station)
     apply(station, calibration)
     run = roll_back(station, calibration)
-    again = station.roll_back(calibration, "bob")
+    again = station.follow("rollback", calibration, "bob")
     assert (again.id, again.created) == (run, False)
     with pytest.raises(NotApplicable, match="calibrate to apply again"):
-        station.apply(calibration, "ada")
+        station.follow("apply", calibration, "ada")
 
 
 def test_zeros_of_a_newer_run_stand_in_the_way(station: Orchestrator, store: Store) -> None:
     first, second = calibrate(station), calibrate(station)
     run = apply(station, second)
-    for refused in (station.apply, station.roll_back):
+    for refused in ("apply", "rollback"):
         with pytest.raises(NotApplicable, match=f"changed since, by run {run}"):
-            refused(first, "ada")
-    assert known(store, first)["state"] == "superseded"
+            station.follow(refused, first, "ada")
+    assert known(store, first).state == "superseded"
     third = calibrate(station)
     newest = apply(station, third)
     with pytest.raises(NotApplicable, match=f"changed since, by run {newest}"):
-        station.roll_back(second, "ada")
+        station.follow("rollback", second, "ada")
 
 
 def test_a_changed_robot_file_stands_in_the_way(station: Orchestrator, store: Store) -> None:
     calibration = calibrate(station)
     store.save_robot(replace(ROBOT, L=(375.2, 375.0)))
     with pytest.raises(NotApplicable, match="file of robot R1 has changed"):
-        station.apply(calibration, "ada")
+        station.follow("apply", calibration, "ada")
 
 
 def test_a_machine_that_changed_since_is_noticed_before_anything_is_written(
@@ -182,21 +181,21 @@ def test_a_machine_that_changed_since_is_noticed_before_anything_is_written(
     calibration = calibrate(station)
     rig.axes[1].offset_deg += 0.1
     outcome = store.calibration(apply(station, calibration))
-    assert (outcome["state"], outcome["verdict"]) == ("failed", None)
-    assert outcome["reason"].startswith("Nothing was written: the machine is not as run 1 measured it")
-    assert known(store, calibration)["state"] == "unwritten"
+    assert (outcome.state, outcome.verdict) == ("failed", None)
+    assert (outcome.reason or "").startswith("Nothing was written: the machine is not as run 1 measured it")
+    assert known(store, calibration).state == "unwritten"
     rig.axes[1].offset_deg -= 0.1
-    assert store.calibration(apply(station, calibration))["verdict"] == "pass"
+    assert store.calibration(apply(station, calibration)).verdict == "pass"
     rig.axes[0].offset_deg += 0.1
     outcome = store.calibration(roll_back(station, calibration))
-    assert outcome["reason"].startswith("Nothing was written: the drives are not as they were left")
-    assert known(store, calibration)["state"] == "applied"
+    assert (outcome.reason or "").startswith("Nothing was written: the drives are not as they were left")
+    assert known(store, calibration).state == "applied"
 
 
 def test_the_readout_may_have_been_switched_off_since(station: Orchestrator, store: Store, rig: Rig) -> None:
     calibration = calibrate(station)
     rig.scale.offset_mm -= 123.0
-    assert store.calibration(apply(station, calibration))["verdict"] == "pass"
+    assert store.calibration(apply(station, calibration)).verdict == "pass"
 
 
 def slip(rig: Rig, joint: int) -> Callable[[], None]:
@@ -213,10 +212,10 @@ def test_a_verification_that_fails_rolls_back_by_itself(
     calibration = calibrate(station)
     rig.script.do("axis 2 preset", slip(rig, 0))
     outcome = store.calibration(apply(station, calibration))
-    assert (outcome["state"], outcome["verdict"]) == ("succeeded", "fail")
-    assert "fresh readings are not predicted" in outcome["reason"]
-    assert outcome["reason"].endswith("rolled back, the old zero offsets are in the drives")
-    assert known(store, calibration)["state"] == "rolled back"
+    assert (outcome.state, outcome.verdict) == ("succeeded", "fail")
+    assert "Fresh readings are not predicted" in (outcome.reason or "")
+    assert (outcome.reason or "").endswith("Rolled back; the old zero offsets are in the drives.")
+    assert known(store, calibration).state == "rolled back"
     assert rig.axes[1].offset_deg == pytest.approx(OFFSETS[1], abs=1e-6)
 
 
@@ -239,9 +238,9 @@ def test_a_zero_that_is_refused_takes_the_other_one_back(
 
     rig.script.do(call, once)
     outcome = store.calibration(apply(station, calibration))
-    assert (outcome["state"], outcome["verdict"]) == ("failed", None)
-    assert outcome["reason"] == f"{error} The old zero offsets are in the drives."
-    assert known(store, calibration)["state"] in ("unwritten", "rolled back")
+    assert (outcome.state, outcome.verdict) == ("failed", None)
+    assert outcome.reason == f"{error} The old zero offsets are in the drives."
+    assert known(store, calibration).state in ("unwritten", "rolled back")
     assert offsets(rig) == pytest.approx(OFFSETS, abs=1e-6)
 
 
@@ -257,8 +256,8 @@ def test_a_zero_that_reads_back_different_is_taken_back(
 
     monkeypatch.setattr(axis, "preset", beside)
     outcome = store.calibration(apply(station, calibration))
-    assert outcome["reason"].startswith("The zero of joint 2 reads back 180.0090 deg instead of 180.")
-    assert known(store, calibration)["state"] == "rolled back"
+    assert (outcome.reason or "").startswith("The zero of joint 2 reads back 180.0090 deg instead of 180.")
+    assert known(store, calibration).state == "rolled back"
     assert offsets(rig) == pytest.approx(OFFSETS, abs=1e-6)
 
 
@@ -269,10 +268,10 @@ def test_a_way_back_that_fails_says_so_and_can_be_pressed_again(
     rig.script.fail("axis 2 preset", DeviceFault("the drive refuses its zero"))
     rig.script.do("axis 1 preset", lambda: rig.script.fail("axis 1 preset", DeviceFault("and this one too")))
     outcome = store.calibration(apply(station, calibration))
-    assert outcome["reason"] == "the drive refuses its zero The way back failed too: and this one too"
-    assert known(store, calibration)["state"] == "partly"
+    assert outcome.reason == "the drive refuses its zero The way back failed too: and this one too"
+    assert known(store, calibration).state == "partly"
     rig.script.faults.clear()
-    assert store.calibration(roll_back(station, calibration))["verdict"] == "pass"
+    assert store.calibration(roll_back(station, calibration)).verdict == "pass"
     assert offsets(rig) == pytest.approx(OFFSETS, abs=1e-6)
 
 
@@ -288,9 +287,9 @@ def test_a_fault_on_the_verifying_walk_rolls_back(station: Orchestrator, store: 
         lambda: rig.script.do("scale read", once, at=rig.script.calls.count("scale read") + 3),
     )
     outcome = store.calibration(apply(station, calibration))
-    assert outcome["reason"].startswith("At position V")
-    assert outcome["reason"].endswith("The old zero offsets are in the drives.")
-    assert known(store, calibration)["state"] == "rolled back"
+    assert (outcome.reason or "").startswith("At position V")
+    assert (outcome.reason or "").endswith("The old zero offsets are in the drives.")
+    assert known(store, calibration).state == "rolled back"
     assert offsets(rig) == pytest.approx(OFFSETS, abs=1e-6)
 
 
@@ -305,12 +304,12 @@ def test_a_stop_between_the_zeros_leaves_what_is_written_and_says_so(
 
     rig.script.do(f"axis {joint} preset", pressed)
     outcome = store.calibration(apply(station, calibration))
-    assert (outcome["state"], outcome["reason"]) == ("aborted", "Stopped by ada.")
+    assert (outcome.state, outcome.reason) == ("aborted", "Stopped by ada.")
     found = known(store, calibration)
-    assert (found["state"], found["verified"]) == (state, False)
-    assert found["joints"][0]["state"] == "applied"
+    assert (found.state, found.verified) == (state, False)
+    assert found.joints[0].state == "applied"
     rig.script.faults.clear()
-    assert store.calibration(roll_back(station, calibration))["verdict"] == "pass"
+    assert store.calibration(roll_back(station, calibration)).verdict == "pass"
     assert offsets(rig) == pytest.approx(OFFSETS, abs=1e-6)
 
 
@@ -320,17 +319,17 @@ def test_a_power_cut_during_a_write_is_settled_by_where_the_joints_stand(
 ) -> None:
     calibration = calibrate(station)
     station.shutdown()
-    run = store.create(CalibrationRequest("R1", "apply", "ada", of=calibration), ROBOT)
+    run = store.create(asked("R1", "apply", of=calibration), ROBOT)
     rig.axes[0].theta_deg = HOME_DEG[0] - OFFSETS[0]
     store.begin_zero_write(run, 1, OFFSETS[0], rig.axes[0].theta_deg)
     if taken:
         rig.axes[0].connect()
         rig.axes[0].preset(HOME_DEG[0])
     store.interrupt_unfinished()
-    assert known(store, calibration)["state"] == "in doubt"
+    assert known(store, calibration).state == "in doubt"
     run = roll_back(start(start_procedure), calibration)
-    assert store.calibration(run)["verdict"] == "pass"
-    assert known(store, calibration)["state"] == ("rolled back" if taken else "unwritten")
+    assert store.calibration(run).verdict == "pass"
+    assert known(store, calibration).state == ("rolled back" if taken else "unwritten")
     assert offsets(rig) == pytest.approx(OFFSETS, abs=1e-6)
 
 
@@ -338,15 +337,15 @@ def test_joints_that_were_moved_after_a_power_cut_leave_it_in_doubt(
     station: Orchestrator, store: Store, rig: Rig
 ) -> None:
     calibration = calibrate(station)
-    run = store.create(CalibrationRequest("R1", "apply", "ada", of=calibration), ROBOT)
+    run = store.create(asked("R1", "apply", of=calibration), ROBOT)
     store.begin_zero_write(run, 1, OFFSETS[0], -OFFSETS[0])
     rig.axes[0].theta_deg = 5.0
     store.interrupt_unfinished()
     outcome = store.calibration(roll_back(station, calibration))
-    assert outcome["reason"] == (
+    assert outcome.reason == (
         f"Whether joint 1 took the zero of run {run} cannot be told any more; calibrate again."
     )
-    assert known(store, calibration)["state"] == "in doubt"
+    assert known(store, calibration).state == "in doubt"
 
 
 def test_memory_outlives_an_application(station: Orchestrator, store: Store) -> None:
@@ -364,5 +363,5 @@ def test_a_robot_that_never_passed_the_model_still_walks(start: Start, store: St
     orchestrator = start(fake, SETTINGS)
     calibration = calibrate(orchestrator, "paper")
     outcome = store.calibration(apply(orchestrator, calibration))
-    assert (outcome["state"], outcome["verdict"]) == ("failed", None)
-    assert known(store, calibration)["state"] == "unwritten"
+    assert (outcome.state, outcome.verdict) == ("failed", None)
+    assert known(store, calibration).state == "unwritten"

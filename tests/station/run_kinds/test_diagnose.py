@@ -13,14 +13,13 @@ from click.testing import CliRunner
 from station.cli import main
 from station.errors import InputRefused, NotApplicable, NotFound
 from station.five_bar.robot_file import Robot
-from station.plans.diagnostic_sequence import FRESH_PLACES, fresh_stops
+from station.plans.diagnostic_sequence import FRESH_PLACES, diagnostic_fresh_stops
 from station.plans.plans import make_plan
-from station.records.reading import Reading
-from station.records.run import CalibrationRequest, CalibrationResult, PlanName, Procedure, State, Walk
-from station.run_kinds.calibrate import start_procedure
+from station.records import CalibrationResult, PlanName, Procedure, Reading, State, Walk
+from station.run_kinds.zero_state import application, check_apply
 from station.store.store import Store
-from station.store.zero_state import application, check_apply
 from station.studies.simulation import SimulatedMachine
+from tests.station.asking import asked, start_procedure
 
 ROBOT = Robot.default("R1")
 TRUTH = np.concatenate([np.radians([0.8, -0.6]), np.zeros(8), [0.5, -0.3]])
@@ -91,16 +90,16 @@ def test_the_walk_reads_most_places_from_both_sides_and_ten_three_times() -> Non
 
 
 def test_fresh_places_are_others_each_run_and_the_same_again_by_seed() -> None:
-    first, second = (fresh_stops(ROBOT, np.zeros(2), seed) for seed in (1, 2))
+    first, second = (diagnostic_fresh_stops(ROBOT, np.zeros(2), seed) for seed in (1, 2))
     assert len(first) == FRESH_PLACES
-    assert first == fresh_stops(ROBOT, np.zeros(2), 1)
+    assert first == diagnostic_fresh_stops(ROBOT, np.zeros(2), 1)
     assert not {s.target_mm for s in first} & {s.target_mm for s in second}
 
 
 def test_a_clean_machine_lacks_nothing() -> None:
     readings, result = run(machine())
     assert (result.verdict, result.method, result.findings) == ("pass", "diagnosis", ())
-    assert result.reason == "nothing is missing: the model fits the readings and predicts fresh ones"
+    assert result.reason.code == "adequate_confirmed"
     assert [r.walk for r in readings] == [1] * 120 + [2] * 40
     for zero, truth in zip(result.zero_offsets, (0.8, -0.6), strict=True):
         assert abs(zero.value - truth) < 4 * zero.sd
@@ -109,14 +108,17 @@ def test_a_clean_machine_lacks_nothing() -> None:
 def test_backlash_is_named_and_fresh_readings_confirm_it() -> None:
     _, result = run(machine(BACKLASH))
     assert result.verdict == "pass"
-    assert result.reason.startswith("backlash of joint 1 explains 9")
-    assert result.reason.endswith("% of the residual and predicts fresh readings")
+    assert result.reason.code == "explained_confirmed"
+    assert result.reason.text.startswith("backlash of joint 1 explained 9")
     (finding,) = result.findings
-    (width,) = finding["parameters"]
-    assert abs(width["value"] - 0.02) < 4 * width["sd"]
-    assert result.before["fresh_reading_rms_mm"] > 5 * result.after["fresh_reading_rms_mm"]
+    (width,) = finding.parameters
+    assert abs(width.value - 0.02) < 4 * width.sd
+    before, after = result.before, result.after
+    assert before is not None and before.fresh_reading_rms_mm is not None
+    assert after is not None and after.fresh_reading_rms_mm is not None
+    assert before.fresh_reading_rms_mm > 5 * after.fresh_reading_rms_mm
     assert result.diagnosis is not None
-    assert (result.diagnosis["verdict"], result.diagnosis["confirmed"]) == ("explained", True)
+    assert (result.diagnosis.verdict, result.diagnosis.confirmed) == ("explained", True)
     assert len(result.residuals) == 120
 
 
@@ -124,21 +126,21 @@ def test_what_the_catalogue_does_not_hold_fails_and_says_what_it_depends_on() ->
     _, result = run(machine(DRAG))
     assert result.verdict == "fail"
     assert result.diagnosis is not None
-    assert result.diagnosis["hints"]
-    assert result.diagnosis["hints"][0]["depends_on"] in result.reason
+    assert result.diagnosis.hints
+    assert result.diagnosis.hints[0].depends_on in result.reason.text
 
 
 @pytest.mark.parametrize("plan", ["paper", "rapid", "full"])
 def test_lack_of_fit_is_judged_at_once_after_any_calibration(tmp_path: Path, plan: PlanName) -> None:
-    assert run(machine(), plan)[1].lack_of_fit == ""
+    assert run(machine(), plan)[1].lack_of_fit is None
     _, result = run(machine({**BACKLASH, "width_deg": 0.05}), plan)
     assert result.verdict == "fail"
-    assert result.lack_of_fit == result.reason != ""
+    assert result.lack_of_fit == result.reason.text != ""
     store = Store(tmp_path / "station.db")
-    kept = store.create(CalibrationRequest("R1", plan, "ada"), ROBOT)
-    assert store.calibration(kept)["lack_of_fit"] is None
+    kept = store.create(asked("R1", plan), ROBOT)
+    assert store.calibration(kept).lack_of_fit is None
     store.finish(kept, State.SUCCEEDED, result)
-    assert store.calibration(kept)["lack_of_fit"] == result.reason
+    assert store.calibration(kept).lack_of_fit == result.reason.text
     store.close()
 
 
@@ -147,16 +149,16 @@ def test_an_effect_too_large_for_any_fit_is_a_lack_of_fit_too(tmp_path: Path, pl
     """Nothing can be said of the zero offsets then, but what to do next."""
     readings, result = run(machine({"kind": "link_length", "joint": 1, "link": "L", "mm": 6.0}), plan)
     assert (result.verdict, result.zero_offsets, result.lasting) == ("fail", (), None)
-    assert result.lack_of_fit == result.reason
-    assert "run the diagnosis" in result.reason
+    assert result.lack_of_fit == result.reason.text
+    assert "run the diagnosis" in result.reason.text
     store = Store(tmp_path / "station.db")
-    kept = store.create(CalibrationRequest("R1", plan, "ada"), ROBOT)
+    kept = store.create(asked("R1", plan), ROBOT)
     store.add_readings(kept, readings)
     assert store.finish(kept, State.SUCCEEDED, result) is State.SUCCEEDED
     found = store.calibration(kept)
-    assert (found["verdict"], found["zero_offsets"], found["lack_of_fit"]) == ("fail", [], result.reason)
+    assert (found.verdict, found.zero_offsets, found.lack_of_fit) == ("fail", (), result.reason.text)
     with pytest.raises(NotApplicable):
-        check_apply(store, kept)
+        check_apply(store, asked("R1", "apply", of=kept))
     store.close()
 
 
@@ -170,18 +172,19 @@ def test_readings_of_another_robot_are_refused() -> None:
 def test_the_document_is_kept_with_every_digit_and_no_list_carries_it(tmp_path: Path) -> None:
     _, result = run(machine(BACKLASH))
     store = Store(tmp_path / "station.db")
-    kept = store.create(CalibrationRequest("R1", "diagnostic", "ada"), ROBOT)
+    kept = store.create(asked("R1", "diagnostic"), ROBOT)
     with pytest.raises(NotFound, match="has no diagnosis"):
         store.diagnosis(kept)
     assert store.finish(kept, State.SUCCEEDED, result) is State.SUCCEEDED
-    assert store.diagnosis(kept) == json.loads(json.dumps(result.diagnosis))
-    assert "diagnosis" not in store.calibration(kept)
-    assert "findings" not in store.calibrations().items[0]
-    assert store.calibration(kept)["findings"][0]["effect"] == "backlash"
+    assert result.diagnosis is not None
+    assert store.diagnosis(kept).model_dump_json() == result.diagnosis.model_dump_json()
+    assert not hasattr(store.calibration(kept), "diagnosis")
+    assert not hasattr(store.calibrations().items[0], "findings")
+    assert store.calibration(kept).findings[0].effect == "backlash"
     with pytest.raises(NotFound, match="There is no calibration 99"):
         store.diagnosis(99)
-    with pytest.raises(NotApplicable, match="looked for a cause"):
-        check_apply(store, kept)
+    with pytest.raises(NotApplicable, match="of kind diagnosis"):
+        check_apply(store, asked("R1", "apply", of=kept))
     assert application(store, store.calibration(kept)) is None
     store.close()
 

@@ -14,23 +14,33 @@ from click.testing import CliRunner
 from station.cli import main
 from station.errors import NotFound
 from station.five_bar.robot_file import Robot
-from station.records.run import CalibrationRequest, CalibrationResult, PlanName, Remembered, State
+from station.records import (
+    Accuracy,
+    Calibration,
+    CalibrationResult,
+    LastingParameters,
+    PlanName,
+    Quantity,
+    Remembered,
+    State,
+)
 from station.service.runtime import Runtime
 from station.settings import EmulatedSettings, Settings
 from station.store.store import Store
+from tests.station.asking import asked
 from tests.station.fakes import result_of
 
 FAST = Settings(emulated=EmulatedSettings(speed=1000.0))
-LASTING = {"names": ["rMx", "rMy"], "mean": [1.0, 0.5], "covariance": [[0.0004, 0.0], [0.0, 0.0001]]}
+LASTING = LastingParameters(names=("rMx", "rMy"), mean=(1.0, 0.5), covariance=((0.0004, 0.0), (0.0, 0.0001)))
 LIMIT_S = 60.0
 
 
 def finish(
     store: Store, *, serial: str = "R1", robot: Robot | None = None, verdict: str = "pass", **changes: Any
 ) -> int:
-    run = store.create(CalibrationRequest(serial, "full", "ada"), robot or Robot.default(serial))
-    result: CalibrationResult = replace(result_of([], verdict), lasting=LASTING, **changes)
-    store.finish(run, State.SUCCEEDED, result)
+    run = store.create(asked(serial, "full"), robot or Robot.default(serial))
+    made: CalibrationResult = result_of([], verdict).model_copy(update={"lasting": LASTING, **changes})
+    store.finish(run, State.SUCCEEDED, made)
     return run
 
 
@@ -50,11 +60,11 @@ def test_the_newest_pass_is_what_is_remembered(store: Store) -> None:
     known = store.memory("R1")
     assert known is not None
     assert (known.calibration_id, known.memory) == (second, LASTING)
-    assert known.to_json()["parameters"][0] == {"name": "rMx", "value": 1.0, "sd": 0.02, "unit": "mm"}
+    assert known.summary().parameters[0] == Quantity("rMx", 1.0, 0.02, "mm")
 
 
 def test_a_result_that_is_no_pass_leaves_nothing(store: Store) -> None:
-    run = finish(store, after={"reading_rms_mm": float("nan")})
+    run = finish(store, after=Accuracy(reading_rms_mm=float("nan")))
     assert store.memory("R1") is None
     with pytest.raises(NotFound, match="left no memory"):
         store.memory_left_by(run)
@@ -86,8 +96,8 @@ def test_age_is_never_negative() -> None:
     assert Remembered(1, tomorrow - timedelta(days=11), LASTING).age_days == pytest.approx(10.0, abs=0.01)
 
 
-def calibrate(runtime: Runtime, plan: PlanName) -> dict[str, Any]:
-    run = runtime.orchestrator.submit(CalibrationRequest("R1", plan, "ada")).id
+def calibrate(runtime: Runtime, plan: PlanName) -> Calibration:
+    run = runtime.orchestrator.submit(asked("R1", plan)).id
     assert runtime.orchestrator.wait(run, LIMIT_S) is State.SUCCEEDED
     return runtime.store.calibration(run)
 
@@ -101,13 +111,15 @@ def test_a_rapid_run_after_a_full_one_is_surer_until_it_is_told_to_forget(tmp_pa
         paper = calibrate(runtime, "paper")
         runtime.store.forget("R1", "ada")
         without = calibrate(runtime, "rapid")
-    assert [run["verdict"] for run in (alone, full, rapid, paper, without)] == ["pass"] * 5
-    assert (full["memory"], paper["memory"], without["memory"]) == (None, None, None)
-    assert rapid["memory"]["used"]
-    assert rapid["memory"]["from_calibration"] == full["id"]
-    assert 0.0 <= rapid["memory"]["age_days"] < 1.0
-    for zero, before in zip(rapid["zero_offsets"], alone["zero_offsets"], strict=True):
-        assert zero["sd_deg"] < 0.75 * before["sd_deg"]
+    assert [run.verdict for run in (alone, full, rapid, paper, without)] == ["pass"] * 5
+    assert (full.memory, paper.memory, without.memory) == (None, None, None)
+    assert rapid.memory is not None and rapid.memory.age_days is not None
+    assert rapid.memory.used
+    assert rapid.memory.from_calibration == full.id
+    assert 0.0 <= rapid.memory.age_days < 1.0
+    for zero, before in zip(rapid.zero_offsets, alone.zero_offsets, strict=True):
+        assert zero.sd_deg is not None and before.sd_deg is not None
+        assert zero.sd_deg < 0.75 * before.sd_deg
 
 
 def test_a_mechanism_mounted_anew_drops_the_memory_and_says_so(tmp_path: Path) -> None:
@@ -117,9 +129,10 @@ def test_a_mechanism_mounted_anew_drops_the_memory_and_says_so(tmp_path: Path) -
     with Runtime.open(FAST, tmp_path, first) as runtime:
         calibrate(runtime, "full")
     with Runtime.open(FAST, tmp_path, second) as runtime:
-        memory = calibrate(runtime, "full")["memory"]
-    assert not memory["used"]
-    assert "dropped" in memory["text"]
+        memory = calibrate(runtime, "full").memory
+    assert memory is not None
+    assert not memory.used
+    assert "remounted" in memory.text
 
 
 def test_the_terminal_shows_and_clears_what_is_remembered(tmp_path: Path, store: Store) -> None:

@@ -10,11 +10,11 @@ import pytest
 
 from station.diagnosis.separating import COUNTS, experiment
 from station.errors import InputRefused, NotApplicable, NotFound
-from station.records.reading import Reading
-from station.records.run import CalibrationRequest, CalibrationResult, State
+from station.records import CalibrationResult, Reading, State
 from station.run_kinds.diagnose import diagnosed
 from station.run_kinds.separate import planned, separating
 from station.store.store import Store
+from tests.station.asking import asked
 from tests.station.run_kinds.test_diagnose import BACKLASH, ROBOT, carried_out, machine, run
 
 DRIFT = {"kind": "drift", "mm_per_hour": 1.5}
@@ -25,7 +25,7 @@ GAIN = {"kind": "transmission_gain", "joint": 1, "ppm": 1500.0}
 
 def alias_set(result: CalibrationResult) -> list[tuple[str, int | None]]:
     (finding,) = result.findings
-    return [(member["effect"], member["joint"]) for member in finding["alias_set"]]
+    return [(member.effect, member.joint) for member in finding.alias_set]
 
 
 @pytest.mark.parametrize("effect", [DRIFT, FAST_WARMING, SLOW_WARMING], ids=lambda e: str(e))
@@ -62,7 +62,7 @@ def test_none_is_offered_where_motion_would_tell_nothing(effect: dict[str, Any])
     """Smooth effects of one joint differ by less than 0.2 um anywhere; play has no look-alike."""
     readings, _ = run(machine(effect))
     assert experiment(diagnosed(ROBOT, readings)) is None
-    with pytest.raises(InputRefused, match="Motion alone"):
+    with pytest.raises(InputRefused, match="No further motion"):
         next(separating(ROBOT, readings))
 
 
@@ -80,7 +80,7 @@ class Kept:
         self.run = self.keep(*run(machine(FAST_WARMING)))
 
     def keep(self, readings: list[Reading], result: CalibrationResult, plan: Any = "diagnostic") -> int:
-        return self.store.add_run(CalibrationRequest("R1", plan, "ada"), ROBOT, readings, result)
+        return self.store.add_run(asked("R1", plan), ROBOT, readings, result)
 
 
 def test_why_a_run_cannot_be_gone_on_from(tmp_path: Path) -> None:
@@ -89,17 +89,17 @@ def test_why_a_run_cannot_be_gone_on_from(tmp_path: Path) -> None:
     plan = planned(store, kept.run)
     assert plan.experiment.apart == ("drift",)
     assert 10.0 < plan.duration_s < 600.0
-    unapplied = store.create(CalibrationRequest("R1", "paper", "ada"), ROBOT)
+    unapplied = store.create(asked("R1", "paper"), ROBOT)
     store.finish(unapplied, State.ABORTED)
     with pytest.raises(NotFound, match="has no diagnosis"):
         planned(store, unapplied)
-    imported = kept.keep(*run(machine(FAST_WARMING)), plan="dataset")
+    imported = kept.keep(*run(machine(FAST_WARMING)), plan="import")
     with pytest.raises(NotApplicable, match="imported from a file"):
         planned(store, imported)
     clear = kept.keep(*run(machine(BACKLASH)))
-    with pytest.raises(NotApplicable, match="Motion alone"):
+    with pytest.raises(NotApplicable, match="No further motion"):
         planned(store, clear)
-    apply = store.create(CalibrationRequest("R1", "apply", "ada", of=unapplied), ROBOT)
+    apply = store.create(asked("R1", "apply", of=unapplied), ROBOT)
     store.begin_zero_write(apply, 1, 0.8, 0.8)
     with pytest.raises(NotApplicable, match=f"Run {apply} has changed the drives. zeros"):
         planned(store, kept.run)

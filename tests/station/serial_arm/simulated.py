@@ -7,9 +7,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
+from station.records import Measurements, Real
 from station.records.guesses import with_guesses
-from station.records.measurements import Measurements
-from station.records.types import Real
 from station.serial_arm.robot_file import Arm
 
 UR_LIKE = {

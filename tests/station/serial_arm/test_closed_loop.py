@@ -12,7 +12,7 @@ from station.diagnosis.closed_loop import diagnose
 from station.diagnosis.report.document import Findings
 from station.diagnosis.report.joint_curves import curves
 from station.diagnosis.tests_of_fit.cross_validation import without_a_quarter
-from station.records.types import Real
+from station.records import Real
 from tests.station.serial_arm.simulated import CRAIG_SEVEN, UR_LIKE, random_arm, random_poses
 
 COUNT = 900
@@ -91,7 +91,7 @@ def test_gross_readings_are_named_and_left_out() -> None:
 
 def test_parameters_that_cannot_be_told_apart_are_named() -> None:
     """Parallel axes: where along them a link sits is anybody's guess; the sum alone shows."""
-    tied = found(UR_LIKE, 5).weak_direction["blind"]
+    tied = found(UR_LIKE, 5).weak_direction.blind
     names = {text.split()[0] for text in tied}
     assert len({"d2", "d3", "d4", "b4"} - names) == 1
     assert "dtheta6" in names or "base_rz" in names or any("dtheta1" in text for text in tied)

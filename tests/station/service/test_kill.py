@@ -18,6 +18,7 @@ from pathlib import Path
 from station.service import Orchestrator
 from station.records import CalibrationRequest
 from station.store import Store
+from tests.station.asking import asked, kinds_with
 from tests.station.conftest import SETTINGS
 from tests.station.fakes import make_rig, two_walks
 
@@ -31,8 +32,8 @@ call, at = moment.split(":")
 rig.script.do(call, wait, at=int(at))
 store = Store(Path(sys.argv[1]))
 store.interrupt_unfinished()
-orchestrator = Orchestrator(rig.devices, store, SETTINGS, two_walks)
-orchestrator.submit(CalibrationRequest("R1", "paper", "ada"), idempotency_key="k")
+orchestrator = Orchestrator(rig.devices, store, SETTINGS, kinds_with(two_walks))
+orchestrator.submit(asked("R1", "paper"), idempotency_key="k")
 sys.stdin.read()
 """
 
@@ -59,10 +60,10 @@ def test_what_was_measured_before_a_kill_is_kept(tmp_path: Path, moment: str, re
     store = Store(path)
     try:
         assert [r.reading for r in store.readings(1)] == list(range(1, readings + 1))
-        assert store.calibration(1)["step"] == readings
+        assert store.calibration(1).step == readings
         assert store.interrupt_unfinished() == [1]
         calibration = store.calibration(1)
-        assert (calibration["state"], calibration["verdict"]) == ("interrupted", None)
-        assert calibration["ended_at"] is not None
+        assert (calibration.state, calibration.verdict) == ("interrupted", None)
+        assert calibration.ended_at is not None
     finally:
         store.close()

@@ -16,14 +16,24 @@ from drivers.errors import DeviceFault, LinkLost
 from station.errors import Busy, InputRefused, KeyReused, NotFound
 from station.five_bar.robot_file import Robot
 from station.motion.events import LiveEvent
-from station.records.run import CalibrationRequest, PlanName, Procedure, State, Walk
+from station.records import (
+    Accuracy,
+    CalibrationRequest,
+    PlanName,
+    Procedure,
+    SequenceTitle,
+    State,
+    StationView,
+    Walk,
+)
 from station.service.orchestrator import Orchestrator
 from station.settings import LimitSettings, Settings
 from station.store.store import Store
+from tests.station.asking import asked
 from tests.station.conftest import Start
 from tests.station.fakes import STOPS, Rig, result_of, stop_at
 
-REQUEST = CalibrationRequest("R1", "paper", "ada")
+REQUEST = asked("R1", "paper")
 LIMIT_S = 10.0
 
 
@@ -35,16 +45,21 @@ def run_to_end(orchestrator: Orchestrator, request: CalibrationRequest = REQUEST
 
 def outcome(store: Store, calibration_id: int) -> tuple[str, str | None, str]:
     calibration = store.calibration(calibration_id)
-    return calibration["state"], calibration["verdict"], calibration["reason"] or ""
+    return calibration.state, calibration.verdict, calibration.reason or ""
 
 
-def until(orchestrator: Orchestrator, condition: Callable[[dict[str, Any]], bool]) -> dict[str, Any]:
+def until(orchestrator: Orchestrator, condition: Callable[[StationView], bool]) -> StationView:
     """The first snapshot that meets the condition."""
     deadline = time.monotonic() + LIMIT_S
     while not condition(snapshot := orchestrator.snapshot()):
         assert time.monotonic() < deadline, snapshot
         time.sleep(0.01)
     return snapshot
+
+
+def measuring(snapshot: StationView) -> bool:
+    """A run has begun a measurement sequence."""
+    return snapshot.run is not None and snapshot.run.walk is not None
 
 
 # The whole way -----------------------------------------------------------------------------------
@@ -55,7 +70,7 @@ def test_a_run_walks_reads_stores_and_succeeds(start: Start, store: Store, rig: 
     events: list[LiveEvent] = []
     orchestrator.subscribe(events.append)
     run = run_to_end(orchestrator)
-    assert outcome(store, run) == ("succeeded", "pass", "converged")
+    assert outcome(store, run) == ("succeeded", "pass", "Converged in 2 passes, mu = 0.0100°.")
     readings = store.readings(run)
     assert [(r.reading, r.walk, r.position) for r in readings] == [
         (1, 1, "p1"),
@@ -76,7 +91,7 @@ def test_a_run_walks_reads_stores_and_succeeds(start: Start, store: Store, rig: 
     assert kinds.count("residuals") == 1
     assert kinds[-1] == "ended"
     calibration = store.calibration(run)
-    assert (calibration["step"], calibration["steps"]) == (6, 6)
+    assert (calibration.step, calibration.steps) == (6, 6)
     assert "axis 1 quick_stop" not in rig.script.calls
 
 
@@ -105,13 +120,17 @@ def test_a_failed_verdict_is_a_run_that_succeeded(start: Start, store: Store) ->
         readings = yield Walk("Measuring", 1, STOPS)
         return result_of(readings, "fail")
 
-    assert outcome(store, run_to_end(start(fails))) == ("succeeded", "fail", "mu stays above 0.1 deg")
+    assert outcome(store, run_to_end(start(fails))) == (
+        "succeeded",
+        "fail",
+        "The compensation did not settle: mu did not fall below 0.1° in 8 passes.",
+    )
 
 
 def test_a_pass_over_nan_fails_closed(start: Start, store: Store) -> None:
     def nan(plan: PlanName, robot: Robot) -> Procedure:
         readings = yield Walk("Measuring", 1, STOPS)
-        return replace(result_of(readings), after={"reading_rms_mm": float("nan")})
+        return result_of(readings).model_copy(update={"after": Accuracy(reading_rms_mm=float("nan"))})
 
     state, verdict, reason = outcome(store, run_to_end(start(nan)))
     assert (state, verdict) == ("failed", "fail")
@@ -155,8 +174,8 @@ def test_a_device_fault_at_any_step_stops_both_axes_and_says_why(
     assert (got, verdict) == (state, None)
     assert str(error) in reason
     assert {"axis 1 quick_stop", "axis 2 quick_stop", "scale make_safe"} <= set(rig.script.calls)
-    device = next(d for d in orchestrator.snapshot()["devices"] if d["name"] == call.rsplit(" ", 1)[0])
-    assert device["state"] in ("lost", "fault", "ok")
+    device = next(d for d in orchestrator.snapshot().devices if d.name == call.rsplit(" ", 1)[0])
+    assert device.state in ("lost", "fault", "ok")
     rig.script.faults.clear()
     assert outcome(store, run_to_end(orchestrator))[0] == "succeeded", "the way back"
 
@@ -213,7 +232,8 @@ def test_an_end_that_cannot_be_stored_still_frees_the_rig(
     monkeypatch.setattr(store, "finish", full)
     run = orchestrator.submit(REQUEST).id
     assert orchestrator.wait(run, LIMIT_S) is State.RUNNING, "not stored, so the next start says interrupted"
-    assert orchestrator.snapshot()["last"]["state"] == "failed"
+    last = orchestrator.snapshot().last
+    assert last is not None and last.state == "failed"
     monkeypatch.undo()
     assert outcome(store, run_to_end(orchestrator))[0] == "succeeded"
     assert store.interrupt_unfinished() == [run]
@@ -243,8 +263,8 @@ def test_an_alarm_on_the_way_is_named_and_reset_by_the_next_run(start: Start, st
     state, _, reason = outcome(store, run_to_end(orchestrator))
     assert state == "failed"
     assert "Axis 2 shows alarm 180h" in reason
-    lock = next(lock for lock in orchestrator.snapshot()["interlocks"] if lock["id"] == "alarm")
-    assert not lock["ok"]
+    lock = next(lock for lock in orchestrator.snapshot().interlocks if lock.id == "alarm")
+    assert not lock.ok
     assert outcome(store, run_to_end(orchestrator))[0] == "succeeded"
     assert "axis 2 reset_alarm" in rig.script.calls
 
@@ -411,10 +431,10 @@ def test_an_abort_at_any_step_ends_in_standstill_and_is_stored(
     stopped = len(calls) - 1 - calls[::-1].index("axis 1 quick_stop")
     assert "axis 1 move_to" not in calls[stopped:]
     assert "axis 2 move_to" not in calls[stopped:]
-    assert [(e["kind"], e["data"]["by"]) for e in store.events(run)] == [("stop", "ada")]
+    assert [(e.kind, e.data["by"]) for e in store.events(run)] == [("stop", "ada")]
     orchestrator.abort(run)
     orchestrator.abort(run)
-    assert store.calibration(run)["state"] == "aborted"
+    assert store.calibration(run).state == "aborted"
     assert outcome(store, run_to_end(orchestrator))[0] == "succeeded", "the way back"
 
 
@@ -469,10 +489,11 @@ def test_a_device_that_hangs_does_not_keep_the_others_from_being_stopped(
     assert time.monotonic() - began < 1.0
     stopped = {call for call in rig.script.calls if call.endswith("quick_stop")}
     assert stopped == {"axis 1 quick_stop", "axis 2 quick_stop"}
-    assert orchestrator.snapshot()["run"]["id"] == run, "snapshots do not wait for a device"
+    view = orchestrator.snapshot().run
+    assert view is not None and view.id == run, "snapshots do not wait for a device"
     events = store.events(run)
     if hanging != "scale":
-        assert events[0]["data"][hanging] == "no answer within 0.2 s"
+        assert events[0].data[hanging] == "no answer within 0.2 s"
     rig.released.set()
     assert orchestrator.wait(run, LIMIT_S) is State.ABORTED
 
@@ -489,10 +510,10 @@ def test_a_standstill_that_is_not_seen_is_said(
         rig.axes[0].moving = True
 
     run = orchestrator.submit(REQUEST).id
-    until(orchestrator, lambda snapshot: snapshot["run"]["walk"] is not None)
+    until(orchestrator, measuring)
     orchestrator.abort(run, "ada")
     assert orchestrator.wait(run, LIMIT_S) is State.ABORTED
-    assert store.calibration(run)["reason"] == (
+    assert store.calibration(run).reason == (
         "Stopped by ada. Standstill could not be confirmed, look at the arm (axis 1: still moves)."
     )
 
@@ -518,15 +539,15 @@ def test_stop_without_a_run_stops_too(
 ) -> None:
     monkeypatch.setattr("station.service.orchestrator.IDLE_S", 0.01)
     orchestrator = start()
-    until(orchestrator, lambda snapshot: snapshot["machine"] is not None)
+    until(orchestrator, lambda snapshot: snapshot.machine is not None)
     assert orchestrator.stop("ada") == {"axis 1": None, "axis 2": None}
     assert {"axis 1 quick_stop", "axis 2 quick_stop"} <= set(rig.script.calls)
-    assert [event["data"] for event in store.events(None)] == [{"by": "ada"}]
+    assert [event.data for event in store.events(None)] == [{"by": "ada"}]
 
 
 def test_a_stop_that_no_drive_confirmed_says_so(start: Start, store: Store) -> None:
     assert start().stop("ada")["axis 2"] == "axis 2 is not connected"
-    assert store.events(None)[0]["data"]["axis 2"] == "axis 2 is not connected"
+    assert store.events(None)[0].data["axis 2"] == "axis 2 is not connected"
 
 
 def test_aborting_what_does_not_exist_is_said(start: Start) -> None:
@@ -538,7 +559,7 @@ def test_shutdown_during_a_run_aborts_it_and_closes_the_devices(start: Start, st
     orchestrator = start()
     rig.axes[0].stuck = True
     run = orchestrator.submit(REQUEST).id
-    until(orchestrator, lambda snapshot: snapshot["run"]["walk"] is not None)
+    until(orchestrator, measuring)
     orchestrator.shutdown()
     orchestrator.shutdown()
     assert outcome(store, run) == ("aborted", None, "Stopped by the station's shutdown.")
@@ -584,7 +605,7 @@ def test_a_robot_that_does_not_fit_the_drives_is_refused(start: Start, store: St
 
 def test_the_snapshot_tells_the_run_reading_by_reading(start: Start, rig: Rig) -> None:
     orchestrator = start()
-    seen: list[dict[str, Any]] = []
+    seen: list[StationView] = []
 
     def look(event: LiveEvent) -> None:
         if event.type == "reading":
@@ -592,17 +613,18 @@ def test_the_snapshot_tells_the_run_reading_by_reading(start: Start, rig: Rig) -
 
     orchestrator.subscribe(look)
     run_to_end(orchestrator)
-    third = seen[2]["run"]
-    assert [stop["done"] for stop in third["stops"]] == [True, True, True]
-    assert [row["reading"] for row in third["readings"]] == [1, 2, 3]
-    assert third["readings"][0]["x_mm"] == pytest.approx(-200.0)
-    assert third["walk"] == {"number": 1, "title": "Measuring, pass 1"}
-    assert (third["step"], third["steps"]) == (3, 3)
-    assert third["remaining_s"] == 0
-    assert all(lock["ok"] for lock in seen[2]["interlocks"])
+    third = seen[2].run
+    assert third is not None
+    assert [stop.done for stop in third.stops] == [True, True, True]
+    assert [row.reading for row in third.readings] == [1, 2, 3]
+    assert third.readings[0].x_mm == pytest.approx(-200.0)
+    assert third.walk == SequenceTitle(number=1, title="Measuring, pass 1")
+    assert (third.step, third.steps) == (3, 3)
+    assert third.remaining_s == 0
+    assert all(lock.ok for lock in seen[2].interlocks)
     after = orchestrator.snapshot()
-    assert after["run"] is None
-    assert after["last"]["verdict"] == "pass"
+    assert after.run is None
+    assert after.last is not None and after.last.verdict == "pass"
 
 
 def test_a_listener_that_fails_does_not_disturb_the_run(start: Start, store: Store) -> None:
@@ -623,18 +645,18 @@ def test_an_idle_station_watches_its_machine_and_gets_lost_devices_back(
     orchestrator = start()
     events: list[LiveEvent] = []
     orchestrator.subscribe(events.append)
-    lost = until(orchestrator, lambda s: s["devices"][0]["state"] == "lost")
-    assert lost["devices"][0]["text"] == "cable?"
-    assert lost["machine"] is None
-    assert not lost["interlocks"][0]["ok"]
+    lost = until(orchestrator, lambda s: s.devices[0].state == "lost")
+    assert lost.devices[0].text == "cable?"
+    assert lost.machine is None
+    assert not lost.interlocks[0].ok
     rig.script.faults.clear()
-    found = until(orchestrator, lambda s: s["machine"] is not None)
-    assert found["machine"]["theta2_deg"] == 180.0
-    assert all(lock["ok"] for lock in found["interlocks"])
+    found = until(orchestrator, lambda s: s.machine is not None)
+    assert found.machine is not None and found.machine.theta2_deg == 180.0
+    assert all(lock.ok for lock in found.interlocks)
     assert {"device", "interlock", "machine"} <= {event.type for event in events}
 
     def told() -> list[Any]:
         return [event.data for event in events if event.type == "interlock"]
 
-    until(orchestrator, lambda s: told()[-1] == s["interlocks"])
+    until(orchestrator, lambda s: told()[-1] == s.interlocks)
     assert all(before != after for before, after in pairwise(told()))

@@ -9,34 +9,35 @@ import pytest
 from station.errors import InputRefused
 from station.five_bar.robot_file import Robot
 from station.motion.emulated_rig import EmulatedRig
-from station.records.run import CalibrationRequest, State
+from station.records import State
 from station.service.runtime import Runtime
 from station.settings import EmulatedSettings, Settings, load_settings
 from station.store.store import Store
+from tests.station.asking import asked
 
 FAST = Settings(emulated=EmulatedSettings(speed=200.0))
 
 
 def test_a_paper_run_on_the_emulated_rig_passes(tmp_path: Path) -> None:
     with Runtime.open(FAST, tmp_path) as runtime:
-        run = runtime.orchestrator.submit(CalibrationRequest("R1", "paper", "ada")).id
+        run = runtime.orchestrator.submit(asked("R1", "paper")).id
         assert runtime.orchestrator.wait(run, 30) is State.SUCCEEDED
         calibration = runtime.store.calibration(run)
-        assert calibration["verdict"] == "pass"
-        assert len(runtime.store.readings(run)) == calibration["steps"]
+        assert calibration.verdict == "pass"
+        assert len(runtime.store.readings(run)) == calibration.steps
         snapshot = runtime.orchestrator.snapshot()
-        assert snapshot["station"]["emulated"]
-        assert [device["state"] for device in snapshot["devices"]] == ["ok"] * 3
+        assert snapshot.station.emulated
+        assert [device.state for device in snapshot.devices] == ["ok"] * 3
 
 
 def test_a_paused_rig_is_stopped_over_its_real_wires(tmp_path: Path) -> None:
     slow = Settings(emulated=EmulatedSettings(speed=1.0))
     with Runtime.open(slow, tmp_path) as runtime:
-        run = runtime.orchestrator.submit(CalibrationRequest("R1", "paper", "ada")).id
+        run = runtime.orchestrator.submit(asked("R1", "paper")).id
         assert runtime.orchestrator.wait(run, 1.0) is State.RUNNING
         runtime.orchestrator.stop("ada")
         assert runtime.orchestrator.wait(run, 5) is State.ABORTED
-        assert runtime.store.calibration(run)["reason"] == "Stopped by ada."
+        assert runtime.store.calibration(run).reason == "Stopped by ada."
 
 
 FAULTS = [
@@ -57,28 +58,29 @@ def test_a_fault_on_the_wire_is_survived_or_named(
     rig = tmp_path / "rig.toml"
     rig.write_text(f'[[fault]]\nkind = "{kind}"\nafter = {after}\ntimes = {times}\n')
     with Runtime.open(FAST, tmp_path, rig) as runtime:
-        run = runtime.orchestrator.submit(CalibrationRequest("R1", "paper", "ada")).id
+        run = runtime.orchestrator.submit(asked("R1", "paper")).id
         state = runtime.orchestrator.wait(run, 30)
         calibration = runtime.store.calibration(run)
         if reason:
-            assert (state, calibration["verdict"]) == (State.FAILED, None)
-            assert reason in calibration["reason"]
-            assert " position P" in calibration["reason"]
+            assert (state, calibration.verdict) == (State.FAILED, None)
+            assert reason in (calibration.reason or "")
+            assert " position P" in (calibration.reason or "")
         elif kind == "servo_link_dropped" and state is State.FAILED:
             # a read is asked again, a move never: which of them the cable meets is a matter of timing
-            assert " position P" in calibration["reason"]
-            assert "axis" in calibration["reason"]
+            assert " position P" in (calibration.reason or "")
+            assert "axis" in (calibration.reason or "")
         else:
             assert state is State.SUCCEEDED
 
 
 def test_what_a_crash_left_behind_is_interrupted_at_the_next_start(tmp_path: Path) -> None:
     store = Store(tmp_path / "station.db")
-    run = store.create(CalibrationRequest("R1", "paper", "ada"), Robot.default("R1"))
+    run = store.create(asked("R1", "paper"), Robot.default("R1"))
     store.close()
     with Runtime.open(FAST, tmp_path) as runtime:
-        assert runtime.store.calibration(run)["state"] == "interrupted"
-        assert runtime.orchestrator.snapshot()["last"]["id"] == run
+        assert runtime.store.calibration(run).state == "interrupted"
+        last = runtime.orchestrator.snapshot().last
+        assert last is not None and last.id == run
 
 
 def test_one_process_holds_the_rig(tmp_path: Path) -> None:
@@ -94,14 +96,14 @@ def test_the_station_starts_without_its_devices_and_says_what_is_missing(tmp_pat
         '[servo]\nprofile = "leadshine-el7"\nurl = "modbus+rtu:///dev/no-such-line"\n'
     )
     with Runtime.open(load_settings(config), tmp_path) as runtime:
-        run = runtime.orchestrator.submit(CalibrationRequest("R1", "paper", "ada")).id
+        run = runtime.orchestrator.submit(asked("R1", "paper")).id
         assert runtime.orchestrator.wait(run, 10) is State.FAILED
-        reason = runtime.store.calibration(run)["reason"]
+        reason = runtime.store.calibration(run).reason or ""
         assert "/dev/no-such-port" in reason
         assert "/dev/no-such-line" in reason
         snapshot = runtime.orchestrator.snapshot()
-        assert [device["state"] for device in snapshot["devices"]] == ["lost"] * 3
-        assert not snapshot["interlocks"][0]["ok"]
+        assert [device.state for device in snapshot.devices] == ["lost"] * 3
+        assert not snapshot.interlocks[0].ok
 
 
 def test_a_rig_that_does_not_start_is_refused_with_what_it_said(tmp_path: Path) -> None:

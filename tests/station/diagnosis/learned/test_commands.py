@@ -18,8 +18,9 @@ from station.diagnosis.learned.commands import solve_targets
 from station.diagnosis.learned.model_file import LearnedModel, read_model
 from station.diagnosis.learned.targets import read_targets
 from station.diagnosis.report.document import Findings
-from station.model.identified_machine import IdentifiedMachine, Situation
-from station.records.types import Complex, Real
+from station.model.identified_machine import IdentifiedMachine, Situation, identified
+from station.model.model import Fit
+from station.records import Complex, DataSource, Real
 from tests.station.diagnosis.machines import ROBOT, Emulated
 
 RUN_UP_DEG = 1.0
@@ -27,13 +28,19 @@ BACKLASH = {"kind": "backlash", "joint": 1, "width_deg": 0.05}
 RIPPLE = {"kind": "gear_cyclic", "joint": 2, "amplitude_deg": 0.05, "per_rev": 20, "phase_deg": 40}
 
 
+def machine_of(fit: Fit, sd_factor: float = 1.0) -> IdentifiedMachine:
+    machine = identified(fit, sd_factor)
+    assert machine is not None
+    return machine
+
+
 def learned(tmp_path: Path, effect: dict[str, Any]) -> tuple[Emulated, Diagnosis, Path]:
     """A machine with an effect, its diagnosis, and the model as a file."""
     machine = Emulated(effect, seed=2)
     diagnosis = diagnose(ROBOT, machine.walk(), machine.fresh())
     file = tmp_path / "model.json"
-    data = {"file": "walk.csv", "readings": 120, "sha256": "0" * 64}
-    file.write_text(json.dumps(Findings(diagnosis).as_json(data), allow_nan=False))
+    data = DataSource(file="walk.csv", readings=120, sha256="0" * 64)
+    file.write_text(Findings(diagnosis).document(data).model_dump_json(by_alias=True))
     return machine, diagnosis, file
 
 
@@ -76,7 +83,7 @@ def test_true_position_error_falls(tmp_path: Path, effect: dict[str, Any]) -> No
     machine, diagnosis, file = learned(tmp_path, effect)
     place = np.tile(ROBOT.workspace_grid(7, 5), 2)
     approach = np.random.default_rng(0).choice([-1.0, 1.0], (len(place), 2))
-    before = IdentifiedMachine.of(diagnosis.base).commands(
+    before = machine_of(diagnosis.base).commands(
         place, Situation(approach, np.zeros(len(place)), np.zeros(len(place)))
     )
     after = solve_targets(read_model(file), read_targets(targets_file(tmp_path, place, approach))[1])
@@ -84,8 +91,8 @@ def test_true_position_error_falls(tmp_path: Path, effect: dict[str, Any]) -> No
     now = rms(true_error_mm(machine, place, approach, after))
     predicted_before, predicted_after = Findings(diagnosis).position_errors
     assert now < 0.5 * was
-    assert now < 3.0 * predicted_after["rms"]
-    assert was == pytest.approx(predicted_before["rms"], rel=0.3)
+    assert now < 3.0 * predicted_after.rms
+    assert was == pytest.approx(predicted_before.rms, rel=0.3)
 
 
 def model_of(tmp_path: Path, effect: dict[str, Any]) -> LearnedModel:
@@ -102,7 +109,7 @@ def test_commands_and_positions_are_inverse(tmp_path: Path) -> None:
 
 def test_model_survives_its_file(tmp_path: Path) -> None:
     _, diagnosis, file = learned(tmp_path, RIPPLE)
-    here, there = IdentifiedMachine.of(diagnosis.last), read_model(file).machine
+    here, there = machine_of(diagnosis.last), read_model(file).machine
     situation = Situation.plain(1)
     place = np.array([37.0 - 701.0j])
     assert np.array_equal(here.commands(place, situation), there.commands(place, situation))

@@ -8,9 +8,10 @@ import numpy as np
 import pytest
 
 from station.diagnosis.closed_loop import Diagnosis, diagnose
-from station.diagnosis.learned.model_file import ModelPart, model_json
+from station.diagnosis.learned.model_file import model_document
 from station.diagnosis.learned.other_log import transfer
 from station.errors import InputRefused
+from station.records import ModelDocument
 from tests.station.serial_arm.simulated import UR_LIKE, SimulatedArm, random_arm, random_poses, shift, turn
 from tests.station.serial_arm.test_closed_loop import harmonic_drive
 
@@ -31,9 +32,9 @@ def learned(arm: SimulatedArm) -> Diagnosis:
 
 
 @pytest.fixture(scope="module")
-def part(learned: Diagnosis) -> ModelPart:
+def part(learned: Diagnosis) -> ModelDocument:
     assert [f.term.effect.label for f in learned.trace.findings] == ["gear_cyclic curve of joint 2"]
-    return ModelPart.model_validate(model_json(learned, learned.last, 1.0))
+    return model_document(learned, learned.last, 1.0, stage="last", confirmed=None)
 
 
 def elsewhere(arm: SimulatedArm) -> SimulatedArm:
@@ -45,7 +46,7 @@ def elsewhere(arm: SimulatedArm) -> SimulatedArm:
     )
 
 
-def test_a_curve_holds_where_its_joint_has_been(arm: SimulatedArm, part: ModelPart) -> None:
+def test_a_curve_holds_where_its_joint_has_been(arm: SimulatedArm, part: ModelDocument) -> None:
     other = elsewhere(arm).log(random_poses(6, 900, 10), 10)
     result = transfer(part, arm.robot, other, "first")
     assert result.effects == ("gear_cyclic curve of joint 2",)
@@ -55,7 +56,7 @@ def test_a_curve_holds_where_its_joint_has_been(arm: SimulatedArm, part: ModelPa
     assert result.inside == pytest.approx((~in_gap).sum(), rel=0.05)
 
 
-def test_in_a_gap_the_curve_is_not_applied(arm: SimulatedArm, part: ModelPart) -> None:
+def test_in_a_gap_the_curve_is_not_applied(arm: SimulatedArm, part: ModelDocument) -> None:
     other = elsewhere(arm).log(random_poses(6, 900, 11), 11)
     result = transfer(part, arm.robot, other, "first")
     assert result.beyond is not None
@@ -65,7 +66,7 @@ def test_in_a_gap_the_curve_is_not_applied(arm: SimulatedArm, part: ModelPart) -
     assert applied.max_mm < 1.3 * alone.max_mm
 
 
-def test_where_nothing_was_learned_nothing_is_judged(arm: SimulatedArm, part: ModelPart) -> None:
+def test_where_nothing_was_learned_nothing_is_judged(arm: SimulatedArm, part: ModelDocument) -> None:
     theta = random_poses(6, 400, 12)
     theta[:, 1] = np.radians(np.random.default_rng(1).uniform(*GAP_DEG, 400))
     with pytest.raises(InputRefused, match="readings stand where the effects were learned"):

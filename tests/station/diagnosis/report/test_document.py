@@ -189,7 +189,7 @@ def test_without_fresh_readings_nothing_is_confirmed(tmp_path: Path) -> None:
     assert d.result.exit_code == 0
     assert d.document.confirmed is None
     assert [s.confirm_rms_mm for s in d.document.stages] == [None, None, None]
-    assert "not confirmed yet" in d.json["sentence"]
+    assert "No fresh readings confirm it" in d.json["sentence"]
 
 
 def test_clean_document(tmp_path: Path) -> None:
@@ -202,7 +202,7 @@ def test_clean_document(tmp_path: Path) -> None:
 
 
 def test_terminal_says_it_in_words(explained: Run, unexplained: Run) -> None:
-    assert explained.result.output.startswith("Explained: backlash of joint 1")
+    assert explained.result.output.startswith("backlash of joint 1 explained 9")
     assert "reducer" in explained.result.output
     assert "Hint: " in unexplained.result.output
 

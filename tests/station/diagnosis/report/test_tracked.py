@@ -10,8 +10,10 @@ import pytest
 from station.diagnosis.closed_loop import diagnose
 from station.diagnosis.report.document import Findings
 from station.diagnosis.report.report_page import page
+from station.records import DataSource
 from tests.station.diagnosis.machines import ROBOT, Emulated
 
+SOURCE = DataSource(file="walk.csv", readings=120, sha256="0" * 64)
 BACKLASH = {"kind": "backlash", "joint": 1, "width_deg": 0.05}
 
 
@@ -25,12 +27,12 @@ def test_the_true_position_error_falls(tracked: Findings) -> None:
     errors = tracked.true_position_errors
     assert errors is not None
     before, after = errors
-    assert after["rms"] < 0.5 * before["rms"]
+    assert after.rms < 0.5 * before.rms
     # half the play at joint 1 moves P by about a fifth of a millimetre
     predicted_before, predicted_after = tracked.position_errors
-    assert before["rms"] == pytest.approx(predicted_before["rms"], rel=0.5)
-    assert after["rms"] < 3.0 * predicted_after["rms"]
-    assert tracked.as_json({})["after"]["true_position_error_mm"] == after
+    assert before.rms == pytest.approx(predicted_before.rms, rel=0.5)
+    assert after.rms < 3.0 * predicted_after.rms
+    assert tracked.document(SOURCE).after.true_position_error_mm == after
     assert "True position error, against the tracker, mm" in page(tracked, "walk.csv").to_html()
 
 
@@ -46,4 +48,4 @@ def test_without_a_tracker_nothing_is_said_of_it() -> None:
     machine = Emulated(BACKLASH, seed=2)
     findings = Findings(diagnose(ROBOT, machine.walk(), machine.fresh()))
     assert findings.true_position_errors is None
-    assert findings.as_json({})["before"]["true_position_error_mm"] is None
+    assert findings.document(SOURCE).before.true_position_error_mm is None

@@ -13,7 +13,7 @@ from station.diagnosis.tests_of_fit.cross_validation import held_out
 from station.five_bar.mechanism import FiveBar
 from station.mechanism.conditions import reference_of
 from station.model.model import Fit, Model, fit
-from station.records.types import Real
+from station.records import Real
 from tests.station.diagnosis.machines import ROBOT, Emulated
 
 

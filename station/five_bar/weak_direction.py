@@ -7,13 +7,14 @@ together with a sideways error of the mechanism (method.md section 1).
 
 from __future__ import annotations
 
-from typing import Any, Protocol
+from dataclasses import dataclass
 
 import numpy as np
 
-from station.fitting import Noise, common_sd_deg
-from station.five_bar import KEPT, FiveBar, distance_jacobian, pose
-from station.records import Measurements, Real
+from station.fitting import Solution, common_sd_deg
+from station.five_bar.error_model import KEPT, distance_jacobian, pose
+from station.five_bar.mechanism import FiveBar
+from station.records import Real, Remedy, WeakDirection
 
 BLIND = (
     "base joints and mechanism shifted together sideways",
@@ -25,45 +26,53 @@ KNOWN_DRM_SD_MM = 0.02
 SECOND_MOUNT_MM = 200.0
 
 
-class Posterior(Protocol):
-    """What a fit knows: an identification, or the base parameters of a diagnosis."""
+@dataclass(frozen=True)
+class Posterior:
+    """What a fit knows of a five-bar."""
 
-    @property
-    def mechanism(self) -> FiveBar: ...
-    @property
-    def measurements(self) -> Measurements: ...
-    @property
-    def noise(self) -> Noise: ...
-    @property
-    def sd_factor(self) -> float: ...
-    @property
-    def dtheta(self) -> Real: ...
-    @property
-    def covariance(self) -> Real: ...
+    mechanism: FiveBar
+    row_sd: Real
+    """(K,) mm, what the readings scatter by, lack of fit included."""
+    dtheta: Real
+    """(2,) rad"""
+    covariance: Real
+    """(P, P) of the base parameters, lack of fit included."""
 
 
-def describe_weak_direction(fit: Posterior) -> dict[str, Any]:
-    """{singular_ratio, text, sd_deg, blind, remedies}: the contract's `weak_direction`.
+def describe_weak_direction(
+    mechanism: FiveBar, solution: Solution, row_sd: Real, sd_factor: float
+) -> WeakDirection:
+    """The contract's `weak_direction`, effects in the model or not.
 
     sd_deg is the standard uncertainty of the zero offsets along the weak direction; each remedy
     comes with the sd_deg that it would bring.
     """
-    return {
-        "singular_ratio": singular_ratio(fit),
-        "text": _words(fit),
-        "sd_deg": common_sd_deg(fit.covariance),
-        "blind": list(BLIND),
-        "remedies": remedies(fit),
-    }
+    size = len(mechanism.parameters)
+    fit = Posterior(
+        mechanism,
+        row_sd * sd_factor,
+        solution.x[:2],
+        solution.covariance[:size, :size] * sd_factor**2,
+    )
+    found = remedies(fit)
+    best = min(found, key=lambda remedy: remedy.sd_deg)
+    return WeakDirection(
+        singular_ratio=singular_ratio(fit),
+        text=_words(fit),
+        sd_deg=common_sd_deg(fit.covariance),
+        blind=BLIND,
+        remedies=found,
+        remedy=f"{best.text} (sd {best.sd_deg:.3f} deg)",
+    )
 
 
 def singular_ratio(fit: Posterior) -> float:
     """Smallest over largest singular value of the paper's four unknowns, the reading offset taken out."""
     geometry = fit.mechanism.nominal
-    rows = distance_jacobian(geometry, pose(geometry, fit.measurements.theta + fit.dtheta))[:, KEPT]
+    rows = distance_jacobian(geometry, pose(geometry, fit.mechanism.measurements.theta + fit.dtheta))[:, KEPT]
     rows[:, :2] /= geometry.L
-    for mount in range(len(fit.measurements.mounts)):
-        own = fit.measurements.mount == mount
+    for mount in range(len(fit.mechanism.measurements.mounts)):
+        own = fit.mechanism.measurements.mount == mount
         rows[own] -= rows[own].mean(axis=0)
     sigma = np.linalg.svd(rows, compute_uv=False)
     return float(sigma[-1] / sigma[0])
@@ -87,23 +96,23 @@ def _words(fit: Posterior) -> str:
     return arms
 
 
-def remedies(fit: Posterior) -> list[dict[str, Any]]:
+def remedies(fit: Posterior) -> tuple[Remedy, ...]:
     """What would tie the weak direction down, with the sd of the common mode it would bring."""
     finite = np.isfinite(np.diag(fit.covariance))
     information = np.linalg.inv(fit.covariance[np.ix_(finite, finite)])
     known = information.copy()
     for axis in (10, 11):
         known[axis, axis] += 1.0 / KNOWN_DRM_SD_MM**2
-    return [
-        {
-            "text": f"measure the mechanism's mounting error to {KNOWN_DRM_SD_MM} mm",
-            "sd_deg": common_sd_deg(np.linalg.inv(known)),
-        },
-        {
-            "text": f"repeat the walk with the mechanism mounted {SECOND_MOUNT_MM:.0f} mm aside",
-            "sd_deg": common_sd_deg(_with_second_mount(fit, information)),
-        },
-    ]
+    return (
+        Remedy(
+            text=f"measure the mechanism's mounting error to {KNOWN_DRM_SD_MM} mm",
+            sd_deg=common_sd_deg(np.linalg.inv(known)),
+        ),
+        Remedy(
+            text=f"repeat the walk with the mechanism mounted {SECOND_MOUNT_MM:.0f} mm aside",
+            sd_deg=common_sd_deg(_with_second_mount(fit, information)),
+        ),
+    )
 
 
 def _with_second_mount(fit: Posterior, information: Real) -> Real:
@@ -111,13 +120,13 @@ def _with_second_mount(fit: Posterior, information: Real) -> Real:
     size = len(information)
     geometry = fit.mechanism.nominal
     aside = type(geometry)(geometry.e, geometry.L, geometry.l, geometry.cd + SECOND_MOUNT_MM)
-    at = pose(aside, fit.measurements.theta + fit.dtheta)
+    at = pose(aside, fit.mechanism.measurements.theta + fit.dtheta)
     rows = np.zeros((len(at.r), size + 3))
     jacobian = distance_jacobian(aside, at)
     rows[:, :10] = jacobian[:, :10]
     rows[:, size : size + 2] = jacobian[:, 10:12]
     rows[:, size + 2] = -1.0
-    rows /= fit.noise.row_sd[:, None] * fit.sd_factor
+    rows /= fit.row_sd[:, None]
     wider = np.zeros((size + 3, size + 3))
     wider[:size, :size] = information
     wider[[size, size + 1], [size, size + 1]] += 1.0 / np.array(fit.mechanism.robot.drm_sd) ** 2

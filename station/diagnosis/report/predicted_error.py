@@ -1,0 +1,22 @@
+"""The position error that a model predicts: over the workspace, or at the measured poses of an arm."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from station.fitting import position_error_field, rms_and_max
+from station.model import Fit, identified
+from station.records import PositionError
+
+
+def position_errors(base: Fit, last: Fit, sd_factor: float) -> tuple[PositionError, PositionError]:
+    """With the commands of the base model and of the last one, the last taken as the truth, mm."""
+    machine, commander = identified(last, sd_factor), identified(base)
+    if machine is not None and commander is not None:
+        return machine.position_error(commander), machine.position_error()
+    readings, unknowns = len(last.model.mechanism.measurements), len(last.x)
+    difference = (base.residual_mm - last.residual_mm).reshape(readings, -1)
+    jacobian = (last.solution.jacobian * last.row_sd[:, None]).reshape(readings, -1, unknowns)
+    covariance = last.solution.covariance * sd_factor**2
+    unknown = position_error_field(np.zeros_like(difference), jacobian, covariance)
+    return rms_and_max(np.hypot(np.linalg.norm(difference, axis=1), unknown)), rms_and_max(unknown)

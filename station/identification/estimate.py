@@ -1,0 +1,255 @@
+"""Identification at the limit of the data: one fit of the measurement model, with everything said about it.
+
+The same function serves the browser, REST and a file, and every kind of machine.  In: a robot, readings,
+optionally what earlier runs know.  Out: parameters with uncertainty, residuals, noise, lack of fit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from typing import Generic, TypeVar, overload
+
+import numpy as np
+
+from station.errors import InputRefused
+from station.fitting import (
+    Noise,
+    NotConvergedError,
+    Outlier,
+    Prior,
+    Solution,
+    check_outlier_share,
+    estimate_noise,
+    find_outliers,
+    lack_of_fit,
+    position_error_field,
+    rms_and_max,
+    specified_noise,
+    tolerance_prior,
+)
+from station.five_bar import FiveBar, Robot, check_places
+from station.identification.memory import GATE_P, Memory, contradiction_p
+from station.machines import AnyMechanism, AnyRobot, kind_of, mechanism_of
+from station.mechanism import by_reading, reference_of
+from station.model import Fit, Model, fit
+from station.records import Measurements, PositionError, Quantity, Real, WeakDirection
+from station.serial_arm import Arm, SerialArm
+
+LACK_OF_FIT_P = 1e-3
+M = TypeVar("M", bound=AnyMechanism)
+M_co = TypeVar("M_co", bound=AnyMechanism, covariant=True)
+
+
+@dataclass(frozen=True, slots=True)
+class Gate:
+    """Whether what earlier calibrations know took part, and how well the readings agree with it."""
+
+    used: bool
+    p_value: float
+
+
+@dataclass(frozen=True)
+class Identification(Generic[M_co]):
+    """One converged fit of the measurement model."""
+
+    mechanism: M_co
+    """Under the readings that took part; outliers are gone."""
+    fit: Fit
+    noise: Noise
+    sd_factor: float
+    """By which the uncertainty is multiplied because the model does not fit (1 when it does)."""
+    lack_of_fit_p: float
+    outliers: tuple[Outlier, ...]
+    gate: Gate | None
+    """Of what earlier calibrations know; None when nothing was known."""
+
+    @property
+    def measurements(self) -> Measurements:
+        """The readings that took part."""
+        return self.mechanism.measurements
+
+    @property
+    def solution(self) -> Solution:
+        return self.fit.solution
+
+    @property
+    def p(self) -> Real:
+        """(P,) identified parameters, mm and rad."""
+        return self.fit.x
+
+    @property
+    def covariance(self) -> Real:
+        """(P, P) posterior covariance, inflated when the model does not fit."""
+        return self.solution.covariance * self.sd_factor**2
+
+    @property
+    def dtheta(self) -> Real:
+        """(n,) zero offsets, rad."""
+        return self.p[: self.measurements.joints]
+
+    @property
+    def residual_mm(self) -> Real:
+        """(R,) measured less predicted."""
+        return self.fit.residual_mm
+
+    @property
+    def errors_mm(self) -> Real:
+        """(K,) size of each reading's residual."""
+        return by_reading(self.mechanism, self.residual_mm)
+
+    @property
+    def adequate(self) -> bool:
+        return self.lack_of_fit_p >= LACK_OF_FIT_P
+
+    @property
+    def weak_direction(self) -> WeakDirection:
+        """The direction of the zero offsets that the readings determine least."""
+        kind = kind_of(self.mechanism)
+        return kind.weak_direction(self.mechanism, self.solution, self.noise.row_sd, self.sd_factor)
+
+    def moved(self, shift_deg: tuple[float, ...]) -> Identification[M_co]:
+        """The same machine seen from drives whose frames have moved: theta before = theta now + shift."""
+        x = self.p.copy()
+        x[: len(shift_deg)] += np.radians(shift_deg)
+        f = self.fit
+        return replace(self, fit=Fit(f.model, replace(f.solution, x=x), f.prior, f.row_sd))
+
+    @property
+    def lasting(self) -> Memory:
+        """What this calibration leaves to the next one."""
+        parameters = self.mechanism.parameters
+        kept = [i for i, parameter in enumerate(parameters) if parameter.lasting]
+        names = tuple(parameters[i].name for i in kept)
+        return Memory(names, self.p[kept], self.covariance[np.ix_(kept, kept)])
+
+    def quantities(self) -> tuple[Quantity, ...]:
+        """Every parameter in shown units with its standard uncertainty, never more than its tolerance."""
+        tolerance = [p.prior_sd for p in self.mechanism.parameters]
+        sd = np.minimum(np.sqrt(np.diag(self.covariance)), tolerance)
+        return tuple(
+            Quantity(p.name, float(x * p.shown), float(s * p.shown), p.unit)
+            for p, x, s in zip(self.mechanism.parameters, self.p, sd, strict=True)
+        )
+
+    def modes(self) -> tuple[Quantity, Quantity]:
+        """Common and differential mode: half the sum and half the difference of two zero offsets."""
+        turn = np.array([[0.5, 0.5], [0.5, -0.5]])
+        value = np.degrees(turn @ self.dtheta)
+        sd = np.degrees(np.sqrt(np.diag(turn @ self.covariance[:2, :2] @ turn.T)))
+        return (
+            Quantity("common", float(value[0]), float(sd[0]), "deg"),
+            Quantity("differential", float(value[1]), float(sd[1]), "deg"),
+        )
+
+    def position_error(self, compensated: bool) -> PositionError | None:
+        """Predicted position error over the workspace, mm; None for a machine without a declared one.
+
+        Uncompensated: the identified error itself with its uncertainty.  Compensated: the zero
+        offsets taken out exactly as identified; the rest of the geometry stays as it is.
+        """
+        field = self.position_error_field(compensated)
+        return None if field is None else rms_and_max(field)
+
+    def position_error_field(self, compensated: bool) -> Real | None:
+        """(G,) the same at each of the workspace's positions."""
+        p = self.p.copy()
+        if compensated:
+            p[: len(self.dtheta)] = 0.0
+        errors = self.mechanism.position_errors(p)
+        return None if errors is None else position_error_field(*errors, self.covariance)
+
+
+@overload
+def identify(
+    robot: Robot, measurements: Measurements, memory: Memory | None = ...
+) -> Identification[FiveBar]: ...
+@overload
+def identify(
+    robot: Arm, measurements: Measurements, memory: Memory | None = ...
+) -> Identification[SerialArm]: ...
+def identify(
+    robot: AnyRobot, measurements: Measurements, memory: Memory | None = None
+) -> Identification[FiveBar] | Identification[SerialArm]:
+    """Fit the measurement model to readings, outlying ones found, named and left out.
+
+    `memory`, already aged, is what earlier calibrations of this robot and mechanism know; readings that
+    contradict it drop it.
+
+    :raises InputRefused: readings that cannot be of this robot, too few positions, too many outliers, no
+        convergence, or an impossible result, with the reading or parameter at fault.
+    """
+    mechanism = mechanism_of(robot, measurements)
+    mechanism.check()
+    return _identify(mechanism, memory)  # type: ignore[return-value]
+
+
+def _identify(everything: M, memory: Memory | None) -> Identification[M]:
+    _check_enough(everything)
+    prior = tolerance_prior(everything)
+    left_out = find_outliers(everything, lambda sd: _fit(everything, prior, sd).solution, everything.row_sd)
+    check_outlier_share(left_out, len(everything.measurements))
+    mechanism = everything
+    if left_out:
+        mechanism = _without(everything, left_out)
+        _check_enough(mechanism)
+    found = _at_noise(mechanism, prior, left_out)
+    if memory is not None:
+        remembered = memory.prior(mechanism.parameters)
+        with_memory = _at_noise(mechanism, remembered, left_out)
+        p_value = contradiction_p(with_memory.solution, remembered, mechanism.parameters)
+        if p_value < GATE_P:
+            found = replace(found, gate=Gate(False, p_value))
+        else:
+            found = replace(with_memory, gate=Gate(True, p_value))
+    if impossible := mechanism.implausible(found.p):
+        raise InputRefused(
+            f"Impossible result: {impossible}; check the robot file and the readings' columns, "
+            "then run the diagnosis."
+        )
+    return found
+
+
+def _without(mechanism: M, left_out: tuple[Outlier, ...]) -> M:
+    named = {o.reading for o in left_out}
+    m = mechanism.measurements
+    return mechanism.of(m.take(np.array([i not in named for i in m.ids])))  # type: ignore[return-value]
+
+
+def _check_enough(mechanism: AnyMechanism) -> None:
+    """:raises InputRefused: fewer numbers than unknowns, or too few positions."""
+    if mechanism.needs_repeats:
+        check_places(mechanism.measurements)
+    elif len(mechanism.measured) <= len(mechanism.parameters):
+        raise InputRefused(
+            f"Only {len(mechanism.measured)} numbers were measured for {len(mechanism.parameters)} unknowns; "
+            "measure more poses."
+        )
+
+
+def _at_noise(mechanism: M, prior: Prior, left_out: tuple[Outlier, ...]) -> Identification[M]:
+    """The fit at the noise that the repeats show, where there are enough of them."""
+    found = _fit(mechanism, prior, mechanism.row_sd)
+    noise = specified_noise(mechanism.row_sd)
+    if mechanism.needs_repeats:
+        noise = estimate_noise(mechanism.measurements, found.solution.residual, mechanism.row_sd)
+    if noise.source == "repeats":
+        found = _fit(mechanism, prior, noise.row_sd)
+    p_value, ratio = lack_of_fit(found.solution, noise, prior.free, mechanism.measurements)
+    return Identification(
+        mechanism=mechanism,
+        fit=found,
+        noise=noise,
+        sd_factor=ratio if p_value < LACK_OF_FIT_P else 1.0,
+        lack_of_fit_p=p_value,
+        outliers=left_out,
+        gate=None,
+    )
+
+
+def _fit(mechanism: AnyMechanism, prior: Prior, row_sd: Real) -> Fit:
+    try:
+        return fit(Model(mechanism, reference_of(mechanism.measurements)), prior, row_sd)
+    except NotConvergedError as error:
+        raise InputRefused(
+            f"The identification did not converge ({error}); check that angles and readings belong together."
+        ) from error

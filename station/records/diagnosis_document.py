@@ -1,0 +1,182 @@
+"""The document of a diagnosis, as `station diagnose --json` writes it (schema station.diagnosis/1)."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import ConfigDict, Field
+
+from station.records.accuracy import PositionError, WeakDirection
+from station.records.quantity import Quantity
+from station.records.record import Record
+from station.records.sections import Sections
+
+MODEL_SCHEMA = "station.model/1"
+
+DiagnosisVerdict = Literal["adequate", "explained", "partly_explained", "unexplained"]
+Span = tuple[float, float]
+
+
+class DataSource(Record):
+    """What a document was made from."""
+
+    file: str
+    readings: int
+    sha256: str
+    guessed: tuple[str, ...] = ()
+    """Columns that were inferred from the order of the rows."""
+
+
+class NoiseOfReadings(Record):
+    """The noise that the readings were judged by."""
+
+    sigma_mm: float
+    source: Literal["repeats", "specification"]
+    dof: int
+    """Degrees of freedom of the repeats; 0 for the specification."""
+
+
+class EffectName(Record):
+    """An effect of the catalogue and the joint at which it acts."""
+
+    effect: str
+    joint: int | None = None
+
+
+class Finding(EffectName):
+    """One effect that the model lacked."""
+
+    label: str
+    parameters: tuple[Quantity, ...]
+    share: float
+    """Of the base residual's square that this effect accounts for."""
+    p_value: float
+    alias_set: tuple[EffectName, ...]
+    """The effect with those that these readings cannot distinguish from it."""
+    remedy: str
+    separating_experiment: str | None = None
+
+
+class JointCurve(Record):
+    """The learned curve of one joint over the angles that were visited."""
+
+    joint: int
+    angle_deg: tuple[float, ...]
+    value_deg: tuple[float, ...]
+    sd_deg: tuple[float, ...]
+
+
+class StageErrors(Record):
+    """Measured less predicted under one model: readings learned, positions left out, fresh readings."""
+
+    model: str
+    unknowns: int
+    """Of geometry, mechanism and effects; reading offsets are not counted."""
+    fit_rms_mm: float
+    holdout_rms_mm: float
+    holdout_max_mm: float
+    confirm_rms_mm: float | None
+    confirm_max_mm: float | None
+
+
+class StageAccuracy(StageErrors):
+    """The same with the position error that it predicts, and the true one where a tracker measured."""
+
+    predicted_position_error_mm: PositionError
+    true_position_error_mm: PositionError | None
+
+
+class Dependence(Record):
+    """Something that the residual depends on, found without the catalogue."""
+
+    depends_on: str
+    strength: float
+    """Share of the residual's square that goes with it, 0 to 1."""
+    text: str
+
+
+class SmallestVisible(EffectName):
+    """One effect that was not found, and the size of it that these readings show with 80 % probability."""
+
+    label: str
+    parameter: str | None
+    minimum_detectable: float | None
+    """Null when these readings cannot show the effect at all."""
+    unit: str | None
+    text: str
+
+
+class _Finite(Record):
+    """A number that is not finite is refused: commands are computed from these."""
+
+    model_config = ConfigDict(allow_inf_nan=False)
+
+
+class TermOfModel(_Finite):
+    """One effect with its searched parameters settled."""
+
+    effect: str
+    """Label in the catalogue."""
+    on_joint: Annotated[int, Field(ge=1)] | None
+    on_lengths: dict[str, float] | None
+    """mm per unit of strength; null as well as no joint: it acts on the reading."""
+    hidden: dict[str, float]
+    amplitudes: Annotated[tuple[float, ...], Field(min_length=1)]
+
+
+class LearnedRanges(_Finite):
+    """What the readings that the model was learned on covered."""
+
+    joints_deg: Annotated[tuple[Span, ...], Field(min_length=2)]
+    visited_deg: tuple[tuple[Span, ...], ...]
+    """Of each joint the stretches in which readings are dense enough."""
+    travel_mm: Span | None
+    time_s: Span
+
+
+class TemperatureReference(_Finite):
+    """From where temperatures are counted."""
+
+    temperature_c: float | None
+
+
+class ModelDocument(_Finite):
+    """All that commands and a transfer need of a model; mm and rad, base parameters, then amplitudes."""
+
+    schema_: Annotated[Literal["station.model/1"], Field(alias="schema")] = "station.model/1"
+    robot: Sections
+    names: tuple[str, ...]
+    values: tuple[float, ...]
+    covariance: tuple[tuple[float, ...], ...] | None
+    """Null where there are a hundred values or more."""
+    terms: tuple[TermOfModel, ...]
+    ranges: LearnedRanges
+    reference: TemperatureReference
+    stage: str | None = None
+    confirmed: bool | None = None
+    """False: fresh readings refuted it; null: none were taken."""
+
+
+class DiagnosisDocument(Record):
+    """What was found in one set of readings."""
+
+    schema_: Annotated[Literal["station.diagnosis/1"], Field(alias="schema")] = "station.diagnosis/1"
+    data: DataSource
+    noise: NoiseOfReadings
+    verdict: DiagnosisVerdict
+    confirmed: bool | None
+    """Null without fresh readings."""
+    sentence: str
+    parameters: tuple[Quantity, ...]
+    weak_direction: WeakDirection
+    findings: tuple[Finding, ...]
+    curves: tuple[JointCurve, ...]
+    stages: tuple[StageErrors, ...]
+    before: StageAccuracy
+    after: StageAccuracy
+    hints: tuple[Dependence, ...]
+    invisible: tuple[SmallestVisible, ...]
+    outliers: tuple[int | str, ...]
+    outlier_reasons: tuple[str, ...] = ()
+    fresh_outliers: tuple[int | str, ...] = ()
+    model: ModelDocument

@@ -1,0 +1,87 @@
+"""What `station identify --json` writes (schema station.identification/1)."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from station.records.accuracy import PositionError, WeakDirection
+from station.records.diagnosis_document import DataSource, NoiseOfReadings
+from station.records.quantity import Quantity
+from station.records.record import Record
+from station.records.result import ZeroOffset
+
+
+class OutlierNote(Record):
+    """A reading that was left out, and why."""
+
+    reading: int | str
+    residual_mm: float
+    reason: str
+
+
+class ResidualSummary(Record):
+    """What the model leaves of the readings."""
+
+    rms_mm: float
+    max_mm: float
+    lack_of_fit_p: float
+    adequate: bool
+
+
+class PredictedAccuracy(Record):
+    """Position error over the workspace; null for a machine without a declared workspace."""
+
+    predicted_position_error_mm: PositionError | None
+
+
+class PositionErrorAt(Record):
+    """Predicted position error at one position, before and after compensation."""
+
+    x_mm: float
+    y_mm: float
+    before_mm: float
+    after_mm: float
+
+
+class GateOfMemory(Record):
+    """Whether what earlier calibrations know took part, and how well the readings agree with it."""
+
+    used: bool
+    p_value: float
+    text: str
+
+
+class Convergence(Record):
+    """How the solver ended."""
+
+    steps: int
+
+
+class IdentificationDocument(Record):
+    """Everything that one fit of the measurement model says."""
+
+    schema_: Annotated[Literal["station.identification/1"], Field(alias="schema")] = (
+        "station.identification/1"
+    )
+    data: DataSource | None = None
+    method: str = "measurement model"
+    noise: NoiseOfReadings
+    zero_offsets: tuple[ZeroOffset, ...]
+    modes: tuple[Quantity, ...]
+    """Of a five-bar: half the sum and half the difference of the zero offsets."""
+    parameters: tuple[Quantity, ...]
+    coverage_factor: float
+    """k of the 95 % interval."""
+    weak_direction: WeakDirection
+    singular_values: tuple[float, ...]
+    residual: ResidualSummary
+    sd_factor: float
+    """By which the uncertainties were multiplied because the model does not fit; 1 when it does."""
+    before: PredictedAccuracy
+    after: PredictedAccuracy
+    position_error_map: tuple[PositionErrorAt, ...]
+    outliers: tuple[OutlierNote, ...]
+    memory: GateOfMemory | None
+    convergence: Convergence

@@ -1,0 +1,146 @@
+"""The station at one moment, as the page and the terminal are told of it."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import Literal, get_args
+
+from station.records.calibration import CalibrationSummary
+from station.records.record import Record
+from station.records.result import Iteration
+from station.records.run import PlanName, State
+
+DeviceState = Literal["ok", "lost", "fault", "unknown"]
+
+
+class StationInfo(Record):
+    """What the station is and can do."""
+
+    name: str
+    emulated: bool
+    limits: dict[str, float]
+    """The options of `[limits]` in the station file."""
+    plans: tuple[PlanName, ...] = get_args(PlanName)
+    """Plans that this station can run."""
+
+
+class DeviceView(Record):
+    """What is known of one device."""
+
+    name: str
+    kind: Literal["scale", "axis"]
+    address: str
+    state: DeviceState
+    text: str = ""
+
+
+class Interlock(Record):
+    """One condition that must hold before and during motion."""
+
+    id: str
+    text: str
+    ok: bool
+    detail: str = ""
+    """What is wrong; empty when it holds."""
+
+
+class MachineView(Record):
+    """Live values, `age_s` old when they were sent."""
+
+    theta1_deg: float | None
+    theta2_deg: float | None
+    x_mm: float | None
+    y_mm: float | None
+    scale_mm: float | None
+    age_s: float | None
+
+
+class Workspace(Record):
+    """Limits of the workspace, mm."""
+
+    x: tuple[float, float]
+    y: tuple[float, float]
+
+
+class SequenceTitle(Record):
+    """The measurement sequence under way."""
+
+    number: int
+    title: str
+
+
+class RunStop(Record):
+    """One position of the sequence under way."""
+
+    position: str
+    x_mm: float
+    y_mm: float
+    done: bool
+
+
+class SequenceView(SequenceTitle):
+    """A sequence as it begins."""
+
+    stops: tuple[RunStop, ...]
+
+
+class ResidualOfReading(Record):
+    """What an identification says of one reading."""
+
+    reading: int
+    residual_mm: float | None = None
+    limit_mm: float | None = None
+
+
+class RunReading(ResidualOfReading):
+    """One reading of the run under way."""
+
+    position: str
+    x_mm: float | None = None
+    y_mm: float | None = None
+    theta1_deg: float
+    theta2_deg: float
+    scale_mm: float
+    sd_mm: float | None = None
+    t_s: float
+    walk: int
+
+
+class RunBrief(Record):
+    """The run that holds the rig, without its positions and readings."""
+
+    id: int
+    state: State
+    robot_serial: str
+    kind: str
+    plan: str
+    of: int | None = None
+    operator: str
+    work_order: str | None = None
+    started_at: datetime | None = None
+    elapsed_s: float | None = None
+    remaining_s: float | None = None
+    walk: SequenceTitle | None = None
+    step: int | None = None
+    steps: int | None = None
+    iterations: tuple[Iteration, ...] = ()
+
+
+class RunView(RunBrief):
+    """The run that holds the rig."""
+
+    stops: tuple[RunStop, ...] = ()
+    readings: tuple[RunReading, ...] = ()
+
+
+class StationView(Record):
+    """The whole station at one moment; also the `data` of the live feed's snapshot."""
+
+    station: StationInfo
+    devices: tuple[DeviceView, ...]
+    interlocks: tuple[Interlock, ...]
+    machine: MachineView | None
+    """Null while it is not known where the arm stands."""
+    workspace: Workspace
+    run: RunView | None
+    last: CalibrationSummary | None

@@ -1,0 +1,51 @@
+"""What `station plan --json` writes (schema station.plan/1)."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from station.records.accuracy import PositionError
+from station.records.record import Record
+from station.records.run import PlanName
+
+
+class PredictedSd(Record):
+    """Standard uncertainty of the position at one place of the workspace."""
+
+    x_mm: float
+    y_mm: float
+    sd_mm: float
+
+
+class PlanPrediction(Record):
+    """The accuracy that a plan promises, by specification."""
+
+    zero_offset_sd_deg: tuple[float, float]
+    common_sd_deg: float
+    """Of both zero offsets together."""
+    position_error_mm: PositionError
+    map: tuple[PredictedSd, ...]
+
+
+class PlannedStop(Record):
+    """One stop, in measuring order."""
+
+    stop: int
+    position: str
+    x_mm: float
+    y_mm: float
+    theta1_deg: float
+    theta2_deg: float
+    approach1: int
+    approach2: int
+
+
+class PlanDocument(Record):
+    """A plan for one robot."""
+
+    schema_: Annotated[Literal["station.plan/1"], Field(alias="schema")] = "station.plan/1"
+    plan: PlanName
+    predicted: PlanPrediction
+    stops: tuple[PlannedStop, ...]

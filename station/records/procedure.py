@@ -1,0 +1,16 @@
+"""What a run does, step by step, as a generator."""
+
+from __future__ import annotations
+
+from collections.abc import Generator
+from typing import Any
+
+from station.records.result import CalibrationResult
+from station.records.run import SetZeros, Walk
+
+Procedure = Generator[Walk | SetZeros, Any, CalibrationResult]
+"""Yields measurement sequences and is sent the readings of each, yields zeros and is sent their shifts.
+
+An error in a step is raised where it was yielded, so that the procedure may still put something right.
+A procedure never touches a device: the orchestrator moves, stores and sends.
+"""

@@ -1,0 +1,47 @@
+"""What a passed run leaves to the robot's next one."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from datetime import UTC, datetime
+
+from station.records.quantity import Quantity
+from station.records.record import Record
+from station.records.result import LastingParameters
+
+
+class MemorySummary(Record):
+    """What the robot's next run will start from."""
+
+    from_calibration: int
+    at: datetime
+    age_days: float
+    parameters: tuple[Quantity, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Remembered:
+    """What a passed run left to the robot's next one."""
+
+    calibration_id: int
+    at: datetime
+    memory: LastingParameters
+
+    @property
+    def age_days(self) -> float:
+        """Never negative, also when the clock was set back."""
+        return max((datetime.now(UTC) - self.at).total_seconds(), 0.0) / 86_400.0
+
+    def summary(self) -> MemorySummary:
+        """For people: where it comes from, its age, what is known."""
+        variances = [row[i] for i, row in enumerate(self.memory.covariance)]
+        return MemorySummary(
+            from_calibration=self.calibration_id,
+            at=self.at,
+            age_days=round(self.age_days, 3),
+            parameters=tuple(
+                Quantity(name, mean, math.sqrt(variance), "mm")
+                for name, mean, variance in zip(self.memory.names, self.memory.mean, variances, strict=True)
+            ),
+        )

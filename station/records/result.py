@@ -1,0 +1,120 @@
+"""What a run ends with: its numbers, its verdict and the reason of it."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from station.records.accuracy import PositionError, WeakDirection
+from station.records.diagnosis_document import DiagnosisDocument, Finding
+from station.records.quantity import Quantity
+from station.records.reason import Reason
+from station.records.record import Record
+
+Verdict = Literal["pass", "fail"]
+Outcome = Literal[
+    "good",
+    "repair",
+    "ambiguous",
+    "unexplained",
+    "not_accurate_enough",
+    "not_verified",
+    "failed",
+    "aborted",
+    "interrupted",
+]
+"""What the robot's owner has to do: use it, repair it, decide, look further, measure again."""
+
+
+class ZeroOffset(Record):
+    """Actual minus nominal angle of one joint."""
+
+    joint: int
+    value_deg: float | None = None
+    sd_deg: float | None = None
+
+
+class Accuracy(Record):
+    """How well the robot positions, before or after; of a diagnosis, without its effects or with them."""
+
+    reading_rms_mm: float | None = None
+    fresh_reading_rms_mm: float | None = None
+    """Of readings that took no part in the fit."""
+    fresh_reading_max_mm: float | None = None
+    predicted_position_error_mm: PositionError | None = None
+
+
+class Residual(Record):
+    """Measured less predicted, of one reading."""
+
+    reading: int
+    position: str | None = None
+    residual_mm: float | None = None
+    limit_mm: float | None = None
+
+
+class Iteration(Record):
+    """One pass of measuring and solving (eq. 29 to 33)."""
+
+    number: Annotated[int, Field(alias="pass")]
+    dtheta1_deg: float | None = None
+    dtheta2_deg: float | None = None
+    total1_deg: float | None = None
+    total2_deg: float | None = None
+    mu_deg: float | None = None
+    condition: float | None = None
+
+
+class MemoryUse(Record):
+    """Whether what earlier runs know of geometry and mechanism took part."""
+
+    used: bool
+    p_value: float | None = None
+    """Of the readings under the memory."""
+    text: str
+    from_calibration: int
+    age_days: float | None = None
+
+
+class LastingParameters(Record):
+    """What a pass leaves to the robot's next run: geometry and mechanism, mm and mm^2."""
+
+    names: tuple[str, ...]
+    mean: tuple[float, ...]
+    covariance: tuple[tuple[float, ...], ...]
+
+
+class ResultParts(Record):
+    """What is kept of a result beside its verdict and zero offsets."""
+
+    method: str | None = None
+    parameters: tuple[Quantity, ...] = ()
+    """Every identified parameter but the zero offsets."""
+    weak_direction: WeakDirection | None = None
+    before: Accuracy | None = None
+    """With no compensation."""
+    after: Accuracy | None = None
+    """With the identified offsets applied."""
+    iterations: tuple[Iteration, ...] = ()
+    residuals: tuple[Residual, ...] = ()
+    """Of the readings of the fit."""
+    memory: MemoryUse | None = None
+    """Null when nothing was known before."""
+    lack_of_fit: str | None = None
+    """What the model does not account for; null when it fits or none was judged."""
+    findings: tuple[Finding, ...] = ()
+    """Effects that the model lacked, strongest first."""
+
+
+class CalibrationResult(ResultParts):
+    """What a run ends with.  `verdict` is "pass" only when every check passed on finite numbers."""
+
+    verdict: Verdict
+    outcome: Outcome
+    reason: Reason
+    zero_offsets: tuple[Quantity, ...]
+    """dtheta1, dtheta2 in deg."""
+    lasting: LastingParameters | None = None
+    diagnosis: DiagnosisDocument | None = None
+    """The whole document; None when none was asked for."""

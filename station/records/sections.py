@@ -1,0 +1,27 @@
+"""Sections of the files that people write (station file, robot file): strict, with errors in words."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from station.errors import InputRefused
+
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
+Sections = dict[str, Any]
+"""A file of sections as it was read, not yet checked."""
+
+
+class Section(BaseModel):
+    """A misspelt option is refused, never ignored."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+def refusal(error: ValidationError, source: str) -> InputRefused:
+    """The first value at fault, with the file, the section and the key."""
+    first = error.errors()[0]
+    where = ".".join(str(part) for part in first["loc"])
+    return InputRefused(f"{source}: [{where}] {first['msg']} (given: {first['input']!r}).")

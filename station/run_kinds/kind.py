@@ -1,0 +1,92 @@
+"""What a kind of run is, and the register of all kinds.
+
+A further kind is one module that registers itself (docs/how-to/add-a-run-kind.md): its checks, its procedure
+and, in `station.messages`, its texts.  The orchestrator knows none by name.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+
+from station.five_bar import Robot
+from station.records import CalibrationRequest, PlanName, Procedure, Reading
+from station.store import Store
+
+
+@dataclass(frozen=True, slots=True)
+class Start:
+    """What a procedure is made from."""
+
+    store: Store
+    request: CalibrationRequest
+    robot: Robot
+
+    @property
+    def of(self) -> int:
+        """The earlier run that this one is about.  Only for kinds that are about one."""
+        if self.request.of is None:
+            raise ValueError(f"a run of kind {self.request.kind} names no earlier run")
+        return self.request.of
+
+    @property
+    def plan(self) -> PlanName:
+        """The plan to measure by.  Only for kinds that have plans."""
+        if self.request.plan is None:
+            raise ValueError(f"a run of kind {self.request.kind} names no plan")
+        return self.request.plan
+
+
+@dataclass(frozen=True, slots=True)
+class Continued:
+    """What a run takes over from an earlier one: its readings, and its clock."""
+
+    readings: list[Reading]
+    elapsed_s: float
+    """Real time since the earlier run started."""
+
+
+def _nothing_to_check(store: Store, request: CalibrationRequest) -> None:
+    return None
+
+
+@dataclass(frozen=True)
+class RunKind:
+    """One thing that a run can do."""
+
+    name: str
+    procedure: Callable[[Start], Procedure] | None
+    """Makes the procedure, not yet started; None where nothing is measured on the rig.
+
+    :raises InputRefused: it cannot be made for this robot.
+    """
+    plans: tuple[PlanName, ...] = ()
+    """Plans that are measured by this kind; a start request that names one of them is of this kind."""
+    check: Callable[[Store, CalibrationRequest], None] = _nothing_to_check
+    """Before anything is stored.  :raises NotApplicable: the earlier run does not allow it; says why."""
+    done_by: Callable[[Store, int], int | None] | None = None
+    """The run that has done this for an earlier run already, so that asking again is harmless."""
+    continues: Callable[[Store, CalibrationRequest], Continued] | None = None
+    """What is taken over from the earlier run before anything moves."""
+    offsets: bool = False
+    """Whether the zero offsets of a pass may be written to the drives."""
+
+
+_KINDS: dict[str, RunKind] = {}
+RUN_KINDS: Mapping[str, RunKind] = MappingProxyType(_KINDS)
+"""Every kind by its name."""
+
+
+def register(kind: RunKind) -> RunKind:
+    """Make a kind known.  :raises ValueError: its name or one of its plans is taken."""
+    taken = {plan for other in _KINDS.values() for plan in other.plans}
+    if kind.name in _KINDS or taken & set(kind.plans):
+        raise ValueError(f"the run kind {kind.name} or one of its plans is registered already")
+    _KINDS[kind.name] = kind
+    return kind
+
+
+def kind_of_plan(plan: PlanName) -> str:
+    """The name of the kind that measures by a plan."""
+    return next(kind.name for kind in _KINDS.values() if plan in kind.plans)

@@ -1,0 +1,53 @@
+"""The open database file: one writer behind a lock, readers beside it."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from threading import RLock
+
+from sqlite_utils import Database
+
+from station.errors import InputRefused
+from station.store.connections import Readers, open_writer
+
+
+class KeptFile:
+    """Base of what is stored; each part of the store adds the methods for its own tables."""
+
+    def __init__(self, path: Path) -> None:
+        """Open or create the database and bring it up to date.
+
+        :raises InputRefused: not a database, not the station's, or from a newer station.
+        """
+        self.path = path
+        self._writer: Database = open_writer(path)
+        self._lock = RLock()  # what is written in several steps, whole or not at all, takes it again
+        self._readers = Readers(path)
+
+    def close(self) -> None:
+        """Release the file."""
+        with self._lock:
+            self._readers.close()
+            self._writer.close()
+
+    def backup(self, target: Path) -> None:
+        """A copy of everything stored so far in one new file, made while the station works.
+
+        :raises InputRefused: the file exists or cannot be written.
+        """
+        if target.exists():
+            raise InputRefused(f"{target} exists already; a backup never overwrites.")
+        self._readers.copy(target)
+
+    @contextmanager
+    def _writing(self) -> Iterator[Database]:
+        with self._lock, self._writer.atomic():
+            yield self._writer
+
+
+def now_ms() -> int:
+    """Milliseconds since 1970, UTC."""
+    return time.time_ns() // 1_000_000

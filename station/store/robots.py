@@ -1,0 +1,111 @@
+"""Robot files by version, and what passed runs leave to a robot's next one."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+from datetime import UTC, datetime
+
+from station.errors import NotFound
+from station.five_bar import Robot
+from station.records import KeptRobot, LastingParameters, Remembered
+from station.store.kept_file import KeptFile, now_ms
+from station.store.rows import compact, moment
+
+
+class RobotFiles(KeptFile):
+    """A changed robot file is a new version; a run keeps the version it was made with."""
+
+    def save_robot(self, robot: Robot) -> int:
+        """Keep a robot file; a changed one becomes a new version.  Returns the version's row id."""
+        file = compact(robot.to_json())
+        with self._writing() as db:
+            row = db.execute(
+                "SELECT id, file FROM robots WHERE serial = ? ORDER BY id DESC LIMIT 1", [robot.serial]
+            ).fetchone()
+            if row is not None and row[1] == file:
+                return int(row[0])
+            cursor = db.execute(
+                "INSERT INTO robots (serial, file, saved_ms) VALUES (?, ?, ?)",
+                [robot.serial, file, now_ms()],
+            )
+            return int(cursor.lastrowid or 0)
+
+    def robot(self, serial: str) -> Robot:
+        """The latest version of a robot's file.  :raises NotFound:"""
+        row = self._readers.one("SELECT file FROM robots WHERE serial = ? ORDER BY id DESC LIMIT 1", [serial])
+        if row is None:
+            raise NotFound(f"Robot {serial} is not known here.")
+        return Robot.from_dict(json.loads(row["file"]), source=f"robot {serial}")
+
+    def robot_or_nominal(self, serial: str) -> Robot:
+        """The same, and the paper's Table 1 for a robot that no file is kept of."""
+        try:
+            return self.robot(serial)
+        except NotFound:
+            return Robot.default(serial)
+
+    def robots(self) -> list[KeptRobot]:
+        """The latest version of each."""
+        rows = self._readers.all(
+            "SELECT serial, file, saved_ms FROM robots"
+            " WHERE id IN (SELECT max(id) FROM robots GROUP BY serial) ORDER BY serial"
+        )
+        return [
+            KeptRobot(serial=row["serial"], saved_at=moment(row["saved_ms"]), file=json.loads(row["file"]))
+            for row in rows
+        ]
+
+    def robot_of(self, calibration_id: int) -> Robot:
+        """The robot file as it was when the calibration was made.  :raises NotFound:"""
+        row = self._readers.one(
+            "SELECT file FROM robots WHERE id = (SELECT robot_id FROM calibrations WHERE id = ?)",
+            [calibration_id],
+        )
+        if row is None:
+            raise NotFound(f"There is no calibration {calibration_id}.")
+        return Robot.from_dict(json.loads(row["file"]), source=f"robot of calibration {calibration_id}")
+
+
+class Memories(RobotFiles):
+    """Geometry and mechanism as passed runs found them; the newest that was not cleared counts."""
+
+    def memory(self, serial: str) -> Remembered | None:
+        """What the robot's next run may use: of its newest pass, not cleared, under the same robot file."""
+        row = self._readers.one(
+            "SELECT calibration_id, at_ms, memory, robot_id, cleared_ms FROM memories"
+            " JOIN calibrations ON id = calibration_id WHERE memories.robot_serial = ?"
+            " ORDER BY calibration_id DESC LIMIT 1",
+            [serial],
+        )
+        latest = self._readers.one("SELECT max(id) AS id FROM robots WHERE serial = ?", [serial])
+        if row is None or latest is None or row["cleared_ms"] is not None or row["robot_id"] != latest["id"]:
+            return None
+        return _remembered(row)
+
+    def memory_left_by(self, calibration_id: int) -> Remembered:
+        """What one run left to the next, cleared or not.  :raises NotFound:"""
+        row = self._readers.one(
+            "SELECT calibration_id, at_ms, memory FROM memories WHERE calibration_id = ?", [calibration_id]
+        )
+        if row is None:
+            raise NotFound(f"Run {calibration_id} left no memory.")
+        return _remembered(row)
+
+    def forget(self, serial: str, who: str) -> None:
+        """The robot's next run starts without memory; what was known stays on record.
+
+        Again is harmless.  :raises NotFound: no such robot.
+        """
+        self.robot(serial)
+        with self._writing() as db:
+            db.execute(
+                "UPDATE memories SET cleared_ms = ?, cleared_by = ?"
+                " WHERE robot_serial = ? AND cleared_ms IS NULL",
+                [now_ms(), who, serial],
+            )
+
+
+def _remembered(row: sqlite3.Row) -> Remembered:
+    at = datetime.fromtimestamp(row["at_ms"] / 1000, UTC)
+    return Remembered(row["calibration_id"], at, LastingParameters.model_validate_json(row["memory"]))

@@ -1,0 +1,64 @@
+"""Files of released versions come up to date with everything that was in them."""
+
+from __future__ import annotations
+
+import shutil
+import sqlite3
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from station.store.store import Store
+
+RELEASED = Path(__file__).parent / "released"
+
+
+@pytest.fixture
+def migrated(tmp_path: Path) -> Iterator[Store]:
+    """A file of version 0.1.0 with seven runs, one of each kind that there was."""
+    file = tmp_path / "station.db"
+    shutil.copy(RELEASED / "station-0.1.0.sqlite", file)
+    store = Store(file)
+    yield store
+    store.close()
+
+
+def test_every_run_of_an_old_file_keeps_its_kind_verdict_and_offsets(migrated: Store) -> None:
+    runs = {run.id: run for run in migrated.calibrations().items}
+    assert {n: (run.kind, run.plan, run.verdict, run.outcome) for n, run in runs.items()} == {
+        1: ("calibrate", "paper", "pass", "good"),
+        2: ("calibrate", "rapid", "pass", "good"),
+        3: ("apply", "apply", "pass", "good"),
+        4: ("rollback", "rollback", "pass", "good"),
+        5: ("diagnose", "diagnostic", "pass", "repair"),
+        6: ("import", "dataset", "pass", "good"),
+        7: ("calibrate", "full", "pass", "good"),
+    }
+    assert runs[1].zero_offsets[0].value_deg == pytest.approx(1.9937, abs=1e-4)
+    for n, run in runs.items():
+        assert migrated.readings(n), f"run {run.id} lost its readings"
+
+
+def test_results_documents_and_memories_of_an_old_file_are_read(migrated: Store) -> None:
+    full = migrated.calibration(7)
+    assert full.method == "measurement model"
+    assert full.weak_direction is not None and "both arms together" in full.weak_direction.text
+    assert full.after is not None and full.after.predicted_position_error_mm is not None
+    assert len(full.residuals) == 120
+    document = migrated.diagnosis(5)
+    assert (document.verdict, document.findings[0].effect) == ("explained", "backlash")
+    assert document.model.terms[0].effect == "backlash of joint 2"
+    known = migrated.memory("R1")
+    assert known is not None and known.calibration_id == 7
+
+
+def test_results_are_text_that_sql_queries(migrated: Store) -> None:
+    with sqlite3.connect(migrated.path) as other:
+        rows = other.execute(
+            "SELECT verdict, json_extract(result, '$.zero_offsets[0].value_deg') FROM calibrations"
+            " JOIN results ON calibration_id = id WHERE kind = 'calibrate' ORDER BY id"
+        ).fetchall()
+    other.close()
+    assert [verdict for verdict, _ in rows] == ["pass"] * 3
+    assert [value for _, value in rows] == pytest.approx([1.9937, 2.0008, 1.9972], abs=1e-3)
