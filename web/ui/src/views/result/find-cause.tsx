@@ -1,10 +1,10 @@
 /** From any result to the walk that looks for what the model lacks: press, then confirm. */
-import { type Calibration, newKey, start } from "../api";
-import { connected, station } from "../live";
-import { keepOperator, operator } from "../operator";
-import { navigate } from "../router";
-import { ConfirmedButton } from "./confirm";
-import { OperatorField } from "./operator-field";
+import { type Calibration, newKey, start } from "../../api";
+import { connected, station } from "../../live";
+import { keepOperator, operator } from "../../operator";
+import { navigate } from "../../router";
+import { ConfirmedButton } from "../../parts/confirm";
+import { OperatorField } from "../../parts/operator-field";
 
 export function FindCause({ result: { robot_serial, work_order, lack_of_fit, zero_offsets } }: { result: Calibration }) {
   const idle = connected.value && !station.value?.run && operator.value.trim() !== "";

@@ -1,7 +1,7 @@
-import { Devices } from "../parts/devices";
-import { Readings } from "../parts/readings";
-import { RunPanel } from "../parts/run-panel";
-import { StartForm } from "../parts/start-form";
+import { Devices } from "./devices";
+import { Readings } from "./readings";
+import { RunPanel } from "./run-panel";
+import { StartForm } from "./start-form";
 
 export function StationView() {
   return (

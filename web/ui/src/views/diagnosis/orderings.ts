@@ -1,5 +1,5 @@
 /** By what the residual of a diagnosis may be ordered; the choice lives in the address as `by`. */
-import type { ResidualRow } from "../api";
+import type { ResidualRow } from "../../api";
 
 export interface Series {
   name: string;

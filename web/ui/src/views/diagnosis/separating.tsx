@@ -1,12 +1,12 @@
 /** Where a cause has look-alikes: the motion that tells them apart, planned and run from here, or that none does. */
-import { type Diagnosis, newKey, separate, separating, type Separating } from "../api";
-import { duration, fixed } from "../format";
-import { connected, station } from "../live";
-import { keepOperator, operator } from "../operator";
-import { navigate } from "../router";
-import { ConfirmedButton } from "./confirm";
-import { useLoaded } from "./load";
-import { OperatorField } from "./operator-field";
+import { type Diagnosis, newKey, separate, separating, type Separating } from "../../api";
+import { duration, fixed } from "../../format";
+import { connected, station } from "../../live";
+import { keepOperator, operator } from "../../operator";
+import { navigate } from "../../router";
+import { ConfirmedButton } from "../../parts/confirm";
+import { useLoaded } from "../../parts/load";
+import { OperatorField } from "../../parts/operator-field";
 
 const FRESH = 40;
 

@@ -1,12 +1,12 @@
 /** What a robot's next run will know of geometry and mechanism, and whether this one used it. */
 import { useSignal } from "@preact/signals";
-import { type Calibration, forget, robot } from "../api";
-import { fixed } from "../format";
-import { connected, station } from "../live";
-import { operator } from "../operator";
-import { ConfirmedButton } from "./confirm";
-import { Link } from "./link";
-import { useLoaded } from "./load";
+import { type Calibration, forget, robot } from "../../api";
+import { fixed } from "../../format";
+import { connected, station } from "../../live";
+import { operator } from "../../operator";
+import { ConfirmedButton } from "../../parts/confirm";
+import { Link } from "../../parts/link";
+import { useLoaded } from "../../parts/load";
 
 export function Memory({ result: { memory, robot_serial } }: { result: Calibration }) {
   const forgotten = useSignal(0);

@@ -1,11 +1,11 @@
 /** What the drives hold of a run's zero offsets: write them, take them back. */
-import { apply, type Calibration, newKey, rollBack } from "../api";
-import { signed } from "../format";
-import { connected, station } from "../live";
-import { keepOperator, operator } from "../operator";
-import { ConfirmedButton } from "./confirm";
-import { Link } from "./link";
-import { Badge } from "./verdict";
+import { apply, type Calibration, newKey, rollBack } from "../../api";
+import { signed } from "../../format";
+import { connected, station } from "../../live";
+import { keepOperator, operator } from "../../operator";
+import { ConfirmedButton } from "../../parts/confirm";
+import { Link } from "../../parts/link";
+import { Badge } from "../../parts/verdict";
 
 type State = NonNullable<Calibration["application"]>["state"];
 

@@ -1,16 +1,16 @@
-import { calibration, type Calibration, diagnosis } from "../api";
-import { dateTime, duration, fixed, signed } from "../format";
-import { station } from "../live";
-import { Application } from "../parts/application";
-import { BeforeAfter } from "../parts/before-after";
-import { Causes, Hints } from "../parts/causes";
-import { FindCause } from "../parts/find-cause";
-import { Link } from "../parts/link";
-import { useLoaded } from "../parts/load";
-import { Memory } from "../parts/memory";
-import { SeparatingOffer } from "../parts/separating";
-import { ResidualChart } from "../parts/residual-chart";
-import { VerdictLine } from "../parts/verdict";
+import { calibration, type Calibration, diagnosis } from "../../api";
+import { dateTime, duration, fixed, signed } from "../../format";
+import { station } from "../../live";
+import { Application } from "./application";
+import { BeforeAfter } from "../../parts/before-after";
+import { Causes, Hints } from "../diagnosis/causes";
+import { FindCause } from "./find-cause";
+import { Link } from "../../parts/link";
+import { useLoaded } from "../../parts/load";
+import { Memory } from "./memory";
+import { SeparatingOffer } from "../diagnosis/separating";
+import { ResidualChart } from "./residual-chart";
+import { VerdictLine } from "../../parts/verdict";
 
 /** Coverage factor of every expanded uncertainty on this page. */
 const K = 2;

@@ -1,8 +1,8 @@
 /** The residual before and after, ordered by what may have caused it; the ordering lives in the address. */
-import type { ResidualRow } from "../api";
-import { fixed } from "../format";
-import { navigate, path, query } from "../router";
-import { Drawn } from "./drawn";
+import type { ResidualRow } from "../../api";
+import { fixed } from "../../format";
+import { navigate, path, query } from "../../router";
+import { Drawn } from "../../parts/drawn";
 import { isOver, MARKS, type Ordering, orderingsOf, PLACE, type Series } from "./orderings";
 
 const UM = 1000;

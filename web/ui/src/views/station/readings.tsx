@@ -1,5 +1,5 @@
-import { fixed, signed } from "../format";
-import { finished, station } from "../live";
+import { fixed, signed } from "../../format";
+import { finished, station } from "../../live";
 
 /** Reading by reading, the newest first, residual against its limit. */
 export function Readings() {

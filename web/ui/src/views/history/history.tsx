@@ -1,11 +1,11 @@
 /** Every run, newest first.  Filters and page live in the address. */
-import { calibrations, type Summary } from "../api";
-import { dateTime, fixed, signed } from "../format";
-import { station } from "../live";
-import { Link } from "../parts/link";
-import { useLoaded } from "../parts/load";
-import { Badge } from "../parts/verdict";
-import { navigate, query } from "../router";
+import { calibrations, type Summary } from "../../api";
+import { dateTime, fixed, signed } from "../../format";
+import { station } from "../../live";
+import { Link } from "../../parts/link";
+import { useLoaded } from "../../parts/load";
+import { Badge } from "../../parts/verdict";
+import { navigate, query } from "../../router";
 
 const PAGE = "20";
 const STATES: Summary["state"][] = ["queued", "running", "succeeded", "failed", "aborted", "interrupted"];

@@ -1,5 +1,5 @@
-import type { Device } from "../api";
-import { station } from "../live";
+import type { Device } from "../../api";
+import { station } from "../../live";
 
 const WORDS: Record<Device["state"], { word: string; alarm: string }> = {
   ok: { word: "ok", alarm: "" },

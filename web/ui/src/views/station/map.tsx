@@ -1,7 +1,7 @@
 /** The workspace from above the table: positions to come, done and next, and where the robot stands. */
-import type { Run, RunStop } from "../api";
-import { fixed } from "../format";
-import { station } from "../live";
+import type { Run, RunStop } from "../../api";
+import { fixed } from "../../format";
+import { station } from "../../live";
 
 const MARGIN_MM = { left: 66, right: 30, top: 24, bottom: 30 };
 /** More places than this are drawn smaller. */

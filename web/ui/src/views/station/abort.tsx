@@ -1,6 +1,6 @@
 import { useSignal } from "@preact/signals";
-import { abort } from "../api";
-import { connected, station } from "../live";
+import { abort } from "../../api";
+import { connected, station } from "../../live";
 
 /** Ends the run under way.  Stop does the same and more; this is the quiet way. */
 export function AbortButton() {

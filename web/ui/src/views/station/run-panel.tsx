@@ -1,5 +1,5 @@
-import { duration, fixed } from "../format";
-import { finished, machineAgeS, remainingS, station } from "../live";
+import { duration, fixed } from "../../format";
+import { finished, machineAgeS, remainingS, station } from "../../live";
 import { AbortButton } from "./abort";
 import { WorkspaceMap } from "./map";
 import { Outcome, outcome } from "./outcome";

@@ -1,6 +1,6 @@
 /** The causes that a diagnosis found, by rank: size, share, look-alikes, remedy; and what an unexplained rest depends on. */
-import type { Diagnosis } from "../api";
-import { fixed, measured } from "../format";
+import type { Diagnosis } from "../../api";
+import { fixed, measured } from "../../format";
 
 /** Coverage factor of the expanded uncertainty. */
 const K = 2;

@@ -2,9 +2,9 @@ import { LineChart, ScatterChart } from "echarts/charts";
 import { GridComponent } from "echarts/components";
 import { use } from "echarts/core";
 import { SVGRenderer } from "echarts/renderers";
-import type { ResidualRow } from "../api";
-import { fixed } from "../format";
-import { DARK, GREY, mount, RED, xAxis, yAxis } from "./drawing";
+import type { ResidualRow } from "../../api";
+import { fixed } from "../../format";
+import { DARK, GREY, mount, RED, xAxis, yAxis } from "../../parts/drawing";
 import { isOver, MARKS, meansOfPlaces, type Ordering, type Series } from "./orderings";
 
 use([LineChart, ScatterChart, GridComponent, SVGRenderer]);

@@ -1,9 +1,9 @@
 /** Two steps to move the machine: Calibrate, then confirm.  Scanner and keyboard alone are enough. */
 import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { type CalibrationBody, newKey, Refused, start } from "../api";
-import { connected, station } from "../live";
-import { keepOperator, operator } from "../operator";
+import { type CalibrationBody, newKey, Refused, start } from "../../api";
+import { connected, station } from "../../live";
+import { keepOperator, operator } from "../../operator";
 import { dismissOutcome } from "./outcome";
 
 type Plan = CalibrationBody["plan"];

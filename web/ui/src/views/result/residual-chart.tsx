@@ -1,6 +1,6 @@
-import type { Calibration } from "../api";
-import { fixed } from "../format";
-import { Drawn } from "./drawn";
+import type { Calibration } from "../../api";
+import { fixed } from "../../format";
+import { Drawn } from "../../parts/drawn";
 
 type Residuals = NonNullable<Calibration["residuals"]>;
 

@@ -1,6 +1,6 @@
 /** The errors of the readings, model by model, from the paper's on. */
-import type { Diagnosis } from "../api";
-import { fixed } from "../format";
+import type { Diagnosis } from "../../api";
+import { fixed } from "../../format";
 
 const UM = 1000;
 

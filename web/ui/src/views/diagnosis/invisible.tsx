@@ -1,5 +1,5 @@
 /** What the readings could not have shown: the smallest visible size of every effect that was not found. */
-import type { Diagnosis } from "../api";
+import type { Diagnosis } from "../../api";
 import { parameterName } from "./causes";
 
 export function Invisible({ found: { invisible } }: { found: Diagnosis }) {

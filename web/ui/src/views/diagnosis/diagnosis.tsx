@@ -1,15 +1,15 @@
 /** What the model of a run lacked: residual, causes, models, before and after, and what could not be seen. */
-import { calibration, diagnosis, residuals } from "../api";
-import { fixed } from "../format";
-import { BeforeAfter } from "../parts/before-after";
-import { Causes, Hints } from "../parts/causes";
-import { Invisible } from "../parts/invisible";
-import { Link } from "../parts/link";
-import { useLoaded } from "../parts/load";
-import { ResidualOrderings } from "../parts/residual-orderings";
-import { SeparatingOffer } from "../parts/separating";
-import { Stages } from "../parts/stages";
-import { VerdictLine } from "../parts/verdict";
+import { calibration, diagnosis, residuals } from "../../api";
+import { fixed } from "../../format";
+import { BeforeAfter } from "../../parts/before-after";
+import { Causes, Hints } from "./causes";
+import { Invisible } from "./invisible";
+import { Link } from "../../parts/link";
+import { useLoaded } from "../../parts/load";
+import { ResidualOrderings } from "./residual-orderings";
+import { SeparatingOffer } from "./separating";
+import { Stages } from "./stages";
+import { VerdictLine } from "../../parts/verdict";
 
 const UM = 1000;
 

@@ -1,8 +1,8 @@
 /** How the last run ended; it stays until the next serial is scanned. */
 import { computed, signal } from "@preact/signals";
-import { station } from "../live";
-import { Link } from "./link";
-import { VerdictLine } from "./verdict";
+import { station } from "../../live";
+import { Link } from "../../parts/link";
+import { VerdictLine } from "../../parts/verdict";
 
 const dismissed = signal<number | null>(null);
 

@@ -2,8 +2,8 @@ import { LineChart, ScatterChart } from "echarts/charts";
 import { GridComponent } from "echarts/components";
 import { use } from "echarts/core";
 import { SVGRenderer } from "echarts/renderers";
-import type { Calibration } from "../api";
-import { DARK, GREY, mount, RED, xAxis, yAxis } from "./drawing";
+import type { Calibration } from "../../api";
+import { DARK, GREY, mount, RED, xAxis, yAxis } from "../../parts/drawing";
 
 use([LineChart, ScatterChart, GridComponent, SVGRenderer]);
 
