@@ -2,6 +2,7 @@
 import { useSignal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef } from "preact/hooks";
+import { t } from "../messages";
 
 interface Props {
   label: string;
@@ -52,7 +53,7 @@ export function ConfirmedButton({ label, children, disabled, prominent, act }: P
       >
         {label}
       </button>
-      <div class="confirm" role="group" aria-label={`Confirm: ${label}`} hidden={!armed.value}>
+      <div class="confirm" role="group" aria-label={t.shared.confirmLabel(label)} hidden={!armed.value}>
         <p>{children}</p>
         <button
           class="act"
@@ -62,7 +63,7 @@ export function ConfirmedButton({ label, children, disabled, prominent, act }: P
           onKeyDown={(event) => event.repeat && event.preventDefault()}
           onClick={() => void confirm()}
         >
-          Confirm
+          {t.shared.confirm}
         </button>
         <button
           type="button"
@@ -71,7 +72,7 @@ export function ConfirmedButton({ label, children, disabled, prominent, act }: P
             button.current?.focus();
           }}
         >
-          Back
+          {t.shared.back}
         </button>
       </div>
       <p class="trouble" role="alert">

@@ -1,17 +1,17 @@
-/** What the model of a run lacked: residual, causes, models, before and after, and what could not be seen. */
+/** What the model of a run lacked: residual, causes, models, before and after, and what was not detectable. */
 import { calibration, diagnosis, residuals } from "../../api";
-import { fixed } from "../../format";
+import { micrometres } from "../../format";
+import { t } from "../../messages";
 import { BeforeAfter } from "../../parts/before-after";
-import { Causes, Hints } from "./causes";
-import { Invisible } from "./invisible";
 import { Link } from "../../parts/link";
 import { useLoaded } from "../../parts/load";
+import { VerdictLine } from "../../parts/verdict";
+import type { Calibration, Diagnosis } from "../../types";
+import { Causes, Hints } from "./causes";
+import { Invisible } from "./invisible";
 import { ResidualOrderings } from "./residual-orderings";
 import { SeparatingOffer } from "./separating";
 import { Stages } from "./stages";
-import { VerdictLine } from "../../parts/verdict";
-
-const UM = 1000;
 
 export function DiagnosisView({ id }: { id: number }) {
   const ask = () => Promise.all([calibration(id), diagnosis(id), residuals(id)]);
@@ -19,36 +19,15 @@ export function DiagnosisView({ id }: { id: number }) {
   if (!value) {
     return (
       <section class="panel">
-        <h1>Diagnosis</h1>
-        <p role="status">{trouble ?? "Loading …"}</p>
+        <h1>{t.diagnosis.title}</h1>
+        <p role="status">{trouble ?? t.shared.loading}</p>
       </section>
     );
   }
   const [run, found, left] = value;
-  const { sigma_mm, source, dof } = found.noise;
   return (
     <div class="result">
-      <section class="panel summary">
-        <h1>Diagnosis of run {id}</h1>
-        <VerdictLine run={run} />
-        <p>{found.sentence}</p>
-        <p class="note">
-          {left.items.length} readings. Noise of one reading {fixed(UM * sigma_mm, 2)} µm,{" "}
-          {source === "repeats" ? `from ${dof} repeats` : "as specified"}.
-          {found.outliers.length > 0 && ` Left out: reading ${found.outliers.join(", ")}.`}
-        </p>
-        <p class="actions">
-          <Link class="button" to={`/result/${id}`}>
-            Result {id}
-          </Link>
-          <a class="button" href={`/api/v1/calibrations/${id}/report.html`}>
-            Report
-          </a>
-          <a class="button" href={`/api/v1/calibrations/${id}/readings.csv`} download>
-            Readings (CSV)
-          </a>
-        </p>
-      </section>
+      <DiagnosisSummary run={run} found={found} readings={left.items.length} />
       <Causes found={found} />
       <SeparatingOffer id={id} serial={run.robot_serial} found={found} />
       <Hints found={found} />
@@ -57,5 +36,36 @@ export function DiagnosisView({ id }: { id: number }) {
       <BeforeAfter result={run} wide />
       <Invisible found={found} />
     </div>
+  );
+}
+
+function DiagnosisSummary(props: { run: Calibration; found: Diagnosis; readings: number }) {
+  const { run, found, readings } = props;
+  const { sigma_mm, source, dof } = found.noise;
+  const sigma = micrometres(sigma_mm, 2);
+  return (
+    <section class="panel summary">
+      <h1>{t.diagnosis.heading(run.id)}</h1>
+      <VerdictLine run={run} />
+      <p>{found.sentence}</p>
+      <p class="note">
+        {t.diagnoses[found.verdict].explanation}{" "}
+        {source === "repeats"
+          ? t.diagnosis.noiseFromRepeats(readings, sigma, dof)
+          : t.diagnosis.noiseSpecified(readings, sigma)}
+        {found.outliers.length > 0 && ` ${t.diagnosis.outliers(t.listed(found.outliers.map(String)))}`}
+      </p>
+      <p class="actions">
+        <Link class="button" to={`/result/${run.id}`}>
+          {t.shared.result(run.id)}
+        </Link>
+        <a class="button" href={`/api/v1/calibrations/${run.id}/report.html`}>
+          {t.shared.report}
+        </a>
+        <a class="button" href={`/api/v1/calibrations/${run.id}/readings.csv`} download>
+          {t.shared.readingsCsv}
+        </a>
+      </p>
+    </section>
   );
 }

@@ -1,40 +1,52 @@
-/** What the readings could not have shown: the smallest visible size of every effect that was not found. */
-import type { Diagnosis } from "../../api";
-import { parameterName } from "./causes";
+/** What the readings could not have shown: the detection limit of every effect that was not found. */
+import { MISSING } from "../../format";
+import { t } from "../../messages";
+import { labelName, shown } from "../../names";
+import type { Diagnosis } from "../../types";
 
 export function Invisible({ found: { invisible } }: { found: Diagnosis }) {
   return (
-    <section class="panel wide" aria-label="Not found">
-      <h2>What was not found, and how small it could be</h2>
-      <p class="note">Smaller effects than these may be there: each size would be found in four of five such walks.</p>
+    <section class="panel wide" aria-label={t.diagnosis.notFound}>
+      <h2>{t.diagnosis.notFoundTitle}</h2>
+      <p class="note">{t.diagnosis.notFoundNote}</p>
       <table>
         <thead>
           <tr>
             <th scope="col" class="text">
-              Effect
+              {t.diagnosis.effectColumn}
             </th>
-            <th scope="col">Smallest visible size</th>
+            <th scope="col">{t.diagnosis.detectionLimit}</th>
             <th scope="col" class="text">
-              Of
+              {t.diagnosis.quantity}
             </th>
             <th scope="col" class="text">
-              Remark
+              {t.diagnosis.remark}
             </th>
           </tr>
         </thead>
         <tbody>
-          {invisible.map(({ label, parameter, minimum_detectable, unit, text }) => (
-            <tr key={label}>
-              <th scope="row" class="text">
-                {label.replaceAll("_", " ")}
-              </th>
-              <td>{minimum_detectable === null ? "–" : `${Number(minimum_detectable.toPrecision(2))} ${unit}`}</td>
-              <td class="text">{parameter && unit && parameterName(parameter, unit)}</td>
-              <td class="text remark">{text}</td>
-            </tr>
-          ))}
+          {invisible.map((one) => {
+            const { name, limit } = detectionLimit(one);
+            return (
+              <tr key={one.label}>
+                <th scope="row" class="text name">
+                  {labelName(one.label)}
+                </th>
+                <td>{limit}</td>
+                <td class="text">{name}</td>
+                <td class="text remark">{one.text}</td>
+              </tr>
+            );
+          })}
         </tbody>
       </table>
     </section>
   );
+}
+
+/** To two digits, with its unit. */
+function detectionLimit({ parameter, minimum_detectable, unit }: Diagnosis["invisible"][number]) {
+  if (parameter === null || minimum_detectable === null || unit === null) return { name: "", limit: MISSING };
+  const size = shown({ name: parameter, value: minimum_detectable, sd: null, unit });
+  return { name: size.name, limit: `${Number(size.value?.toPrecision(2))} ${size.unit}` };
 }

@@ -2,10 +2,11 @@ import { LineChart, ScatterChart } from "echarts/charts";
 import { GridComponent } from "echarts/components";
 import { use } from "echarts/core";
 import { SVGRenderer } from "echarts/renderers";
-import type { ResidualRow } from "../../api";
-import { fixed } from "../../format";
+import { micrometres } from "../../format";
+import { t } from "../../messages";
 import { DARK, GREY, mount, RED, xAxis, yAxis } from "../../parts/drawing";
-import { isOver, MARKS, meansOfPlaces, type Ordering, type Series } from "./orderings";
+import type { ResidualRow } from "../../types";
+import { isOver, MARKS, meansOfPositions, type Ordering, type Series } from "./orderings";
 
 use([LineChart, ScatterChart, GridComponent, SVGRenderer]);
 
@@ -18,22 +19,34 @@ export function drawOrdering(
   place: HTMLElement,
   rows: ResidualRow[],
   ordering: Ordering,
-  [dots, ...marks]: [Series, ...Series[]],
+  series: [Series, ...Series[]],
   limit_mm: number | null,
 ): () => void {
+  return mount(place, orderingOption(rows, ordering, series, limit_mm));
+}
+
+export function orderingOption(
+  rows: ResidualRow[],
+  ordering: Ordering,
+  [dots, ...marks]: [Series, ...Series[]],
+  limit_mm: number | null,
+) {
   const along = rows.map((row, index) => ordering.along(row, index));
   const points = ({ of }: Series) => rows.map((row, index) => [along[index], UM * of(row)]);
   const known = along.filter((value) => value !== null);
   const [left, right] = ordering.words ? [-1.5, 1.5] : [Math.min(...known), Math.max(...known)];
   const over = ({ dataIndex }: { dataIndex: number }) => limit_mm !== null && isOver(rows[dataIndex]!);
   const limits = limit_mm === null ? [] : [UM * limit_mm, -UM * limit_mm];
-  return mount(place, {
+  return {
     xAxis: { ...xAxis, name: ordering.axis, ...(ordering.words && sidesAxis(ordering.words, known)) },
-    yAxis: { ...yAxis, name: "µm" },
+    yAxis: { ...yAxis, name: t.diagnosis.micrometre },
     series: [
       ...limits.map((limit) => ({
         type: "line",
-        data: [[left, limit], [right, limit]],
+        data: [
+          [left, limit],
+          [right, limit],
+        ],
         symbol: "none",
         silent: true,
         lineStyle: { color: GREY, type: "dashed", width: 1.5 },
@@ -55,7 +68,7 @@ export function drawOrdering(
         data: points(series),
       })),
     ],
-  });
+  };
 }
 
 /** An axis of few values in words; the one for "unknown" only where it occurs. */
@@ -71,15 +84,19 @@ function sidesAxis(words: Record<number, string>, known: number[]) {
   };
 }
 
-/** The mean of each place over the workspace: area by size, filled where positive, hollow where negative. */
-export function drawPlaces(place: HTMLElement, rows: ResidualRow[], { of }: Series): () => void {
-  const means = meansOfPlaces(rows, of);
+/** The mean of each position over the workspace: area by size, filled where positive, hollow where negative. */
+export function drawPositions(place: HTMLElement, rows: ResidualRow[], series: Series): () => void {
+  return mount(place, positionsOption(rows, series));
+}
+
+export function positionsOption(rows: ResidualRow[], { of }: Series) {
+  const means = meansOfPositions(rows, of);
   const largest = Math.max(...means.map(({ mean }) => Math.abs(mean))) || 1;
   const [left, right] = ends(means.map(({ x }) => x));
   const [bottom, top] = ends(means.map(({ y }) => y));
-  return mount(place, {
-    xAxis: { ...xAxis, name: `x, mm (largest mean ${fixed(UM * largest, 1)} µm)`, min: left, max: right },
-    yAxis: { ...yAxis, name: "y, mm", min: bottom, max: top },
+  return {
+    xAxis: { ...xAxis, name: t.diagnosis.xAxisMean(micrometres(largest, 1)), min: left, max: right },
+    yAxis: { ...yAxis, name: t.diagnosis.yAxis, min: bottom, max: top },
     series: [
       {
         type: "scatter",
@@ -89,14 +106,15 @@ export function drawPlaces(place: HTMLElement, rows: ResidualRow[], { of }: Seri
           borderColor: DARK,
           borderWidth: 1.5,
         },
-        symbolSize: ([, , mean]: number[]) => Math.max(3, LARGEST_MARK * Math.sqrt(Math.abs(mean!) / largest)),
+        symbolSize: ([, , mean]: number[]) =>
+          Math.max(3, LARGEST_MARK * Math.sqrt(Math.abs(mean!) / largest)),
         data: means.map(({ x, y, mean }) => [x, y, mean]),
       },
     ],
-  });
+  };
 }
 
-/** Round numbers beyond the outermost places. */
+/** Round numbers beyond the outermost positions. */
 function ends(values: number[]): [number, number] {
   const low = Math.min(...values);
   const high = Math.max(...values);

@@ -1,5 +1,6 @@
-/** By what the residual of a diagnosis may be ordered; the choice lives in the address as `by`. */
-import type { ResidualRow } from "../../api";
+/** By what the residual of a diagnosis can be ordered; the choice lives in the address as `by`. */
+import { t } from "../../messages";
+import type { ResidualRow } from "../../types";
 
 export interface Series {
   name: string;
@@ -7,7 +8,7 @@ export interface Series {
   of: (row: ResidualRow) => number;
 }
 
-/** How what is drawn over the dots looks, and the sign that stands for it in the text. */
+/** How the series drawn over the dots look, and the sign that stands for each in the legend. */
 export const MARKS = [
   { symbol: "circle", sign: "○" },
   { symbol: "diamond", sign: "◇" },
@@ -18,7 +19,7 @@ export const isOver = (row: ResidualRow) => Math.abs(row.after_mm) > row.limit_m
 
 export interface Ordering {
   id: string;
-  text: string;
+  name: string;
   /** Of the x axis, with its unit. */
   axis: string;
   /** Null where it was not recorded; `index` is that of the row. */
@@ -27,35 +28,24 @@ export interface Ordering {
   words?: Record<number, string>;
 }
 
-const SIDES = { [-1]: "from above", 0: "unknown", 1: "from below" };
+const words = t.diagnosis.orderings;
+const SIDES = { [-1]: t.diagnosis.fromAbove, 0: t.diagnosis.unknownSide, 1: t.diagnosis.fromBelow };
 /** How far points of one side are spread, so that they do not cover each other. */
 const SPREAD = 0.6;
 const spread = (side: number, index: number) => side + SPREAD * (((index * 0.618) % 1) - 0.5);
 
-export const PLACE = "place";
+export const POSITION = "position";
 
 export const ORDERINGS: Ordering[] = [
-  { id: "time", text: "Time", axis: "time, s", along: (row) => row.t_s },
-  { id: "order", text: "Order", axis: "number of the reading", along: (_, index) => index + 1 },
-  { id: PLACE, text: "Place", axis: "x, mm", along: (row) => row.x_mm },
-  { id: "joint1", text: "Joint 1", axis: "angle of joint 1, °", along: (row) => row.theta1_deg },
-  { id: "joint2", text: "Joint 2", axis: "angle of joint 2, °", along: (row) => row.theta2_deg },
-  {
-    id: "approach1",
-    text: "Approach 1",
-    axis: "approach of joint 1",
-    along: (row, index) => spread(row.approach1, index),
-    words: SIDES,
-  },
-  {
-    id: "approach2",
-    text: "Approach 2",
-    axis: "approach of joint 2",
-    along: (row, index) => spread(row.approach2, index),
-    words: SIDES,
-  },
-  { id: "travel", text: "Travel", axis: "travel of the scale, mm", along: (row) => row.travel_mm },
-  { id: "temperature", text: "Temperature", axis: "temperature rise, K", along: (row) => row.temperature_rise_k },
+  { id: "time", ...words.time, along: (row) => row.t_s },
+  { id: "order", ...words.order, along: (_, index) => index + 1 },
+  { id: POSITION, ...words.position, along: (row) => row.x_mm },
+  { id: "joint1", ...words.joint1, along: (row) => row.theta1_deg },
+  { id: "joint2", ...words.joint2, along: (row) => row.theta2_deg },
+  { id: "approach1", ...words.approach1, along: (row, index) => spread(row.approach1, index), words: SIDES },
+  { id: "approach2", ...words.approach2, along: (row, index) => spread(row.approach2, index), words: SIDES },
+  { id: "travel", ...words.travel, along: (row) => row.travel_mm },
+  { id: "temperature", ...words.temperature, along: (row) => row.temperature_rise_k },
 ];
 
 /** Those that these readings have. */
@@ -63,14 +53,19 @@ export function orderingsOf(rows: ResidualRow[]): Ordering[] {
   return ORDERINGS.filter(({ along }) => rows.some((row, index) => along(row, index) !== null));
 }
 
-/** Mean of a residual at each place, in µm. */
-export function meansOfPlaces(rows: ResidualRow[], of: (row: ResidualRow) => number) {
-  const places = new Map<string, { x: number; y: number; sum: number; count: number }>();
+/** Mean of a residual at each position, in mm. */
+export function meansOfPositions(rows: ResidualRow[], of: (row: ResidualRow) => number) {
+  const positions = new Map<string, { x: number; y: number; sum: number; count: number }>();
   for (const row of rows) {
-    const place = places.get(row.position) ?? { x: row.x_mm, y: row.y_mm, sum: 0, count: 0 };
-    place.sum += of(row);
-    place.count += 1;
-    places.set(row.position, place);
+    const known = positions.get(row.position) ?? { x: row.x_mm, y: row.y_mm, sum: 0, count: 0 };
+    known.sum += of(row);
+    known.count += 1;
+    positions.set(row.position, known);
   }
-  return [...places.values()].map(({ x, y, sum, count }) => ({ x, y, mean: sum / count }));
+  return [...positions.values()].map(({ x, y, sum, count }) => ({ x, y, mean: sum / count }));
+}
+
+/** Limits differ a little from position to position; the line is drawn at the middle one. */
+export function medianLimit(rows: ResidualRow[]): number {
+  return rows.map(({ limit_mm }) => limit_mm).sort((a, b) => a - b)[rows.length >> 1]!;
 }

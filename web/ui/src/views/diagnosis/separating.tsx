@@ -1,12 +1,16 @@
-/** Where a cause has look-alikes: the motion that tells them apart, planned and run from here, or that none does. */
-import { type Diagnosis, newKey, separate, separating, type Separating } from "../../api";
+/** Where a cause has alternative explanations: the motion that distinguishes them, started from here. */
+import { newKey, separate, separating } from "../../api";
 import { duration, fixed } from "../../format";
 import { connected, station } from "../../live";
+import { t } from "../../messages";
+import { labelName } from "../../names";
 import { keepOperator, operator } from "../../operator";
-import { navigate } from "../../router";
 import { ConfirmedButton } from "../../parts/confirm";
 import { useLoaded } from "../../parts/load";
+import { MotionWarning } from "../../parts/motion-warning";
 import { OperatorField } from "../../parts/operator-field";
+import { navigate } from "../../router";
+import type { Diagnosis, Separating } from "../../types";
 
 const FRESH = 40;
 
@@ -26,38 +30,38 @@ function Offer({ id, serial }: { id: number; serial: string }) {
   };
   if (!plan || plan.refused) {
     return (
-      <section class="panel wide" aria-label="Look-alikes">
-        <h2>Telling the look-alikes apart</h2>
-        <p role="status">{plan?.refused ?? trouble ?? "Planning …"}</p>
+      <section class="panel wide" aria-label={t.diagnosis.alternatives}>
+        <h2>{t.diagnosis.distinguish}</h2>
+        <p role="status">{plan?.refused ?? trouble ?? t.diagnosis.planning}</p>
       </section>
     );
   }
   return (
-    <section class="panel wide find-cause" aria-label="Look-alikes">
-      <h2>Telling the look-alikes apart</h2>
+    <section class="panel wide find-cause" aria-label={t.diagnosis.alternatives}>
+      <h2>{t.diagnosis.distinguish}</h2>
       <div class="separating">
         <div>
           <p>
-            {plan.stops.length} more readings at the places where the models differ most should decide on{" "}
-            <strong>{plan.apart.join(", ").replaceAll("_", " ")}</strong>; {FRESH} fresh readings then judge anew. About{" "}
-            {duration(plan.duration_s)}.
+            {t.diagnosis.moreReadings(plan.stops.length)}
+            <strong>{t.listed(plan.apart.map(labelName))}</strong>
+            {t.diagnosis.freshReadings(FRESH, duration(plan.duration_s))}
           </p>
-          <p class="note">It goes on from this run: leave scale, drives and mechanism as they are.</p>
+          <p class="note">{t.diagnosis.continues}</p>
         </div>
-        <Places stops={plan.stops} />
+        <PlannedPositions stops={plan.stops} />
       </div>
       <div class="writes">
         <OperatorField id="separating-operator" />
-        <ConfirmedButton label="Run the separating experiment" disabled={!idle} act={run}>
-          <strong>Robot {serial} will move</strong> over its workspace. Nobody within its reach?
+        <ConfirmedButton label={t.diagnosis.runSeparating} disabled={!idle} act={run}>
+          <MotionWarning serial={serial} then={t.diagnosis.workspace} />
         </ConfirmedButton>
       </div>
     </section>
   );
 }
 
-/** The planned places; a circle is larger the more often it is read. */
-function Places({ stops }: { stops: Separating["stops"] }) {
+/** The planned positions; a circle is larger the more often it is read. */
+function PlannedPositions({ stops }: { stops: Separating["stops"] }) {
   const workspace = station.value?.workspace;
   if (!workspace) return null;
   const [left, right] = workspace.x;
@@ -67,11 +71,12 @@ function Places({ stops }: { stops: Separating["stops"] }) {
     const times = (often.get(position)?.times ?? 0) + 1;
     often.set(position, { x: x_mm, y: y_mm, times });
   }
+  const whole = (mm: number) => fixed(mm, 0);
   return (
     <svg
       class="map"
       role="img"
-      aria-label={`${often.size} planned places, x from ${fixed(left, 0)} to ${fixed(right, 0)} mm, y from ${fixed(bottom, 0)} to ${fixed(top, 0)} mm`}
+      aria-label={t.diagnosis.planned(often.size, whole(left), whole(right), whole(bottom), whole(top))}
       viewBox={`${left - 20} ${-top - 20} ${right - left + 40} ${top - bottom + 40}`}
     >
       <rect class="area" x={left} y={-top} width={right - left} height={top - bottom} />

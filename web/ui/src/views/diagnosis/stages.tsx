@@ -1,32 +1,32 @@
-/** The errors of the readings, model by model, from the paper's on. */
-import type { Diagnosis } from "../../api";
-import { fixed } from "../../format";
-
-const UM = 1000;
+/** The errors of the readings, model by model, from the simplest one on. */
+import { micrometres } from "../../format";
+import { t } from "../../messages";
+import { stageName } from "../../names";
+import type { Diagnosis } from "../../types";
 
 export function Stages({ found: { stages } }: { found: Diagnosis }) {
-  const um = (mm: number | null) => fixed(mm === null ? null : mm * UM, 2);
+  const um = (mm: number | null) => micrometres(mm, 2);
   return (
-    <section class="panel wide" aria-label="Errors">
-      <h2>Errors of the readings, in µm</h2>
+    <section class="panel wide" aria-label={t.diagnosis.errors}>
+      <h2>{t.diagnosis.errorsTitle}</h2>
       <table>
         <thead>
           <tr>
             <th scope="col" class="text">
-              Model
+              {t.diagnosis.model}
             </th>
-            <th scope="col">Unknowns</th>
-            <th scope="col">Fit, rms</th>
-            <th scope="col">Place left out, rms</th>
-            <th scope="col">Fresh, rms</th>
-            <th scope="col">Fresh, largest</th>
+            <th scope="col">{t.diagnosis.unknowns}</th>
+            <th scope="col">{t.diagnosis.fit}</th>
+            <th scope="col">{t.diagnosis.leftOut}</th>
+            <th scope="col">{t.diagnosis.fresh}</th>
+            <th scope="col">{t.diagnosis.freshLargest}</th>
           </tr>
         </thead>
         <tbody>
           {stages.map((stage) => (
             <tr key={stage.model}>
-              <th scope="row" class="text">
-                {stage.model.replaceAll("_", " ")}
+              <th scope="row" class="text name">
+                {stageName(stage.model)}
               </th>
               <td>{stage.unknowns}</td>
               <td>{um(stage.fit_rms_mm)}</td>

@@ -1,43 +1,46 @@
-/** From any result to the walk that looks for what the model lacks: press, then confirm. */
-import { type Calibration, newKey, start } from "../../api";
+/** From any result to the measurement sequence that finds what the model lacks: press, then confirm. */
+import { newKey, start } from "../../api";
 import { connected, station } from "../../live";
+import { t } from "../../messages";
 import { keepOperator, operator } from "../../operator";
-import { navigate } from "../../router";
 import { ConfirmedButton } from "../../parts/confirm";
+import { MotionWarning } from "../../parts/motion-warning";
 import { OperatorField } from "../../parts/operator-field";
+import { navigate } from "../../router";
+import type { Calibration } from "../../types";
 
-export function FindCause({ result: { robot_serial, work_order, lack_of_fit, zero_offsets } }: { result: Calibration }) {
+export function FindCause({ result }: { result: Calibration }) {
+  const { robot_serial, work_order, lack_of_fit } = result;
   const idle = connected.value && !station.value?.run && operator.value.trim() !== "";
-  const walk = async () => {
+  const find = async () => {
     keepOperator();
-    const body = { robot_serial, plan: "diagnostic" as const, operator: operator.value.trim(), work_order, metadata: {} };
+    const who = operator.value.trim();
+    const body = { robot_serial, plan: "diagnostic" as const, operator: who, work_order, metadata: {} };
     const run = await start(body, newKey());
     navigate(`/result/${run.id}`);
   };
   return (
-    <section class="panel wide find-cause" aria-label="Cause">
+    <section class="panel wide find-cause" aria-label={t.result.cause}>
       {lack_of_fit === null ? (
-        <h2>Does the model lack something?</h2>
+        <h2>{t.result.checkModel}</h2>
       ) : (
         <>
           <h2>
-            <strong class="alarm warn">◆ The model does not account for these readings</strong>
+            <strong class="alarm warn">{t.result.misfit}</strong>
           </h2>
-          <p>
-            {zero_offsets?.length
-              ? `Something is missing from it, and the zero offsets may be wrong by more than they say: ${lack_of_fit}.`
-              : "No machine within the tolerances gives them: something is missing from the model, or the robot file is of another machine."}
-          </p>
+          <p>{result.zero_offsets?.length ? t.result.misfitOffsets(lack_of_fit) : t.result.misfitNone}</p>
         </>
       )}
-      <p>
-        A walk of 120 readings there and back shows what the residual depends on and names its cause; 40 fresh readings
-        then judge it.
-      </p>
+      <p>{t.result.findCauseNote}</p>
       <div class="writes">
         <OperatorField id="cause-operator" />
-        <ConfirmedButton label="Find the cause" prominent={lack_of_fit !== null} disabled={!idle} act={walk}>
-          <strong>Robot {robot_serial} will move</strong> over its whole workspace. Nobody within its reach?
+        <ConfirmedButton
+          label={t.result.findCause}
+          prominent={lack_of_fit !== null}
+          disabled={!idle}
+          act={find}
+        >
+          <MotionWarning serial={robot_serial} then={t.result.wholeWorkspace} />
         </ConfirmedButton>
       </div>
     </section>

@@ -1,12 +1,14 @@
-/** What a robot's next run will know of geometry and mechanism, and whether this one used it. */
+/** Which stored parameters of geometry and mechanism the next run starts from, and whether this one used them. */
 import { useSignal } from "@preact/signals";
-import { type Calibration, forget, robot } from "../../api";
+import { forget, robot } from "../../api";
 import { fixed } from "../../format";
 import { connected, station } from "../../live";
+import { t } from "../../messages";
 import { operator } from "../../operator";
 import { ConfirmedButton } from "../../parts/confirm";
 import { Link } from "../../parts/link";
 import { useLoaded } from "../../parts/load";
+import type { Calibration } from "../../types";
 
 export function Memory({ result: { memory, robot_serial } }: { result: Calibration }) {
   const forgotten = useSignal(0);
@@ -20,29 +22,29 @@ export function Memory({ result: { memory, robot_serial } }: { result: Calibrati
   };
   return (
     <section class="panel memory">
-      <h2>Memory of robot {robot_serial}</h2>
-      <p class="used">
-        {memory ? (
-          <>
-            {memory.used ? "Used" : <strong class="alarm warn">◆ Not used</strong>}: {memory.text},{" "}
-            <Link class="cell" to={`/result/${memory.from_calibration}`}>
-              run {memory.from_calibration}
-            </Link>
-            , {fixed(memory.age_days, 1)} days before. p = {fixed(memory.p_value, 3)}.
-          </>
-        ) : (
-          "This run used no memory."
-        )}
-      </p>
+      <h2>{t.result.memory(robot_serial)}</h2>
+      <p class="used">{memory ? <Used memory={memory} /> : t.result.memoryNone}</p>
       <p>
-        {next
-          ? `The next rapid or full run starts from run ${next.from_calibration}, ${fixed(next.age_days, 1)} days old.`
-          : "The next run starts without memory."}
+        {next ? t.result.memoryNext(next.from_calibration, fixed(next.age_days, 1)) : t.result.memoryNextNone}
       </p>
-      <ConfirmedButton label="Forget" disabled={!connected.value || !next} act={drop}>
-        The next run of robot {robot_serial} will start <strong>without memory</strong>, as after the mechanism was
-        mounted anew.
+      <ConfirmedButton label={t.result.forget} disabled={!connected.value || !next} act={drop}>
+        {t.result.forgetWarning(robot_serial)}
+        <strong>{t.result.forgetEmphasis}</strong>
+        {t.result.forgetAs}
       </ConfirmedButton>
     </section>
+  );
+}
+
+function Used({ memory }: { memory: NonNullable<Calibration["memory"]> }) {
+  return (
+    <>
+      {memory.used ? t.result.memoryUsed : <strong class="alarm warn">{t.result.memoryNotUsed}</strong>}
+      {t.result.memoryText(memory.text)}
+      <Link class="cell" to={`/result/${memory.from_calibration}`}>
+        {t.shared.run(memory.from_calibration)}
+      </Link>
+      {t.result.memoryAge(fixed(memory.age_days, 1), fixed(memory.p_value, 3))}
+    </>
   );
 }

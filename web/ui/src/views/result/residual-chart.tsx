@@ -1,25 +1,28 @@
-import type { Calibration } from "../../api";
-import { fixed } from "../../format";
+import { micrometres } from "../../format";
+import { t } from "../../messages";
 import { Drawn } from "../../parts/drawn";
-
-type Residuals = NonNullable<Calibration["residuals"]>;
+import type { Residual } from "../../types";
+import { isOver } from "./over-limit";
 
 /** Residual of each reading against its limits. */
-export function ResidualChart({ id, residuals }: { id: number; residuals: Residuals }) {
+export function ResidualChart({ id, residuals }: { id: number; residuals: Residual[] }) {
   if (residuals.length === 0) return null;
-  const over = residuals.filter((r) => r.limit_mm !== null && Math.abs(r.residual_mm ?? 0) > r.limit_mm);
-  const largest = Math.max(...residuals.map((r) => Math.abs(r.residual_mm ?? 0)));
+  const largest = Math.max(...residuals.map(({ residual_mm }) => Math.abs(residual_mm ?? 0)));
+  const over = residuals.filter(isOver).length;
   return (
     <section class="panel wide">
-      <h2>Residual of each reading</h2>
-      <p class="note">
-        {residuals.length} readings, largest {fixed(largest, 4)} mm,{" "}
-        {over.length === 0 ? "none over its limit." : `${over.length} over the limit (diamonds).`}
-      </p>
+      <h2>{t.result.residuals}</h2>
+      <p class="note">{t.result.residualsNote(residuals.length, micrometres(largest, 1), over)}</p>
       <Drawn
-        label="Chart of the residuals against their limits"
+        label={t.result.residualsChart}
         on={`${id} ${residuals.length}`}
-        load={() => import("./residual-drawing").then(({ draw }) => (place) => draw(place, residuals))}
+        load={() =>
+          import("./residual-drawing").then(
+            ({ draw }) =>
+              (place) =>
+                draw(place, residuals),
+          )
+        }
       />
     </section>
   );

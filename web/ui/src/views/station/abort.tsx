@@ -1,8 +1,9 @@
 import { useSignal } from "@preact/signals";
 import { abort } from "../../api";
 import { connected, station } from "../../live";
+import { t } from "../../messages";
 
-/** Ends the run under way.  Stop does the same and more; this is the quiet way. */
+/** Ends the run in progress.  Stop does the same and more; this is the quiet way. */
 export function AbortButton() {
   const trouble = useSignal<string | null>(null);
   const id = station.value?.run?.id ?? null;
@@ -16,7 +17,7 @@ export function AbortButton() {
   return (
     <div class="abort">
       <button type="button" disabled={id === null || !connected.value} onClick={() => void press()}>
-        Abort run
+        {t.station.abort}
       </button>
       <p class="trouble" role="alert">
         {id !== null && trouble.value}

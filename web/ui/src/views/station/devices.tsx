@@ -1,11 +1,12 @@
-import type { Device } from "../../api";
 import { station } from "../../live";
+import { t } from "../../messages";
+import type { DeviceState } from "../../types";
 
-const WORDS: Record<Device["state"], { word: string; alarm: string }> = {
-  ok: { word: "ok", alarm: "" },
-  unknown: { word: "not asked yet", alarm: "" },
-  lost: { word: "▲ lost", alarm: "alarm act" },
-  fault: { word: "▲ fault", alarm: "alarm act" },
+const ALARMS: Record<DeviceState, { shape: string; alarm: string }> = {
+  ok: { shape: "", alarm: "" },
+  unknown: { shape: "", alarm: "" },
+  lost: { shape: "▲ ", alarm: "alarm act" },
+  fault: { shape: "▲ ", alarm: "alarm act" },
 };
 
 /** Devices and interlocks, each in words. */
@@ -13,22 +14,27 @@ export function Devices() {
   const now = station.value;
   return (
     <section class="devices">
-      <h2>Devices</h2>
+      <h2>{t.station.devices}</h2>
       <ul>
-        {now?.devices.map((device) => (
-          <li key={device.name}>
-            <span>{device.name}</span>
-            <strong class={WORDS[device.state].alarm}>{WORDS[device.state].word}</strong>
-            {device.state !== "ok" && device.text && <small>{device.text}</small>}
+        {now?.devices.map(({ name, state, text }) => (
+          <li key={name}>
+            <span>{name}</span>
+            <strong class={ALARMS[state].alarm}>
+              {ALARMS[state].shape}
+              {t.devices[state].name}
+            </strong>
+            {state !== "ok" && <small>{text || t.devices[state].explanation}</small>}
           </li>
         ))}
       </ul>
-      <h2>Interlocks</h2>
+      <h2>{t.station.interlocks}</h2>
       <ul>
         {now?.interlocks.map((interlock) => (
           <li key={interlock.id}>
             <span>{interlock.text}</span>
-            <strong class={interlock.ok ? "" : "alarm warn"}>{interlock.ok ? "ok" : "◆ not met"}</strong>
+            <strong class={interlock.ok ? "" : "alarm warn"}>
+              {interlock.ok ? t.station.interlockOk : t.station.interlockNotMet}
+            </strong>
             {!interlock.ok && interlock.detail && <small>{interlock.detail}</small>}
           </li>
         ))}

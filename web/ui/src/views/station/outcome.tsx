@@ -1,6 +1,7 @@
 /** How the last run ended; it stays until the next serial is scanned. */
 import { computed, signal } from "@preact/signals";
 import { station } from "../../live";
+import { t } from "../../messages";
 import { Link } from "../../parts/link";
 import { VerdictLine } from "../../parts/verdict";
 
@@ -23,7 +24,7 @@ export function Outcome() {
         <>
           <VerdictLine run={last} />
           <Link class="button" to={`/result/${last.id}`}>
-            Result {last.id}
+            {t.shared.result(last.id)}
           </Link>
         </>
       )}

@@ -1,5 +1,6 @@
 import { duration, fixed } from "../../format";
 import { finished, machineAgeS, remainingS, station } from "../../live";
+import { t } from "../../messages";
 import { AbortButton } from "./abort";
 import { WorkspaceMap } from "./map";
 import { Outcome, outcome } from "./outcome";
@@ -12,15 +13,15 @@ export function RunPanel() {
   const step = run?.step ?? 0;
   const steps = run?.steps ?? 0;
   return (
-    <section class="run" aria-label="Run">
+    <section class="run" aria-label={t.station.run}>
       <div class="top">
         <Outcome />
         <div class="progress" hidden={outcome.value !== null}>
-          <h2>{run ? (run.walk?.title ?? "Waiting to start") : "No run under way"}</h2>
-          <p>{run && `${run.robot_serial} · run ${run.id} · ${run.operator}`}</p>
-          <progress aria-label="Progress" value={step} max={Math.max(steps, 1)} />
-          <p>{run ? `step ${step} of ${steps || "?"}` : ""}</p>
-          <p>{run && remainingS.value !== null ? `about ${duration(remainingS.value)} left in this pass` : ""}</p>
+          <h2>{run ? (run.walk?.title ?? t.shared.waiting) : t.station.noRun}</h2>
+          <p>{run && t.station.runLine(run.robot_serial, run.id, run.operator)}</p>
+          <progress aria-label={t.station.progress} value={step} max={Math.max(steps, 1)} />
+          <p>{run ? t.shared.stepOf(step, steps || "?") : ""}</p>
+          <p>{run && remainingS.value !== null ? t.station.remaining(duration(remainingS.value)) : ""}</p>
         </div>
         <AbortButton />
       </div>
@@ -39,11 +40,11 @@ function LiveValues() {
       <Value name="θ₂" unit="°" value={machine?.theta2_deg} digits={3} />
       <Value name="x" unit="mm" value={machine?.x_mm} digits={2} />
       <Value name="y" unit="mm" value={machine?.y_mm} digits={2} />
-      <Value name="Scale" unit="mm" value={machine?.scale_mm} digits={4} />
+      <Value name={t.station.scale} unit="mm" value={machine?.scale_mm} digits={4} />
       <div>
-        <dt>Age</dt>
+        <dt>{t.station.age}</dt>
         <dd class={old ? "alarm warn" : ""}>
-          {machine ? `${old ? "◆ old " : ""}${fixed(machineAgeS.value, 1)} s` : "no values"}
+          {machine ? `${old ? `${t.station.old} ` : ""}${fixed(machineAgeS.value, 1)} s` : t.station.noValues}
         </dd>
       </div>
     </dl>

@@ -1,3 +1,4 @@
+import { t } from "../../messages";
 import { Devices } from "./devices";
 import { Readings } from "./readings";
 import { RunPanel } from "./run-panel";
@@ -6,7 +7,7 @@ import { StartForm } from "./start-form";
 export function StationView() {
   return (
     <div class="station">
-      <h1 class="hidden">Station</h1>
+      <h1 class="hidden">{t.station.title}</h1>
       <div class="side">
         <StartForm />
         <Devices />
