@@ -3,6 +3,8 @@ import { defineConfig } from "vitest/config";
 export default defineConfig({
   // as tsconfig.json has it
   oxc: { jsx: { runtime: "automatic", importSource: "preact" } },
+  // the catalogue of effects, for which the page must have names
+  server: { fs: { allow: ["../.."] } },
   test: {
     environment: "happy-dom",
     include: ["tests/**/*.test.{ts,tsx}"],

@@ -20,9 +20,13 @@ export function ConfirmedButton({ label, children, disabled, prominent, act }: P
   const trouble = useSignal<string | null>(null);
   const button = useRef<HTMLButtonElement>(null);
   const confirmButton = useRef<HTMLButtonElement>(null);
+  const wasArmed = useRef(false);
 
   useEffect(() => {
+    // only now is the button enabled again and can take the focus
     if (armed.value) confirmButton.current?.focus();
+    else if (wasArmed.current) button.current?.focus();
+    wasArmed.current = armed.value;
   }, [armed.value]);
   useEffect(() => {
     if (disabled) armed.value = false;
@@ -37,7 +41,6 @@ export function ConfirmedButton({ label, children, disabled, prominent, act }: P
     );
     sending.value = false;
     armed.value = false;
-    button.current?.focus();
   };
   return (
     <div class="confirmed">
@@ -69,7 +72,6 @@ export function ConfirmedButton({ label, children, disabled, prominent, act }: P
           type="button"
           onClick={() => {
             armed.value = false;
-            button.current?.focus();
           }}
         >
           {t.shared.back}

@@ -27,7 +27,9 @@ export function StartForm() {
   const calibrateButton = useRef<HTMLButtonElement>(null);
   const confirmButton = useRef<HTMLButtonElement>(null);
   const run = station.value?.run ?? null;
-  const idle = connected.value && run === null && !sending.value;
+  const free = connected.value && run === null;
+  const idle = free && !sending.value;
+  const goingBack = useRef(false);
   const focus = (field: StartField | null, otherwise?: RefObject<HTMLElement | null>) => {
     const target = { robot_serial: serialField, operator: operatorField };
     (field ? target[field] : otherwise)?.current?.focus();
@@ -36,10 +38,14 @@ export function StartForm() {
   useEffect(() => serialField.current?.focus(), []);
   useEffect(() => {
     if (armed.value) confirmButton.current?.focus();
+    // only now is the button enabled again and can take the focus
+    else if (goingBack.current) calibrateButton.current?.focus();
+    goingBack.current = false;
   }, [armed.value]);
   useEffect(() => {
-    if (!idle) disarm();
-  }, [idle]);
+    // not while sending: after a lost answer the same key has to be sent again
+    if (!free) disarm();
+  }, [free]);
   useEffect(() => {
     // what had the focus may have been disabled by the run's start or end: the next scan must not get lost
     if (document.activeElement === document.body || document.activeElement?.matches(":disabled")) {
@@ -99,8 +105,8 @@ export function StartForm() {
         <button
           type="button"
           onClick={() => {
+            goingBack.current = true;
             disarm();
-            calibrateButton.current?.focus();
           }}
         >
           {t.shared.back}
