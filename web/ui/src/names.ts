@@ -33,7 +33,8 @@ export function labelName(label: string): string {
   const whole = curve ? t.effectAt.curve(name) : name;
   if (joint) return t.effectAt.joint(whole, joint);
   if (links) return t.effectAt.links(whole);
-  return link ? t.effectAt.link(whole, parameter(link).name) : whole;
+  // the parameter names the link and the error
+  return link ? parameter(link).name : whole;
 }
 
 /** A model on the way from the simplest one: one of three by name, or one with one more effect. */
@@ -48,8 +49,14 @@ export const runKind = (plan: string): Entry =>
 
 export const methodName = (method: string) => (entry(t.methods, method) ?? plain(method)).name;
 
-/** With the number of a joint, link or wave: `L1`, `e1x`, `amplitude_2_deg`, `per_rev_2`. */
-const NUMBERED = [/^(dtheta|L|l)(\d+)()$/, /^(e)(\d+)([xy])$/, /^(amplitude|per_rev)_(\d+)(|_deg)$/];
+/** With the number of a joint, link or wave, or an axis: `L1`, `e1x`, `amplitude_2_deg`, `per_rev_2`, `tool_x`. */
+const NUMBERED = [
+  /^(dtheta|L|l|alpha|beta|a|b|d)(\d+)()$/,
+  /^(tool|origin|base)_([xyz])()$/,
+  /^(base_r)([xyz])()$/,
+  /^(e)(\d+)([xy])$/,
+  /^(amplitude|per_rev)_(\d+)(|_deg)$/,
+];
 
 /** Name and explanation of a parameter, whatever its number or mount. */
 export function parameter(id: string): Entry {

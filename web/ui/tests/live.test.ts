@@ -96,6 +96,14 @@ describe("numbered events", () => {
     expect(now?.stops.map(({ done }) => done)).toEqual([true, false]);
   });
 
+  it("tick off the next visit for the next reading there", () => {
+    const { run: now } = events(
+      { type: "reading", data: reading() },
+      { type: "reading", data: reading({ reading: 2 }) },
+    );
+    expect(now?.stops.map(({ done }) => done)).toEqual([true, true]);
+  });
+
   it("change nothing when the reading is known already", () => {
     const { run: now } = events({ type: "reading", data: reading() }, { type: "reading", data: reading() });
     expect(now?.readings).toHaveLength(1);

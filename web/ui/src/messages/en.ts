@@ -85,7 +85,6 @@ export const en = {
   /** An effect and where it acts. */
   effectAt: {
     joint: (effect: string, joint: string | number) => `${effect} of joint ${joint}`,
-    link: (effect: string, link: string) => `${effect}, ${link}`,
     links: (effect: string) => `${effect} of the links`,
     curve: (effect: string) => `${effect} curve`,
   },
@@ -142,6 +141,22 @@ export const en = {
     l: { name: "length error of distal link", explanation: "Deviation from the length in the robot file." },
     ex: { name: "x error of base joint", explanation: "Deviation from the position in the robot file." },
     ey: { name: "y error of base joint", explanation: "Deviation from the position in the robot file." },
+    rho0: { name: "reading offset", explanation: "Reading of the scale at distance zero." },
+    alpha: { name: "twist angle error of link", explanation: "Deviation from the angle in the robot file." },
+    beta: { name: "parallelism error of joint", explanation: "Deviation from the angle in the robot file." },
+    a: { name: "length error of link", explanation: "Deviation from the length in the robot file." },
+    b: { name: "lateral offset error of link", explanation: "Deviation from the offset in the robot file." },
+    d: { name: "offset error of link", explanation: "Deviation from the offset in the robot file." },
+    tool: {
+      name: "tool position",
+      explanation: "Position of the measured point in the frame of the flange.",
+    },
+    origin: {
+      name: "instrument position",
+      explanation: "Position of the instrument in the frame of the robot.",
+    },
+    base: { name: "base position", explanation: "Position of the robot in the frame of the instrument." },
+    base_r: { name: "base rotation", explanation: "Rotation of the robot in the frame of the instrument." },
     rMx: {
       name: "mounting error of the mechanism, x",
       explanation: "Offset of the measuring mechanism from its nominal position, in x.",
@@ -272,7 +287,7 @@ export const en = {
     back: "Back",
     /** Before every motion; the first part is emphasised. */
     willMove: (serial: string) => `Robot ${serial} will move`,
-    clear: "Make sure that nobody is within its reach.",
+    clear: "Keep clear of its reach.",
     chartMissing: "▲ The chart could not be loaded. Reload the page.",
     expanded: (k: number) => `U is the expanded uncertainty (k = ${k}).`,
     standard: (value: string) => `standard uncertainty ${value}`,
@@ -380,8 +395,8 @@ export const en = {
     standardUncertainty: "Standard uncertainty",
     tolerance: "Tolerance",
     verdict: "Verdict",
-    alsoIdentified: "Also identified:",
-    also: (parts: string[]) => parts.join("; "),
+    alsoIdentified: "Also identified",
+    valueIn: (value: string, unit: string) => `${value} ${unit}`,
 
     weakDirection: "Weakest direction",
     remedy: (text: string) => `Recommended: ${text}`,
@@ -485,7 +500,7 @@ export const en = {
       `${count} more readings, at the positions where the models differ most, should distinguish the effect found from `,
     freshReadings: (count: number, duration: string) =>
       `. Then ${count} fresh readings check the result. Duration: about ${duration}.`,
-    continues: "The experiment continues this run. Do not change scale, drives and mechanism before it.",
+    continues: "The experiment continues this run. Until then, do not change scale, drives or mechanism.",
     runSeparating: "Run the separating experiment",
     workspace: " over its workspace.",
     planned: (count: number, left: string, right: string, bottom: string, top: string) =>

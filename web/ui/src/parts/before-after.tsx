@@ -7,7 +7,7 @@ export function BeforeAfter({ result, wide }: { result: Calibration; wide?: bool
   const { before, after, method } = result;
   const diagnosed = method === "diagnosis";
   const words = t.accuracy;
-  const um = (mm: number | null | undefined) => micrometres(mm, 1);
+  const um = (mm: number | null | undefined) => micrometres(mm, 2);
   const mm = (size: number | null | undefined) => fixed(size, 3);
   const [was, is] = [before?.predicted_position_error_mm, after?.predicted_position_error_mm];
   const rows = [

@@ -13,7 +13,7 @@ export function Causes({ found: { findings, verdict, confirmed } }: { found: Dia
       <h2>{tried ? t.diagnosis.tried : t.diagnosis.causes}</h2>
       {findings.length === 0 && <p>{t.diagnosis.noEffect}</p>}
       {findings.map((finding, rank) => (
-        <Cause key={effectName(finding)} finding={finding} rank={rank + 1} tried={tried} />
+        <Cause key={`${rank} ${effectName(finding)}`} finding={finding} rank={rank + 1} tried={tried} />
       ))}
       {findings.length > 0 && <p class="note">{t.shared.expanded(K)}</p>}
     </section>

@@ -23,8 +23,8 @@ export function Stages({ found: { stages } }: { found: Diagnosis }) {
           </tr>
         </thead>
         <tbody>
-          {stages.map((stage) => (
-            <tr key={stage.model}>
+          {stages.map((stage, number) => (
+            <tr key={`${number} ${stage.model}`}>
               <th scope="row" class="text name">
                 {stageName(stage.model)}
               </th>

@@ -38,18 +38,39 @@ export function ZeroOffsets({ result }: { result: Calibration }) {
         </tbody>
       </table>
       <p class="note">{t.shared.expanded(K)}</p>
-      {result.parameters?.length ? (
-        <p class="note">
-          {t.result.alsoIdentified} {t.result.also(result.parameters.map(parameterText))}.
-        </p>
-      ) : null}
+      {result.parameters?.length ? <OtherParameters parameters={result.parameters} /> : null}
     </section>
   );
 }
 
-function parameterText(quantity: Quantity): string {
-  const { name, value, sd, unit } = shown(quantity);
-  return `${name} ${signed(value, 3)} ± ${fixed(expanded(sd), 3)} ${unit}`;
+/** What was identified along with the offsets. */
+function OtherParameters({ parameters }: { parameters: Quantity[] }) {
+  return (
+    <table class="others">
+      <thead>
+        <tr>
+          <th scope="col" class="text">
+            {t.result.alsoIdentified}
+          </th>
+          <th scope="col">{t.result.value}</th>
+        </tr>
+      </thead>
+      <tbody>
+        {parameters.map((parameter) => {
+          const { name, value, sd, unit } = shown(parameter);
+          const text = `${signed(value, 3)} ± ${fixed(expanded(sd), 3)}`;
+          return (
+            <tr key={parameter.name}>
+              <th scope="row" class="text name">
+                {name}
+              </th>
+              <td>{t.result.valueIn(text, unit)}</td>
+            </tr>
+          );
+        })}
+      </tbody>
+    </table>
+  );
 }
 
 function Against({ value, limit }: { value: number | null; limit: number | null }) {
