@@ -75,10 +75,13 @@ describe("stop", () => {
     expect(report().className).toContain("alarm act");
   });
 
-  it("keeps its report until the next run starts", async () => {
+  it("keeps its report when its run ends, until the next one starts", async () => {
+    await act(() => {
+      station.value = stationNow({ run: run({ id: 1 }) });
+    });
     await press();
     await act(() => {
-      station.value = stationNow({ machine: null });
+      station.value = stationNow();
     });
     expect(report().hasAttribute("hidden")).toBe(false);
     await act(() => {

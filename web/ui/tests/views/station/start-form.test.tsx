@@ -146,9 +146,29 @@ describe("an armed start", () => {
     expect(button("Calibrate").disabled).toBe(true);
   });
 
+  it("is not confirmed by a key that is held down", () => {
+    const key = (repeat: boolean) =>
+      new KeyboardEvent("keydown", { key: "Enter", repeat, cancelable: true, bubbles: true });
+    const [held, pressed] = [key(true), key(false)];
+    button("Confirm").dispatchEvent(held);
+    button("Confirm").dispatchEvent(pressed);
+    expect([held.defaultPrevented, pressed.defaultPrevented]).toEqual([true, false]);
+  });
+
   it("shows a refusal at its field, and sends the same key again", async () => {
-    sent.mockRejectedValueOnce(new Refused("The serial has a space.", "robot_serial"));
+    let refuse = () => {};
+    const refused = new Refused("The serial has a space.", "robot_serial");
+    sent.mockReturnValueOnce(
+      new Promise((_, reject) => {
+        refuse = () => reject(refused);
+      }),
+    );
     await press("Confirm");
+    expect(button("Confirm").disabled).toBe(true);
+    await act(async () => {
+      refuse();
+      await new Promise((settled) => setTimeout(settled));
+    });
     expect(alert()).toBe("▲ The serial has a space.");
     expect(field("robot_serial").getAttribute("aria-invalid")).toBe("true");
     expect(field("operator").getAttribute("aria-invalid")).toBe("false");
