@@ -36,7 +36,7 @@ describe("parameters", () => {
     ["beta3", "parallelism error of joint 3"],
     ["tool_x", "tool position x"],
     ["base_rz", "base rotation z"],
-    ["e1x", "x error of base joint 1"],
+    ["e1x", "error in x of base joint 1"],
     ["dtheta2", "zero offset 2"],
     ["amplitude_2_deg", "amplitude 2"],
     ["per_rev_3", "cycles per revolution 3"],
