@@ -2,7 +2,9 @@
 PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
-PAGE := $(shell find web/ui -path web/ui/node_modules -prune -o -type f -print) hatch_build.py
+PAGE := $(shell find web/ui \( -name node_modules -o -name tests -o -name api-types.ts \) -prune -o -type f -print) \
+	web/openapi.json hatch_build.py deploy/node.py
+NPM := $(BIN)/python deploy/node.py
 
 .PHONY: run test record lint format bench lock clean
 
@@ -10,6 +12,7 @@ run: $(VENV)/installed  ## install and start the service on the emulated rig; pr
 	$(BIN)/station serve
 
 test: $(VENV)/installed-for-tests  ## everything that can be checked
+	$(NPM) test
 	deploy/debian-packages chromium mbpoll
 	$(BIN)/pytest
 
@@ -23,10 +26,12 @@ lint: $(VENV)/installed-for-tests  ## style, types, import layers
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	$(NPM) run lint
 
 format: $(VENV)/installed-for-tests
 	$(BIN)/ruff check --fix .
 	$(BIN)/ruff format .
+	$(NPM) run format
 
 bench: $(VENV)/installed-for-tests  ## the figures of docs/benchmarks.md
 	$(BIN)/station bench

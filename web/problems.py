@@ -13,6 +13,7 @@ from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
 
 from station.errors import Busy, FieldRefused, InputRefused, KeyReused, NotApplicable, NotFound
+from web.live_messages import LIVE_MESSAGE
 
 MEDIA_TYPE = "application/problem+json"
 
@@ -76,9 +77,15 @@ RESPONSES = documented(422, 500)
 
 
 def add_schema(document: dict[str, Any]) -> dict[str, Any]:
-    """The OpenAPI document with the schema that `documented` refers to."""
-    schema = Problem.model_json_schema(ref_template="#/components/schemas/{model}")
-    document["components"]["schemas"].update({**schema.pop("$defs"), "Problem": schema})
+    """The OpenAPI document with the schemas that no route names: problems, and messages of the live feed."""
+    reference = "#/components/schemas/{model}"
+    problem_schema = Problem.model_json_schema(ref_template=reference)
+    live = LIVE_MESSAGE.json_schema(ref_template=reference, mode="serialization")
+    schemas = document["components"]["schemas"]
+    for schema in (problem_schema, live):
+        for name, definition in schema.pop("$defs").items():
+            schemas.setdefault(name, definition)
+    schemas.update({"Problem": problem_schema, "LiveMessage": live})
     return document
 
 

@@ -64,7 +64,7 @@ def test_what_is_remembered_can_be_forgotten(page: Page, station: Station) -> No
     memory = page.locator(".memory")
     expect(memory).to_contain_text("Used: geometry and mechanism as earlier calibrations found them")
     expect(memory).to_contain_text(f"starts from run {run}")
-    press(page, "Forget")
-    expect(memory).to_contain_text("The next run starts without memory.")
-    expect(memory.get_by_role("button", name="Forget")).to_be_disabled()
+    press(page, "Delete")
+    expect(memory).to_contain_text("The next run starts without stored parameters.")
+    expect(memory.get_by_role("button", name="Delete")).to_be_disabled()
     assert violations(page) == []

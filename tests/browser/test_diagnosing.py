@@ -40,6 +40,9 @@ class Case:
 
     rig: str
     cause: str
+    """As the reason of the run names it."""
+    name: str
+    """As the page names it."""
     size: str
     """As the page shows it, a pattern."""
     remedy: str
@@ -50,17 +53,31 @@ class Case:
 
 CASES = [
     Case(
-        "backlash", "backlash of joint 2", r"width 0\.0(49|50)\d* ± 0\.0000\d+ deg", "Adjust or", "Approach 2"
+        "backlash",
+        "backlash of joint 2",
+        "backlash of joint 2",
+        r"width 0\.0(49|50)\d* ± 0\.0000\d+ °",
+        "Adjust or",
+        "Approach 2",
     ),
     Case(
         "gear_ripple",
         "gear cyclic of joint 1",
-        r"amplitude 0\.0(099|100)\d* ± 0\.000\d+ deg.*per rev (20\.0|19\.9)\d+ ± ",
+        "gear ripple of joint 1",
+        r"amplitude 0\.0(099|100)\d* ± 0\.000\d+ °.*cycles per revolution (20\.0|19\.9)\d+ ± ",
         "Check the reducer stage",
         "Joint 1",
     ),
     # slow enough for the warming to bend: a straight one could as well be a drift
-    Case("warm_up", "thermal growth", r"links \d+(\.\d+)? ± .* um/m", "Warm up", "Time", speed=100.0),
+    Case(
+        "warm_up",
+        "thermal growth",
+        "thermal growth",
+        r"growth of the links \d+(\.\d+)? ± .* µm/m",
+        "Warm up",
+        "Time",
+        speed=100.0,
+    ),
 ]
 
 
@@ -81,7 +98,7 @@ def test_an_undeclared_effect_is_named_confirmed_and_its_removal_shown(
     assert violations(page) == []
     page.get_by_role("link", name="Diagnosis", exact=True).click()
     expect(page.get_by_role("heading", level=1)).to_have_text("Diagnosis of run 2")
-    expect(causes.locator(".effect dd")).to_have_text(case.cause)
+    expect(causes.locator(".effect dd")).to_have_text(case.name)
     expect(causes).to_contain_text(re.compile(case.size, re.DOTALL))
     expect(causes).to_contain_text(case.remedy)
     errors = page.get_by_role("region", name="Errors").get_by_role("row")
@@ -123,7 +140,7 @@ def test_every_ordering_is_drawn_and_kept_in_the_address(page: Page, serve: Serv
         expect(travel).to_have_attribute("aria-pressed", "true")
         names = choices.get_by_role("button").all_inner_texts()
         assert names == [
-            "Time", "Order", "Place", "Joint 1", "Joint 2", "Approach 1", "Approach 2", "Travel",
+            "Time", "Order", "Position", "Joint 1", "Joint 2", "Approach 1", "Approach 2", "Travel",
         ]  # fmt: skip
         for name in names:
             choices.get_by_role("button", name=name, exact=True).click()
@@ -158,16 +175,14 @@ def test_an_ordering_chosen_before_the_drawing_has_come_is_drawn(page: Page, sta
 def test_a_run_whose_model_does_not_fit_says_so_at_the_top(page: Page, serve: Serve) -> None:
     station = serve(speed=FAST, rig=RIGS / "backlash.toml")
     page.goto(f"{station.url}/result/{add_run(station, 'FB-D')['id']}")
-    expect(page.locator(".result > *").nth(1)).to_contain_text(
-        "The model does not account for these readings"
-    )
+    expect(page.locator(".result > *").nth(1)).to_contain_text("The model does not fit these readings")
     assert violations(page) == []
 
 
 def test_a_run_whose_model_fits_offers_the_walk_at_the_end(page: Page, station: Station) -> None:
     page.goto(f"{station.url}/result/{add_run(station, 'FB-D2')['id']}")
-    expect(page.locator(".result > *").last).to_contain_text("Does the model lack something?")
-    expect(page.locator(".result")).not_to_contain_text("does not account for")
+    expect(page.locator(".result > *").last).to_contain_text("Check the model for missing effects")
+    expect(page.locator(".result")).not_to_contain_text("does not fit")
 
 
 def test_what_no_effect_accounts_for_is_said_to_be_unexplained(page: Page, serve: Serve) -> None:
@@ -177,7 +192,7 @@ def test_what_no_effect_accounts_for_is_said_to_be_unexplained(page: Page, serve
     verdict = page.locator(".summary .verdict")
     expect(verdict).to_contain_text("FAIL")
     expect(verdict).to_contain_text(re.compile(r"(un|not )explained: .*the residual depends on"))
-    expect(page.get_by_role("region", name="Causes")).not_to_contain_text("What to do")
+    expect(page.get_by_role("region", name="Causes")).not_to_contain_text("Remedy")
     assert violations(page) == []
 
 
@@ -218,22 +233,24 @@ def test_look_alikes_are_told_apart_by_the_motion_that_is_offered(
     page.goto(f"{station.url}/diagnosis/1")
     causes = page.get_by_role("region", name="Causes")
     expect(causes).to_contain_text("drift")
-    offer = page.get_by_role("region", name="Look-alikes")
+    offer = page.get_by_role("region", name="Alternative explanations")
     expect(offer).to_contain_text(
-        re.compile(r"\d+ more readings .* decide on drift; 40 fresh .* About \d+ min")
+        re.compile(r"\d+ more readings.* from drift\. Then 40 fresh .* about \d+ min")
     )
-    expect(offer.get_by_role("img", name="planned places")).to_be_visible()
+    expect(offer.get_by_role("img", name="planned positions")).to_be_visible()
     run = offer.get_by_role("button", name="Run the separating experiment", exact=True)
     expect(run).to_be_disabled()
     offer.get_by_label("Operator").fill("ada")
     assert violations(page) == []
     run.click()
     offer.get_by_role("button", name="Confirm").click()
-    expect(page.get_by_role("heading", level=1)).to_have_text("Result of run 2: separating of run 1")
+    expect(page.get_by_role("heading", level=1)).to_have_text(
+        "Result of run 2: Separating experiment (run 1)"
+    )
     expect(causes).to_be_visible(timeout=WALK_LIMIT_MS)
     expect(page.locator(".summary .verdict")).to_contain_text("thermal growth of the links explains")
     expect(page.locator(".summary .verdict")).to_contain_text("predicts fresh readings")
-    expect(causes).to_contain_text("nothing else in the catalogue")
+    expect(causes).to_contain_text("no other effect of the catalogue")
     expect(offer).to_have_count(0)
     readings = station.get("/calibrations/2/readings")["items"]
     assert readings[:120] == station.get("/calibrations/1/readings")["items"][:120]

@@ -1,58 +1,17 @@
-/** The REST calls, the same that the MES uses, with types made from the checked-in OpenAPI file. */
-import type { components } from "./api-types";
-
-type Schemas = components["schemas"];
-export type Station = Schemas["Station"];
-export type Run = Schemas["Run"];
-export type RunReading = Schemas["RunReading"];
-export type RunStop = Schemas["RunStop"];
-export type Device = Schemas["Device"];
-export type Interlock = Schemas["Interlock"];
-export type Machine = Schemas["Machine"];
-export type State = Schemas["State"];
-export type Summary = Schemas["CalibrationSummary"];
-export type Calibration = Schemas["Calibration"];
-export type Reading = Schemas["ReadingAnswer"];
-export type CalibrationBody = Schemas["CalibrationBody"];
-export type ResidualRow = Schemas["ResidualRow"];
-export type Separating = Schemas["Separating"];
-
-interface Effect {
-  effect: string;
-  joint: number | null;
-}
-
-/** What the page shows of the document `station.diagnosis/1`, which is kept as it was written. */
-export interface Diagnosis {
-  verdict: "adequate" | "explained" | "partly_explained" | "unexplained";
-  confirmed: boolean | null;
-  sentence: string;
-  noise: { sigma_mm: number; source: "repeats" | "specification"; dof: number };
-  outliers: number[];
-  findings: (Effect & {
-    parameters: { name: string; value: number; sd: number; unit: string }[];
-    share: number;
-    alias_set: Effect[];
-    remedy: string;
-    separating_experiment: string | null;
-  })[];
-  stages: {
-    model: string;
-    unknowns: number;
-    fit_rms_mm: number;
-    holdout_rms_mm: number | null;
-    confirm_rms_mm: number | null;
-    confirm_max_mm: number | null;
-  }[];
-  hints: { text: string; strength: number }[];
-  invisible: {
-    label: string;
-    parameter: string | null;
-    minimum_detectable: number | null;
-    unit: string | null;
-    text: string;
-  }[];
-}
+/** The REST calls, the same that the MES uses. */
+import { t } from "./messages";
+import type {
+  Calibration,
+  CalibrationBody,
+  CalibrationList,
+  Diagnosis,
+  Problem,
+  ResidualList,
+  Robot,
+  Separating,
+  Stopped,
+  Summary,
+} from "./types";
 
 const TIMEOUT_MS = 8000;
 /** Longer than the service itself waits for the drives. */
@@ -68,17 +27,21 @@ export class Refused extends Error {
   }
 }
 
-async function call<T>(method: "GET" | "POST" | "DELETE", path: string, options: RequestInit = {}): Promise<T> {
+async function call<T>(
+  method: "GET" | "POST" | "DELETE",
+  path: string,
+  options: RequestInit = {},
+): Promise<T> {
   let response: Response;
   try {
     response = await fetch(`/api/v1${path}`, { method, signal: AbortSignal.timeout(TIMEOUT_MS), ...options });
   } catch {
-    throw new Refused("The station does not answer.");
+    throw new Refused(t.refusals.noAnswer);
   }
   const body: unknown = await response.json().catch(() => null);
   if (!response.ok) {
-    const problem = body as Partial<Schemas["Problem"]> | null;
-    throw new Refused(problem?.detail ?? `The station answered ${response.status}.`, problem?.field ?? null);
+    const problem = body as Partial<Problem> | null;
+    throw new Refused(problem?.detail ?? t.refusals.status(response.status), problem?.field ?? null);
   }
   return body as T;
 }
@@ -103,7 +66,7 @@ export const rollBack = (id: number, operator: string) =>
     body: JSON.stringify({ operator }),
   });
 
-export const robot = (serial: string) => call<Schemas["Robot"]>("GET", `/robots/${encodeURIComponent(serial)}`);
+export const robot = (serial: string) => call<Robot>("GET", `/robots/${encodeURIComponent(serial)}`);
 
 export const forget = (serial: string, who: string) =>
   call<null>("DELETE", `/robots/${encodeURIComponent(serial)}/memory`, {
@@ -111,7 +74,7 @@ export const forget = (serial: string, who: string) =>
   });
 
 export const stop = () =>
-  call<Schemas["Stopped"]>("POST", "/stop", {
+  call<Stopped>("POST", "/stop", {
     headers: { "X-Operator": "page" },
     signal: AbortSignal.timeout(STOP_TIMEOUT_MS),
   });
@@ -120,7 +83,7 @@ export const calibration = (id: number) => call<Calibration>("GET", `/calibratio
 
 export const diagnosis = (id: number) => call<Diagnosis>("GET", `/calibrations/${id}/diagnosis`);
 
-export const residuals = (id: number) => call<Schemas["ResidualList"]>("GET", `/calibrations/${id}/residuals`);
+export const residuals = (id: number) => call<ResidualList>("GET", `/calibrations/${id}/residuals`);
 
 export const separating = (id: number) => call<Separating>("GET", `/calibrations/${id}/separating`);
 
@@ -131,10 +94,12 @@ export const separate = (id: number, operator: string, key: string) =>
   });
 
 export const calibrations = (query: URLSearchParams) =>
-  call<Schemas["CalibrationList"]>("GET", `/calibrations?${query}`);
+  call<CalibrationList>("GET", `/calibrations?${query}`);
 
 /** A key of its own for each confirmed start, so that pressing again after a lost answer is still one run. */
 export function newKey(): string {
   // crypto.randomUUID is missing on pages served without TLS, as in most plants
-  return Array.from(crypto.getRandomValues(new Uint8Array(16)), (b) => b.toString(16).padStart(2, "0")).join("");
+  return Array.from(crypto.getRandomValues(new Uint8Array(16)), (b) => b.toString(16).padStart(2, "0")).join(
+    "",
+  );
 }

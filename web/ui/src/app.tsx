@@ -1,10 +1,10 @@
 /** The frame: a header that never scrolls away, and one view below it. */
 import { Header } from "./parts/header";
 import { path } from "./router";
-import { DiagnosisView } from "./views/diagnosis";
-import { HistoryView } from "./views/history";
-import { ResultView } from "./views/result";
-import { StationView } from "./views/station";
+import { DiagnosisView } from "./views/diagnosis/diagnosis";
+import { HistoryView } from "./views/history/history";
+import { ResultView } from "./views/result/result";
+import { StationView } from "./views/station/station";
 
 export function App() {
   return (

@@ -1,4 +1,4 @@
-/** Numbers and times as the operator reads them; what is not a number is said to be missing. */
+/** Numbers and times as the operator reads them; a dash stands for what is not a number. */
 
 export const MISSING = "–";
 
@@ -14,9 +14,27 @@ export function signed(value: number | null | undefined, digits: number): string
   return value != null && value > 0 && Number(text) !== 0 ? `+${text}` : text;
 }
 
+const UM_PER_MM = 1000;
+
+/** Errors of length are stated in µm on every page. */
+export function micrometres(mm: number | null | undefined, digits: number): string {
+  return fixed(mm == null ? null : UM_PER_MM * mm, digits);
+}
+
+export function signedMicrometres(mm: number | null | undefined, digits: number): string {
+  return signed(mm == null ? null : UM_PER_MM * mm, digits);
+}
+
+/** Coverage factor of every expanded uncertainty U on the page. */
+export const K = 2;
+
+/** Twice the standard uncertainty. */
+export const expanded = (sd: number | null) => (sd === null ? null : K * sd);
+
 /** Value ± U, to two digits of U. */
-export function measured(value: number, u: number): string {
-  if (!(u > 0)) return String(Number(value.toPrecision(6)));
+export function measured(value: number | null, u: number | null): string {
+  if (value === null || !Number.isFinite(value)) return MISSING;
+  if (u === null || !(u > 0)) return String(Number(value.toPrecision(6))).replace("-", "\u2212");
   const digits = Math.min(Math.max(1 - Math.floor(Math.log10(u)), 0), 9);
   return `${fixed(value, digits)} ± ${fixed(u, digits)}`;
 }

@@ -1,12 +1,12 @@
 /** The live feed: one snapshot, then numbered events; after a gap or a silence a snapshot again. */
 import { computed, signal } from "@preact/signals";
-import type { Device, Interlock, Machine, Run, RunReading, RunStop, Station, Summary } from "./api";
+import type { LiveEvent, LiveMessage, Run, RunReading, Station } from "./types";
 
 const BEATS_MISSED_MS = 3000;
 const RETRY_MS = 1000;
 const TICK_MS = 250;
 
-/** The station as last told; null until the first snapshot. */
+/** The station as last reported; null until the first snapshot. */
 export const station = signal<Station | null>(null);
 /** The run that ended last while this page watched, with its map and readings. */
 export const finished = signal<Run | null>(null);
@@ -28,19 +28,6 @@ export const remainingS = computed(() => {
   return remaining == null ? null : Math.max(0, remaining - (now.value - runAt.value) / 1000);
 });
 
-type Event =
-  | { type: "snapshot"; data: Station }
-  | { type: "beat"; data: null }
-  | { type: "run"; data: Omit<Run, "stops" | "readings"> }
-  | { type: "walk"; data: { number: number; title: string; stops: RunStop[] } }
-  | { type: "reading"; data: RunReading }
-  | { type: "residuals"; data: Pick<RunReading, "reading" | "residual_mm" | "limit_mm">[] }
-  | { type: "machine"; data: Machine | null }
-  | { type: "device"; data: Device }
-  | { type: "interlock"; data: Interlock[] }
-  | { type: "ended"; data: Summary };
-type Message = Event & { number: number; at: string; build: string };
-
 let socket: WebSocket | null = null;
 let openedAt = 0;
 let number = 0;
@@ -51,7 +38,7 @@ export function connect(): void {
   open();
   setInterval(() => {
     now.value = performance.now();
-    // a frozen server closes nothing: only silence tells
+    // a frozen server closes nothing: only the silence shows it
     const quietSince = Math.max(heardAt.value, openedAt);
     if (now.value - quietSince > BEATS_MISSED_MS + RETRY_MS) reopen();
     if (newBuild && !station.value?.run) location.reload();
@@ -60,10 +47,17 @@ export function connect(): void {
 
 function open(): void {
   openedAt = performance.now();
-  const mine = new WebSocket(`${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/v1/live`);
+  const mine = new WebSocket(
+    `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/v1/live`,
+  );
   socket = mine;
-  mine.onmessage = (event) => socket === mine && receive(JSON.parse(event.data as string) as Message);
-  mine.onclose = () => setTimeout(() => socket === mine && open(), RETRY_MS);
+  mine.onmessage = (event) => {
+    if (socket === mine) receive(JSON.parse(event.data as string) as LiveMessage);
+  };
+  mine.onclose = () =>
+    setTimeout(() => {
+      if (socket === mine) open();
+    }, RETRY_MS);
 }
 
 function reopen(): void {
@@ -71,7 +65,7 @@ function reopen(): void {
   open();
 }
 
-function receive(message: Message): void {
+function receive(message: LiveMessage): void {
   const time = performance.now();
   heardAt.value = now.value = time;
   clockOffset.value = Date.parse(message.at) - performance.timeOrigin - time;
@@ -90,7 +84,7 @@ function receive(message: Message): void {
 }
 
 /** Events state facts by id: one that the snapshot already held changes nothing. */
-function apply(before: Station, event: Event): Station {
+function apply(before: Station, event: LiveEvent): Station {
   const run = before.run;
   switch (event.type) {
     case "run": {

@@ -1,52 +1,49 @@
-/** What became of the errors: of the readings, of fresh ones, of the position over the workspace. */
-import type { Calibration } from "../api";
-import { fixed } from "../format";
+/** Errors before and after: of the readings, of fresh readings, and of the position over the workspace. */
+import { fixed, micrometres } from "../format";
+import { t } from "../messages";
+import type { Calibration } from "../types";
 
 export function BeforeAfter({ result, wide }: { result: Calibration; wide?: boolean }) {
   const { before, after, method } = result;
   const diagnosed = method === "diagnosis";
+  const words = t.accuracy;
+  const um = (mm: number | null | undefined) => micrometres(mm, 2);
+  const mm = (size: number | null | undefined) => fixed(size, 3);
+  const [was, is] = [before?.predicted_position_error_mm, after?.predicted_position_error_mm];
   const rows = [
-    { text: "Readings, rms", digits: 4, before: before?.reading_rms_mm, after: after?.reading_rms_mm },
+    { text: words.readings, shown: um, before: before?.reading_rms_mm, after: after?.reading_rms_mm },
     {
-      text: "Fresh readings, rms",
-      digits: 4,
+      text: words.fresh,
+      shown: um,
       before: before?.fresh_reading_rms_mm,
       after: after?.fresh_reading_rms_mm,
     },
-    {
-      text: "Predicted position error, rms",
-      digits: 3,
-      before: before?.predicted_position_error_mm?.rms,
-      after: after?.predicted_position_error_mm?.rms,
-    },
-    {
-      text: "Predicted position error, largest",
-      digits: 3,
-      before: before?.predicted_position_error_mm?.max,
-      after: after?.predicted_position_error_mm?.max,
-    },
+    { text: words.position, shown: mm, before: was?.rms, after: is?.rms },
+    { text: words.largest, shown: mm, before: was?.max, after: is?.max },
   ];
   return (
-    <section class={wide ? "panel wide" : "panel"} aria-label="Before and after">
-      <h2>Before and after, in mm</h2>
+    <section class={wide ? "panel wide" : "panel"} aria-label={words.title}>
+      <h2>{words.title}</h2>
       <table>
         <thead>
           <tr>
             <td />
-            <th scope="col">{diagnosed ? "Without the effects" : "Before"}</th>
-            <th scope="col">{diagnosed ? "With them" : "After"}</th>
+            <th scope="col">{diagnosed ? words.without : words.before}</th>
+            <th scope="col">{diagnosed ? words.with : words.after}</th>
           </tr>
         </thead>
         <tbody>
-          {rows.filter(({ before, after }) => before != null || after != null).map((row) => (
-            <tr>
-              <th scope="row" class="text">
-                {row.text}
-              </th>
-              <td>{fixed(row.before, row.digits)}</td>
-              <td class="main">{fixed(row.after, row.digits)}</td>
-            </tr>
-          ))}
+          {rows
+            .filter((row) => row.before != null || row.after != null)
+            .map((row) => (
+              <tr key={row.text}>
+                <th scope="row" class="text">
+                  {row.text}
+                </th>
+                <td>{row.shown(row.before)}</td>
+                <td class="main">{row.shown(row.after)}</td>
+              </tr>
+            ))}
         </tbody>
       </table>
     </section>

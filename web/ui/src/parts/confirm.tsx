@@ -2,6 +2,7 @@
 import { useSignal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { useEffect, useRef } from "preact/hooks";
+import { t } from "../messages";
 
 interface Props {
   label: string;
@@ -19,9 +20,13 @@ export function ConfirmedButton({ label, children, disabled, prominent, act }: P
   const trouble = useSignal<string | null>(null);
   const button = useRef<HTMLButtonElement>(null);
   const confirmButton = useRef<HTMLButtonElement>(null);
+  const wasArmed = useRef(false);
 
   useEffect(() => {
+    // only now is the button enabled again and can take the focus
     if (armed.value) confirmButton.current?.focus();
+    else if (wasArmed.current) button.current?.focus();
+    wasArmed.current = armed.value;
   }, [armed.value]);
   useEffect(() => {
     if (disabled) armed.value = false;
@@ -36,7 +41,6 @@ export function ConfirmedButton({ label, children, disabled, prominent, act }: P
     );
     sending.value = false;
     armed.value = false;
-    button.current?.focus();
   };
   return (
     <div class="confirmed">
@@ -52,7 +56,7 @@ export function ConfirmedButton({ label, children, disabled, prominent, act }: P
       >
         {label}
       </button>
-      <div class="confirm" role="group" aria-label={`Confirm: ${label}`} hidden={!armed.value}>
+      <div class="confirm" role="group" aria-label={t.shared.confirmLabel(label)} hidden={!armed.value}>
         <p>{children}</p>
         <button
           class="act"
@@ -62,16 +66,15 @@ export function ConfirmedButton({ label, children, disabled, prominent, act }: P
           onKeyDown={(event) => event.repeat && event.preventDefault()}
           onClick={() => void confirm()}
         >
-          Confirm
+          {t.shared.confirm}
         </button>
         <button
           type="button"
           onClick={() => {
             armed.value = false;
-            button.current?.focus();
           }}
         >
-          Back
+          {t.shared.back}
         </button>
       </div>
       <p class="trouble" role="alert">

@@ -1,11 +1,14 @@
 /** What all charts share: how they are put in place, their colours and axes. */
-import { init, type ECharts, type EChartsCoreOption } from "echarts/core";
+import { type ECharts, type EChartsCoreOption, init } from "echarts/core";
 
 export const DARK = "#1b1f24";
 export const GREY = "#5d656e";
 export const RED = "#b00020";
 
-export const axis = { nameTextStyle: { color: DARK, fontSize: 14 }, axisLabel: { color: DARK, fontSize: 13 } };
+export const axis = {
+  nameTextStyle: { color: DARK, fontSize: 14 },
+  axisLabel: { color: DARK, fontSize: 13 },
+};
 
 /** The x axis, named below, with a little room beside the first and last point. */
 export const xAxis = {

@@ -1,5 +1,6 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
+import { t } from "../messages";
 
 interface Props {
   /** What the chart shows, for those who do not see it. */
@@ -24,7 +25,9 @@ export function Drawn({ label, on, load }: Props) {
         if (!gone && place.current) remove = draw(place.current);
       },
       // the station went down before it had sent what draws
-      () => (trouble.value = true),
+      () => {
+        trouble.value = true;
+      },
     );
     return () => {
       gone = true;
@@ -35,7 +38,7 @@ export function Drawn({ label, on, load }: Props) {
     <>
       <div ref={place} class="chart" role="img" aria-label={label} />
       <p class="note" role="status" hidden={!trouble.value}>
-        ▲ The chart could not be loaded; load the page again.
+        {t.shared.chartMissing}
       </p>
     </>
   );

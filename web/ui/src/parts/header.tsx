@@ -1,22 +1,23 @@
-import { clock, connected, offline, station } from "../live";
-import { path } from "../router";
 import { timeOfDay } from "../format";
+import { clock, connected, offline, station } from "../live";
+import { t } from "../messages";
+import { path } from "../router";
 import { Link } from "./link";
 import { StopButton, StopReport } from "./stop";
 
 const VIEWS = [
-  { to: "/", text: "Station", views: ["/"] },
-  { to: "/result", text: "Result", views: ["/result", "/diagnosis"] },
-  { to: "/history", text: "History", views: ["/history"] },
+  { to: "/", text: t.header.station, views: ["/"] },
+  { to: "/result", text: t.header.result, views: ["/result", "/diagnosis"] },
+  { to: "/history", text: t.header.history, views: ["/history"] },
 ];
 
 export function Header() {
   return (
     <header>
       <div class="bar">
-        <nav aria-label="Views">
+        <nav aria-label={t.header.views}>
           {VIEWS.map(({ to, text, views }) => (
-            <Link to={to} current={views.includes(`/${path.value.split("/")[1]}`)}>
+            <Link key={to} to={to} current={views.includes(`/${path.value.split("/")[1]}`)}>
               {text}
             </Link>
           ))}
@@ -36,13 +37,12 @@ function StationStatus() {
     <div class="status">
       <div class="state" role="status">
         <strong class={alarm ? `alarm ${alarm}` : ""}>{text}</strong>
-        <span>{offline.value ? "values may be old" : connected.value ? "connected" : "connecting …"}</span>
+        <span>
+          {offline.value ? t.header.stale : connected.value ? t.header.connected : t.header.connecting}
+        </span>
       </div>
       <div class="where">
-        <span class="name">
-          {info?.name ?? "Calibration station"}
-          {info?.emulated && " (emulated)"}
-        </span>
+        <span class="name">{info?.emulated ? t.header.emulated(info.name) : (info?.name ?? t.title)}</span>
         <time>{timeOfDay(clock.value)}</time>
       </div>
     </div>
@@ -51,11 +51,11 @@ function StationStatus() {
 
 function status(): { text: string; alarm?: "act" | "warn" } {
   const now = station.value;
-  if (offline.value) return { text: "▲ OFFLINE", alarm: "act" };
-  if (!now) return { text: "CONNECTING" };
+  if (offline.value) return { text: t.header.offline, alarm: "act" };
+  if (!now) return { text: t.header.notConnected };
   const lost = now.devices.find((device) => device.state === "lost" || device.state === "fault");
-  if (lost) return { text: `▲ ${lost.name}: ${lost.state}`, alarm: "act" };
-  if (now.run) return { text: now.run.state === "queued" ? "WAITING" : "RUNNING" };
-  if (now.interlocks.some((interlock) => !interlock.ok)) return { text: "◆ NOT READY", alarm: "warn" };
-  return { text: "READY" };
+  if (lost) return { text: t.header.device(lost.name, t.devices[lost.state].name), alarm: "act" };
+  if (now.run) return { text: now.run.state === "queued" ? t.header.waiting : t.header.running };
+  if (now.interlocks.some((interlock) => !interlock.ok)) return { text: t.header.notReady, alarm: "warn" };
+  return { text: t.header.ready };
 }

@@ -1,4 +1,4 @@
-import { useSignal, type ReadonlySignal } from "@preact/signals";
+import { type ReadonlySignal, useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 
 export interface Loaded<T> {
@@ -12,8 +12,12 @@ export function useLoaded<T>(key: string, ask: () => Promise<T>): ReadonlySignal
   useEffect(() => {
     let current = true;
     ask().then(
-      (value) => current && (loaded.value = { value, trouble: null }),
-      (error: Error) => current && (loaded.value = { value: null, trouble: error.message }),
+      (value) => {
+        if (current) loaded.value = { value, trouble: null };
+      },
+      (error: Error) => {
+        if (current) loaded.value = { value: null, trouble: error.message };
+      },
     );
     return () => {
       current = false;

@@ -1,23 +1,24 @@
-/** One step to stop.  Always there, always pressable; it says when the stop did not arrive. */
+/** One step to stop.  Always there, always enabled; it reports when the stop did not reach the station. */
 import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { Refused, stop } from "../api";
 import { timeOfDay } from "../format";
 import { clock, offline, station } from "../live";
+import { t } from "../messages";
 
 const report = signal<{ text: string; failed: boolean } | null>(null);
 
 async function press(): Promise<void> {
   const at = timeOfDay(clock.value);
   report.value = offline.value
-    ? { text: `Offline: the stop of ${at} may not arrive. Press the emergency stop.`, failed: true }
-    : { text: `Stopping, pressed at ${at} …`, failed: false };
+    ? { text: t.stop.mayNotArrive(at), failed: true }
+    : { text: t.stop.stopping(at), failed: false };
   try {
     await stop();
-    report.value = { text: `Stopped at ${at}: both drives confirmed.`, failed: false };
+    report.value = { text: t.stop.stopped(at), failed: false };
   } catch (error) {
     const cause = error instanceof Refused ? error.message : String(error);
-    report.value = { text: `STOP FAILED at ${at}: ${cause} Press the emergency stop.`, failed: true };
+    report.value = { text: t.stop.failed(at, cause), failed: true };
   }
 }
 
@@ -26,8 +27,8 @@ export function StopButton() {
     <button class="stop" type="button" onClick={() => void press()}>
       <span aria-hidden="true" class="square" />
       <span>
-        STOP
-        <small>not the emergency stop</small>
+        {t.stop.button}
+        <small>{t.stop.notEmergency}</small>
       </span>
     </button>
   );

@@ -1,23 +1,38 @@
 /** The verdict in one line: word, shape, reason.  Colour only where something is wrong. */
-import type { State, Summary } from "../api";
+import { t } from "../messages";
+import type { State, Summary } from "../types";
 
-const WORDS: Record<State, { word: string; shape: string; alarm: "" | "act" | "warn" }> = {
-  queued: { word: "WAITING", shape: "○", alarm: "" },
-  running: { word: "RUNNING", shape: "▶", alarm: "" },
-  succeeded: { word: "NO VERDICT", shape: "◆", alarm: "warn" },
-  failed: { word: "FAILED", shape: "▲", alarm: "act" },
-  aborted: { word: "ABORTED", shape: "◆", alarm: "warn" },
-  interrupted: { word: "INTERRUPTED", shape: "◆", alarm: "warn" },
-};
-
-export function verdictOf(run: Pick<Summary, "state" | "verdict">) {
-  if (run.state !== "succeeded" && run.state !== "failed") return WORDS[run.state];
-  if (run.verdict === "pass" && run.state === "succeeded") return { word: "PASS", shape: "✓", alarm: "" };
-  if (run.verdict === "fail") return { word: "FAIL", shape: "▲", alarm: "act" };
-  return WORDS[run.state];
+interface Look {
+  shape: string;
+  alarm: "" | "act" | "warn";
 }
 
-export function Badge({ run }: { run: Pick<Summary, "state" | "verdict"> }) {
+const LOOKS: Record<State, Look> = {
+  queued: { shape: "○", alarm: "" },
+  running: { shape: "▶", alarm: "" },
+  succeeded: { shape: "◆", alarm: "warn" },
+  failed: { shape: "▲", alarm: "act" },
+  aborted: { shape: "◆", alarm: "warn" },
+  interrupted: { shape: "◆", alarm: "warn" },
+};
+
+type Ended = Pick<Summary, "state" | "verdict">;
+
+/** The verdict where the run has come to one, else its state. */
+export function verdictOf({ state, verdict }: Ended): Look & { word: string; explanation: string } {
+  const { badge, explanation } = t.states[state];
+  const looks = { ...LOOKS[state], word: badge, explanation };
+  if (state !== "succeeded" && state !== "failed") return looks;
+  if (verdict === "pass" && state === "succeeded") return { ...worded("pass"), shape: "✓", alarm: "" };
+  return verdict === "fail" ? { ...worded("fail"), shape: "▲", alarm: "act" } : looks;
+}
+
+function worded(verdict: "pass" | "fail") {
+  const { badge, explanation } = t.verdicts[verdict];
+  return { word: badge, explanation };
+}
+
+export function Badge({ run }: { run: Ended }) {
   const { word, shape, alarm } = verdictOf(run);
   return (
     <strong class={`badge ${alarm && `alarm ${alarm}`}`}>
@@ -27,10 +42,11 @@ export function Badge({ run }: { run: Pick<Summary, "state" | "verdict"> }) {
 }
 
 export function VerdictLine({ run }: { run: Summary }) {
+  const progress = run.state === "running" ? t.shared.stepOf(run.step ?? 0, run.steps ?? "?") : "";
   return (
     <p class="verdict">
       <Badge run={run} /> <span class="serial">{run.robot_serial}</span>
-      <span>{run.reason ?? (run.state === "running" ? `step ${run.step} of ${run.steps}` : "")}</span>
+      <span>{run.reason ?? progress}</span>
     </p>
   );
 }

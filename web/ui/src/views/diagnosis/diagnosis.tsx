@@ -1,0 +1,71 @@
+/** What the model of a run lacked: residual, causes, models, before and after, and what was not detectable. */
+import { calibration, diagnosis, residuals } from "../../api";
+import { micrometres } from "../../format";
+import { t } from "../../messages";
+import { BeforeAfter } from "../../parts/before-after";
+import { Link } from "../../parts/link";
+import { useLoaded } from "../../parts/load";
+import { VerdictLine } from "../../parts/verdict";
+import type { Calibration, Diagnosis } from "../../types";
+import { Causes, Hints } from "./causes";
+import { Invisible } from "./invisible";
+import { ResidualOrderings } from "./residual-orderings";
+import { SeparatingOffer } from "./separating";
+import { Stages } from "./stages";
+
+export function DiagnosisView({ id }: { id: number }) {
+  const ask = () => Promise.all([calibration(id), diagnosis(id), residuals(id)]);
+  const { value, trouble } = useLoaded(`${id}`, ask).value;
+  if (!value) {
+    return (
+      <section class="panel">
+        <h1>{t.diagnosis.title}</h1>
+        <p role="status">{trouble ?? t.shared.loading}</p>
+      </section>
+    );
+  }
+  const [run, found, left] = value;
+  return (
+    <div class="result">
+      <DiagnosisSummary run={run} found={found} readings={left.items.length} />
+      <Causes found={found} />
+      <SeparatingOffer id={id} serial={run.robot_serial} found={found} />
+      <Hints found={found} />
+      <ResidualOrderings id={id} residuals={left} />
+      <Stages found={found} />
+      <BeforeAfter result={run} wide />
+      <Invisible found={found} />
+    </div>
+  );
+}
+
+function DiagnosisSummary(props: { run: Calibration; found: Diagnosis; readings: number }) {
+  const { run, found, readings } = props;
+  const { sigma_mm, source, dof } = found.noise;
+  const sigma = micrometres(sigma_mm, 2);
+  return (
+    <section class="panel summary">
+      <h1>{t.diagnosis.heading(run.id)}</h1>
+      <VerdictLine run={run} />
+      <p>{found.sentence}</p>
+      <p class="note">
+        {t.diagnoses[found.verdict].explanation}{" "}
+        {source === "repeats"
+          ? t.diagnosis.noiseFromRepeats(readings, sigma, dof)
+          : t.diagnosis.noiseSpecified(readings, sigma)}
+        {found.outliers.length > 0 && ` ${t.diagnosis.outliers(t.listed(found.outliers.map(String)))}`}
+      </p>
+      <p class="actions">
+        <Link class="button" to={`/result/${run.id}`}>
+          {t.shared.result(run.id)}
+        </Link>
+        <a class="button" href={`/api/v1/calibrations/${run.id}/report.html`}>
+          {t.shared.report}
+        </a>
+        <a class="button" href={`/api/v1/calibrations/${run.id}/readings.csv`} download>
+          {t.shared.readingsCsv}
+        </a>
+      </p>
+    </section>
+  );
+}

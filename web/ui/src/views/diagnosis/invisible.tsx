@@ -1,0 +1,52 @@
+/** What the readings could not have shown: the detection limit of every effect that was not found. */
+import { MISSING } from "../../format";
+import { t } from "../../messages";
+import { labelName, shown } from "../../names";
+import type { Diagnosis } from "../../types";
+
+export function Invisible({ found: { invisible } }: { found: Diagnosis }) {
+  return (
+    <section class="panel wide" aria-label={t.diagnosis.notFound}>
+      <h2>{t.diagnosis.notFoundTitle}</h2>
+      <p class="note">{t.diagnosis.notFoundNote}</p>
+      <table>
+        <thead>
+          <tr>
+            <th scope="col" class="text">
+              {t.diagnosis.effectColumn}
+            </th>
+            <th scope="col">{t.diagnosis.detectionLimit}</th>
+            <th scope="col" class="text">
+              {t.diagnosis.quantity}
+            </th>
+            <th scope="col" class="text">
+              {t.diagnosis.remark}
+            </th>
+          </tr>
+        </thead>
+        <tbody>
+          {invisible.map((one) => {
+            const { name, limit } = detectionLimit(one);
+            return (
+              <tr key={one.label}>
+                <th scope="row" class="text name">
+                  {labelName(one.label)}
+                </th>
+                <td>{limit}</td>
+                <td class="text">{name}</td>
+                <td class="text remark">{one.text}</td>
+              </tr>
+            );
+          })}
+        </tbody>
+      </table>
+    </section>
+  );
+}
+
+/** To two digits, with its unit. */
+function detectionLimit({ parameter, minimum_detectable, unit }: Diagnosis["invisible"][number]) {
+  if (parameter === null || minimum_detectable === null || unit === null) return { name: "", limit: MISSING };
+  const size = shown({ name: parameter, value: minimum_detectable, sd: null, unit });
+  return { name: size.name, limit: `${Number(size.value?.toPrecision(2))} ${size.unit}` };
+}

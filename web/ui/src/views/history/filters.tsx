@@ -1,0 +1,71 @@
+import { t } from "../../messages";
+import { navigate, query } from "../../router";
+import { address, withFilter } from "./address";
+
+/** A part of its own: events of the station must not take away what is being typed. */
+export function Filters() {
+  const filters = query.value;
+  return (
+    <form class="filters panel" onSubmit={(event) => event.preventDefault()} aria-label={t.history.filter}>
+      <p class="field">
+        <label for="filter-serial">{t.history.serial}</label>
+        <input
+          id="filter-serial"
+          value={filters.get("robot_serial") ?? ""}
+          spellcheck={false}
+          onChange={(event) => set("robot_serial", event.currentTarget.value.trim())}
+        />
+      </p>
+      <Choice name="state" label={t.history.state} options={t.states} value={filters.get("state") ?? ""} />
+      <Choice
+        name="verdict"
+        label={t.history.verdict}
+        options={t.verdicts}
+        value={filters.get("verdict") ?? ""}
+      />
+      <Day name="since" label={t.history.from} value={filters.get("since") ?? ""} />
+      <Day name="until" label={t.history.to} value={filters.get("until") ?? ""} />
+    </form>
+  );
+}
+
+function set(name: string, value: string): void {
+  // the address as it is now: another filter may have been set since the form was drawn
+  navigate(address(withFilter(query.value, name, value)), { replace: true });
+}
+
+interface FieldProps {
+  name: string;
+  label: string;
+  value: string;
+}
+
+function Choice({ name, label, value, options }: FieldProps & { options: Record<string, { name: string }> }) {
+  return (
+    <p class="field">
+      <label for={`filter-${name}`}>{label}</label>
+      <select id={`filter-${name}`} value={value} onChange={(event) => set(name, event.currentTarget.value)}>
+        <option value="">{t.history.all}</option>
+        {Object.entries(options).map(([id, option]) => (
+          <option key={id} value={id}>
+            {option.name}
+          </option>
+        ))}
+      </select>
+    </p>
+  );
+}
+
+function Day({ name, label, value }: FieldProps) {
+  return (
+    <p class="field">
+      <label for={`filter-${name}`}>{label}</label>
+      <input
+        id={`filter-${name}`}
+        type="date"
+        value={value}
+        onChange={(event) => set(name, event.currentTarget.value)}
+      />
+    </p>
+  );
+}

@@ -1,0 +1,43 @@
+import { dateTime, expanded, fixed, MISSING, signed } from "../../format";
+import { t } from "../../messages";
+import { runKind } from "../../names";
+import { Link } from "../../parts/link";
+import { Badge } from "../../parts/verdict";
+import type { Summary } from "../../types";
+
+/** One run in the history. */
+export function RunRow({ run }: { run: Summary }) {
+  return (
+    <tr>
+      <td>
+        <Link class="cell" to={`/result/${run.id}`}>
+          {run.id}
+        </Link>
+      </td>
+      <td class="text">{dateTime(run.started_at ?? run.created_at)}</td>
+      <td class="text serial">{run.robot_serial}</td>
+      <td class="text outcome-cell">
+        <Badge run={run} />
+        {run.of !== null && ` ${t.history.kindOf(runKind(run.plan).name, run.of)}`}
+        {run.reason && <small>{run.reason}</small>}
+      </td>
+      <td>{offset(run, 1)}</td>
+      <td>{offset(run, 2)}</td>
+      <td class="text">
+        <a
+          class="cell"
+          href={`/api/v1/calibrations/${run.id}/readings.csv`}
+          download
+          aria-label={t.history.csvLabel(run.id)}
+        >
+          {t.history.csv}
+        </a>
+      </td>
+    </tr>
+  );
+}
+
+function offset({ zero_offsets }: Summary, joint: number): string {
+  const zero = zero_offsets?.find((one) => one.joint === joint);
+  return zero ? `${signed(zero.value_deg, 3)} ± ${fixed(expanded(zero.sd_deg), 3)}` : MISSING;
+}

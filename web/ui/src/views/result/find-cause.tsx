@@ -1,0 +1,48 @@
+/** From any result to the measurement sequence that finds what the model lacks: press, then confirm. */
+import { newKey, start } from "../../api";
+import { connected, station } from "../../live";
+import { t } from "../../messages";
+import { keepOperator, operator } from "../../operator";
+import { ConfirmedButton } from "../../parts/confirm";
+import { MotionWarning } from "../../parts/motion-warning";
+import { OperatorField } from "../../parts/operator-field";
+import { navigate } from "../../router";
+import type { Calibration } from "../../types";
+
+export function FindCause({ result }: { result: Calibration }) {
+  const { robot_serial, work_order, lack_of_fit } = result;
+  const idle = connected.value && !station.value?.run && operator.value.trim() !== "";
+  const find = async () => {
+    keepOperator();
+    const who = operator.value.trim();
+    const body = { robot_serial, plan: "diagnostic" as const, operator: who, work_order, metadata: {} };
+    const run = await start(body, newKey());
+    navigate(`/result/${run.id}`);
+  };
+  return (
+    <section class="panel wide find-cause" aria-label={t.result.cause}>
+      {lack_of_fit === null ? (
+        <h2>{t.result.checkModel}</h2>
+      ) : (
+        <>
+          <h2>
+            <strong class="alarm warn">{t.result.misfit}</strong>
+          </h2>
+          <p>{result.zero_offsets?.length ? t.result.misfitOffsets(lack_of_fit) : t.result.misfitNone}</p>
+        </>
+      )}
+      <p>{t.result.findCauseNote}</p>
+      <div class="writes">
+        <OperatorField id="cause-operator" />
+        <ConfirmedButton
+          label={t.result.findCause}
+          prominent={lack_of_fit !== null}
+          disabled={!idle}
+          act={find}
+        >
+          <MotionWarning serial={robot_serial} then={t.result.wholeWorkspace} />
+        </ConfirmedButton>
+      </div>
+    </section>
+  );
+}

@@ -1,0 +1,50 @@
+/** Which stored parameters of geometry and mechanism the next run starts from, and whether this one used them. */
+import { useSignal } from "@preact/signals";
+import { forget, robot } from "../../api";
+import { fixed } from "../../format";
+import { connected, station } from "../../live";
+import { t } from "../../messages";
+import { operator } from "../../operator";
+import { ConfirmedButton } from "../../parts/confirm";
+import { Link } from "../../parts/link";
+import { useLoaded } from "../../parts/load";
+import type { Calibration } from "../../types";
+
+export function Memory({ result: { memory, robot_serial } }: { result: Calibration }) {
+  const forgotten = useSignal(0);
+  // asked again when a run ends: it may have left something new
+  const key = `${robot_serial} ${station.value?.last?.id} ${forgotten.value}`;
+  const { value } = useLoaded(key, () => robot(robot_serial)).value;
+  const next = value?.memory ?? null;
+  const drop = async () => {
+    await forget(robot_serial, operator.value.trim() || "page");
+    forgotten.value += 1;
+  };
+  return (
+    <section class="panel memory">
+      <h2>{t.result.memory(robot_serial)}</h2>
+      <p class="used">{memory ? <Used memory={memory} /> : t.result.memoryNone}</p>
+      <p>
+        {next ? t.result.memoryNext(next.from_calibration, fixed(next.age_days, 1)) : t.result.memoryNextNone}
+      </p>
+      <ConfirmedButton label={t.result.forget} disabled={!connected.value || !next} act={drop}>
+        {t.result.forgetWarning(robot_serial)}
+        <strong>{t.result.forgetEmphasis}</strong>
+        {t.result.forgetAs}
+      </ConfirmedButton>
+    </section>
+  );
+}
+
+function Used({ memory }: { memory: NonNullable<Calibration["memory"]> }) {
+  return (
+    <>
+      {memory.used ? t.result.memoryUsed : <strong class="alarm warn">{t.result.memoryNotUsed}</strong>}
+      {t.result.memoryText(memory.text)}
+      <Link class="cell" to={`/result/${memory.from_calibration}`}>
+        {t.shared.run(memory.from_calibration)}
+      </Link>
+      {t.result.memoryAge(fixed(memory.age_days, 1), fixed(memory.p_value, 3))}
+    </>
+  );
+}

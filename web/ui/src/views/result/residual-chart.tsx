@@ -1,0 +1,29 @@
+import { micrometres } from "../../format";
+import { t } from "../../messages";
+import { Drawn } from "../../parts/drawn";
+import type { Residual } from "../../types";
+import { isOver } from "./over-limit";
+
+/** Residual of each reading against its limits. */
+export function ResidualChart({ id, residuals }: { id: number; residuals: Residual[] }) {
+  if (residuals.length === 0) return null;
+  const largest = Math.max(...residuals.map(({ residual_mm }) => Math.abs(residual_mm ?? 0)));
+  const over = residuals.filter(isOver).length;
+  return (
+    <section class="panel wide">
+      <h2>{t.result.residuals}</h2>
+      <p class="note">{t.result.residualsNote(residuals.length, micrometres(largest, 1), over)}</p>
+      <Drawn
+        label={t.result.residualsChart}
+        on={`${id} ${residuals.length}`}
+        load={() =>
+          import("./residual-drawing").then(
+            ({ draw }) =>
+              (place) =>
+                draw(place, residuals),
+          )
+        }
+      />
+    </section>
+  );
+}

@@ -1,0 +1,52 @@
+import { LineChart, ScatterChart } from "echarts/charts";
+import { GridComponent } from "echarts/components";
+import { use } from "echarts/core";
+import { SVGRenderer } from "echarts/renderers";
+import { t } from "../../messages";
+import { DARK, GREY, mount, RED, xAxis, yAxis } from "../../parts/drawing";
+import type { Residual } from "../../types";
+import { isOver } from "./over-limit";
+
+use([LineChart, ScatterChart, GridComponent, SVGRenderer]);
+
+const UM = 1000;
+
+/** Draws into `place`; returns how to take it away. */
+export function draw(place: HTMLElement, residuals: Residual[]): () => void {
+  return mount(place, residualOption(residuals));
+}
+
+/** Residuals as dots, those over their limit as diamonds, the limits dashed. */
+export function residualOption(residuals: Residual[]) {
+  const over = ({ dataIndex }: { dataIndex: number }) => isOver(residuals[dataIndex]!);
+  const limits = (sign: 1 | -1) => ({
+    type: "line" as const,
+    data: residuals.map((r) => [r.reading, r.limit_mm === null ? null : sign * UM * r.limit_mm]),
+    symbol: "none",
+    step: "middle" as const,
+    silent: true,
+    lineStyle: { color: GREY, type: "dashed" as const, width: 1.5 },
+  });
+  return {
+    xAxis: {
+      ...xAxis,
+      name: t.result.readingAxis,
+      minInterval: 1,
+      min: ({ min }: { min: number }) => min - 1,
+      max: ({ max }: { max: number }) => max + 1,
+    },
+    yAxis: { ...yAxis, name: t.result.residualAxis },
+    series: [
+      limits(1),
+      limits(-1),
+      {
+        type: "scatter" as const,
+        silent: true,
+        symbolSize: (_: unknown, point: { dataIndex: number }) => (over(point) ? 13 : 8),
+        symbol: (_: unknown, point: { dataIndex: number }) => (over(point) ? "diamond" : "circle"),
+        itemStyle: { color: (point: { dataIndex: number }) => (over(point) ? RED : DARK) },
+        data: residuals.map((r) => [r.reading, r.residual_mm === null ? null : UM * r.residual_mm]),
+      },
+    ],
+  };
+}

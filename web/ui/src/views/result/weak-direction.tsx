@@ -1,0 +1,18 @@
+import { fixed } from "../../format";
+import { t } from "../../messages";
+import type { Calibration } from "../../types";
+
+/** The combination of parameters that the readings determine least, and what would help. */
+export function WeakDirection({ result: { weak_direction: weak } }: { result: Calibration }) {
+  if (!weak?.text) return null;
+  return (
+    <section class="panel">
+      <h2>{t.result.weakDirection}</h2>
+      <p>
+        {weak.text}
+        {weak.sd_deg !== null && ` (${t.shared.standard(`${fixed(weak.sd_deg, 3)}°`)})`}
+      </p>
+      {weak.remedy && <p class="note">{t.result.remedy(weak.remedy)}</p>}
+    </section>
+  );
+}

@@ -1,0 +1,44 @@
+import { station } from "../../live";
+import { t } from "../../messages";
+import type { DeviceState } from "../../types";
+
+const ALARMS: Record<DeviceState, { shape: string; alarm: string }> = {
+  ok: { shape: "", alarm: "" },
+  unknown: { shape: "", alarm: "" },
+  lost: { shape: "▲ ", alarm: "alarm act" },
+  fault: { shape: "▲ ", alarm: "alarm act" },
+};
+
+/** Devices and interlocks, each in words. */
+export function Devices() {
+  const now = station.value;
+  return (
+    <section class="devices">
+      <h2>{t.station.devices}</h2>
+      <ul>
+        {now?.devices.map(({ name, state, text }) => (
+          <li key={name}>
+            <span>{name}</span>
+            <strong class={ALARMS[state].alarm}>
+              {ALARMS[state].shape}
+              {t.devices[state].name}
+            </strong>
+            {state !== "ok" && <small>{text || t.devices[state].explanation}</small>}
+          </li>
+        ))}
+      </ul>
+      <h2>{t.station.interlocks}</h2>
+      <ul>
+        {now?.interlocks.map((interlock) => (
+          <li key={interlock.id}>
+            <span>{interlock.text}</span>
+            <strong class={interlock.ok ? "" : "alarm warn"}>
+              {interlock.ok ? t.station.interlockOk : t.station.interlockNotMet}
+            </strong>
+            {!interlock.ok && interlock.detail && <small>{interlock.detail}</small>}
+          </li>
+        ))}
+      </ul>
+    </section>
+  );
+}

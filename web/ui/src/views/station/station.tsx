@@ -1,0 +1,21 @@
+import { t } from "../../messages";
+import { Devices } from "./devices";
+import { Readings } from "./readings";
+import { RunPanel } from "./run-panel";
+import { StartForm } from "./start-form";
+
+export function StationView() {
+  return (
+    <div class="station">
+      <h1 class="hidden">{t.station.title}</h1>
+      <div class="side">
+        <StartForm />
+        <Devices />
+      </div>
+      <div class="work">
+        <RunPanel />
+        <Readings />
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,65 @@
+import { describe, expect, it } from "vitest";
+import { type Messages, t } from "../src/messages";
+
+/** Every text with its path; functions are asked with a value that can be found again. */
+function texts(node: unknown, path = ""): [string, string][] {
+  if (typeof node === "string") return [[path, node]];
+  if (typeof node === "function") return [[path, String(node(...sample(node)))]];
+  return Object.entries(node as object).flatMap(([key, value]) => texts(value, `${path}.${key}`));
+}
+
+const LISTS = new Set<unknown>([t.listed]);
+const sample = (message: { length: number }) =>
+  LISTS.has(message) ? [["7"]] : Array.from({ length: message.length }, () => "7");
+
+const all = texts(t);
+
+describe("texts", () => {
+  it("are never empty, but for a unit of one", () => {
+    const empty = all.filter(([path, text]) => text.trim() === "" && path !== ".units.1/rev");
+    expect(empty).toEqual([]);
+  });
+
+  it("have no private words and no internal names", () => {
+    const PRIVATE =
+      /\b(walks?|rests?|rivals?|told|tells?|apart|look-?alikes?|places?|dirt|rM[xy]|mu|um|deg|sd|\w+_\w+)\b/i;
+    expect(all.filter(([, text]) => PRIVATE.test(text))).toEqual([]);
+  });
+
+  it("explain in whole sentences", () => {
+    const explanations = all.filter(([path]) => path.endsWith(".explanation"));
+    expect(explanations.length).toBeGreaterThan(60);
+    expect(explanations.filter(([, text]) => !/^[A-Z0-9].*\.$/.test(text))).toEqual([]);
+  });
+
+  it("show every value that they are given", () => {
+    expect(t.diagnosis.planned(3, "1", "2", "4", "5")).toBe(
+      "3 planned positions, x from 1 to 2 mm, y from 4 to 5 mm",
+    );
+    expect(t.result.residualsNote(8, "9.0", 0)).toContain("none exceeds its limit");
+    expect(t.result.residualsNote(8, "9.0", 2)).toContain("2 over the limit");
+  });
+});
+
+// another language must have the same keys of the same kind: checked by the compiler alone
+const { title: _, ...incomplete } = t;
+// @ts-expect-error a key is missing
+void (incomplete satisfies Messages);
+// @ts-expect-error a text is where a function has to be
+void ({ ...t, listed: "" } satisfies Messages);
+
+describe("the catalogue of effects", () => {
+  const sources = import.meta.glob<string>("../../../station/**/effects/*.py", {
+    query: "?raw",
+    import: "default",
+    eager: true,
+  });
+  const ids = Object.values(sources).flatMap((source) =>
+    [...source.matchAll(/^ {4}id = "(\w+)"$/gm)].map(([, id]) => id),
+  );
+
+  it("has a display name for each effect, and no name without one", () => {
+    expect(ids.length).toBeGreaterThan(10);
+    expect(Object.keys(t.effects).toSorted()).toEqual([...new Set(ids)].toSorted());
+  });
+});

@@ -1,0 +1,184 @@
+import { render } from "preact";
+import { act } from "preact/test-utils";
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import type * as Api from "../../../src/api";
+import { Refused } from "../../../src/api";
+import { now, station } from "../../../src/live";
+import { operator } from "../../../src/operator";
+import { armed, plan, sending, serial, trouble } from "../../../src/views/station/start";
+import { StartForm } from "../../../src/views/station/start-form";
+import { run, stationNow, summary } from "../../samples";
+
+const sent = vi.hoisted(() => vi.fn<typeof Api.start>());
+vi.mock("../../../src/api", async (load) => ({ ...(await load<typeof Api>()), start: sent }));
+
+let place: HTMLElement;
+const field = (id: string) => place.querySelector<HTMLInputElement>(`#${id}`)!;
+const button = (text: string) =>
+  [...place.querySelectorAll("button")].find((one) => one.textContent === text)!;
+const press = (text: string) =>
+  act(async () => {
+    button(text).click();
+    await new Promise((settled) => setTimeout(settled));
+  });
+const alert = () => place.querySelector("[role=alert]")?.textContent;
+const asked = () => !place.querySelector<HTMLElement>("[role=group]")?.hidden;
+const type = (id: string, text: string) =>
+  act(() => {
+    field(id).value = text;
+    field(id).dispatchEvent(new Event("input", { bubbles: true }));
+  });
+/** As a scanner does: characters, then Enter. */
+const scan = async (id: string, text: string) => {
+  await type(id, text);
+  await act(() => {
+    place.querySelector("form")?.dispatchEvent(new Event("submit", { bubbles: true, cancelable: true }));
+  });
+};
+
+beforeEach(async () => {
+  sent.mockReset().mockResolvedValue(summary());
+  serial.value = operator.value = "";
+  plan.value = "paper";
+  armed.value = trouble.value = null;
+  sending.value = false;
+  now.value = performance.now();
+  station.value = stationNow();
+  place = document.body.appendChild(document.createElement("div"));
+  await act(() => render(<StartForm />, place));
+});
+
+afterEach(() => {
+  render(null, place);
+  place.remove();
+});
+
+describe("a start", () => {
+  it("begins at the serial, and a scanner leads from field to field", async () => {
+    expect(document.activeElement).toBe(field("robot_serial"));
+    await scan("robot_serial", "FB-1");
+    expect(document.activeElement).toBe(field("operator"));
+    await scan("operator", "ada");
+    expect(document.activeElement).toBe(button("Calibrate"));
+    expect(sent).not.toHaveBeenCalled();
+  });
+
+  it.each([
+    ["", "ada", "robot_serial", "serial number"],
+    ["  ", "ada", "robot_serial", "serial number"],
+    ["FB-1", "", "operator", "operator"],
+  ])("with serial %j and operator %j asks for the %s", async (serialText, who, id, words) => {
+    await type("robot_serial", serialText);
+    await type("operator", who);
+    await press("Calibrate");
+    expect(alert()).toContain(words);
+    expect(field(id).getAttribute("aria-invalid")).toBe("true");
+    expect(document.activeElement).toBe(field(id));
+    expect(asked()).toBe(false);
+  });
+
+  it("asks before the robot moves, and names it", async () => {
+    await type("robot_serial", " FB-1 ");
+    await type("operator", "ada");
+    await press("Calibrate");
+    expect(asked()).toBe(true);
+    expect(place.querySelector("[role=group]")?.textContent).toContain("Robot FB-1 will move");
+    expect(document.activeElement).toBe(button("Confirm"));
+    expect(sent).not.toHaveBeenCalled();
+  });
+
+  it("is sent once, trimmed, with a key, when it is confirmed", async () => {
+    plan.value = "full";
+    await type("robot_serial", " FB-1 ");
+    await type("operator", "ada ");
+    await press("Calibrate");
+    const confirm = button("Confirm");
+    await act(async () => {
+      confirm.click();
+      confirm.click();
+    });
+    expect(sent).toHaveBeenCalledTimes(1);
+    const [body, key] = sent.mock.calls[0]!;
+    expect(body).toEqual({ robot_serial: "FB-1", plan: "full", operator: "ada" });
+    expect(key).toMatch(/^[0-9a-f]{32}$/);
+    expect(asked()).toBe(false);
+    expect(sessionStorage.getItem("operator")).toBe("ada");
+  });
+});
+
+describe("an armed start", () => {
+  beforeEach(async () => {
+    await type("robot_serial", "FB-1");
+    await type("operator", "ada");
+    await press("Calibrate");
+    expect(asked()).toBe(true);
+  });
+
+  it("is withdrawn by Back, and the focus returns", async () => {
+    await press("Back");
+    expect(asked()).toBe(false);
+    expect(document.activeElement).toBe(button("Calibrate"));
+  });
+
+  it.each(["robot_serial", "operator"])("is withdrawn when the %s changes", async (id) => {
+    await type(id, "other");
+    expect(asked()).toBe(false);
+  });
+
+  it("is withdrawn when the plan changes", async () => {
+    const select = place.querySelector("select")!;
+    await act(() => {
+      select.value = "full";
+      select.dispatchEvent(new Event("change", { bubbles: true }));
+    });
+    expect(asked()).toBe(false);
+    expect(place.textContent).toContain("24 positions");
+  });
+
+  it.each([
+    ["another run starts", () => Object.assign(station, { value: stationNow({ run: run() }) })],
+    ["the station is lost", () => Object.assign(now, { value: now.value + 60_000 })],
+  ])("is withdrawn when %s, and cannot be armed then", async (_, happens) => {
+    await act(() => {
+      happens();
+    });
+    expect(asked()).toBe(false);
+    expect(button("Calibrate").disabled).toBe(true);
+  });
+
+  it("is not confirmed by a key that is held down", () => {
+    const key = (repeat: boolean) =>
+      new KeyboardEvent("keydown", { key: "Enter", repeat, cancelable: true, bubbles: true });
+    const [held, pressed] = [key(true), key(false)];
+    button("Confirm").dispatchEvent(held);
+    button("Confirm").dispatchEvent(pressed);
+    expect([held.defaultPrevented, pressed.defaultPrevented]).toEqual([true, false]);
+  });
+
+  it("shows a refusal at its field, and sends the same key again", async () => {
+    let refuse = () => {};
+    const refused = new Refused("The serial has a space.", "robot_serial");
+    sent.mockReturnValueOnce(
+      new Promise((_, reject) => {
+        refuse = () => reject(refused);
+      }),
+    );
+    await press("Confirm");
+    expect(button("Confirm").disabled).toBe(true);
+    await act(async () => {
+      refuse();
+      await new Promise((settled) => setTimeout(settled));
+    });
+    expect(alert()).toBe("▲ The serial has a space.");
+    expect(field("robot_serial").getAttribute("aria-invalid")).toBe("true");
+    expect(field("operator").getAttribute("aria-invalid")).toBe("false");
+    expect(asked()).toBe(true);
+    await press("Confirm");
+    const keys = sent.mock.calls.map(([, key]) => key);
+    expect(keys).toHaveLength(2);
+    expect(new Set(keys).size).toBe(1);
+  });
+});
+
+it("offers the plans that the station can run", () =>
+  expect([...place.querySelectorAll("option")].map((one) => one.textContent)).toEqual(["Paper", "Full"]));
