@@ -1,7 +1,7 @@
 """Fits of the base model under a hypothesis, and how probable they make the readings.
 
-`fit` is the exact one: all parameters with their priors, some loosened, some columns added, the noise at
-least as specified and otherwise as large as the readings want it.  `rough` is the quick one that nine
+`fit` is the exact one: all parameters with their priors, some loosened, some columns added, the noise as
+large as the readings want it.  `rough` is the quick one that nine
 wrong rows in twenty do not disturb: two zero offsets and the reading offset, gross rows weighed down.
 """
 
@@ -21,6 +21,8 @@ from station.robot import Robot
 
 OFFSET_SD_MM = 1e4
 """Prior of the reading offset: as wide as anything that is measured."""
+LEAST_NOISE = 0.2
+"""Readings may be so much better than specified: servos that rest on whole pulses leave no half pulse open."""
 SOFT_MM = 0.05
 """Residual from which on a row counts as disagreeing, in the rough fit."""
 ANNEALED_MM = (200.0, 100.0, 50.0, 25.0, 12.0, 6.0, 3.0, 1.5, 0.8, 0.4, 0.2, 0.1, 0.05, 0.05, 0.05)
@@ -57,7 +59,7 @@ class Fitted:
     used: NDArray[np.bool_]
     """(K,) rows that took part."""
     noise: float
-    """Standard deviation of the readings over the specified one, at least 1."""
+    """Standard deviation of the readings over the specified one, at least `LEAST_NOISE`."""
     deviance: float
     """Minus twice the log of the readings' evidence, up to a constant of the rows that took part."""
 
@@ -150,7 +152,7 @@ def fit(
         solution, value = found
         begin = solution.x
         square = float(np.sum((solution.residual * noise) ** 2))
-        wanted = max(1.0, np.sqrt(square / max(used.sum() - 4, 1)))
+        wanted = max(LEAST_NOISE, np.sqrt(square / max(used.sum() - 4, 1)))
         done = abs(np.log(wanted / noise)) < 0.05
         noise = wanted
         if done:

@@ -27,13 +27,6 @@ AGREEING = 0.85
 
 def between(robot: Robot, m: Measurements, fresh: Measurements, walked: Fitted) -> Mistake | None:
     """The mistake that explains why fresh readings do not agree with `walked`, the fit of the sequence."""
-    if any(name not in m.mounts for name in fresh.mounts):
-        return None
-    fresh = replace(
-        fresh,
-        mount=np.array([m.mounts.index(name) for name in fresh.mounts])[fresh.mount],
-        mounts=m.mounts,
-    )
     mechanism = FiveBar(robot, fresh)
     with np.errstate(invalid="ignore"):
         residual = fresh.distance - mechanism.observe(walked.p, fresh.theta).value
@@ -48,6 +41,14 @@ def between(robot: Robot, m: Measurements, fresh: Measurements, walked: Fitted) 
         if found is not None:
             return found
     return _moved(robot, m, fresh, walked, plain, known)
+
+
+def on_mounts(fresh: Measurements, m: Measurements) -> Measurements | None:
+    """Fresh readings with their mounts numbered as in the sequence; None where one is not in it."""
+    if any(name not in m.mounts for name in fresh.mounts):
+        return None
+    renumbered = np.array([m.mounts.index(name) for name in fresh.mounts])
+    return replace(fresh, mount=renumbered[fresh.mount], mounts=m.mounts)
 
 
 def _rms(residual: np.ndarray) -> float:

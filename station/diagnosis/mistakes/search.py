@@ -11,16 +11,18 @@ from station.diagnosis.mistakes.defects import without_a_mistake
 from station.diagnosis.mistakes.duplicates import copies
 from station.diagnosis.mistakes.entries import entries, zero_at, zeroed
 from station.diagnosis.mistakes.fitting import Extra, Fitted, Rough, fit
-from station.diagnosis.mistakes.fresh import between
+from station.diagnosis.mistakes.fresh import between, on_mounts
 from station.diagnosis.mistakes.glitches import glitches
 from station.diagnosis.mistakes.labels import approach_columns, approach_missing, position_labels, time_column
 from station.diagnosis.mistakes.mistake import Context, Mistake, ids, named
 from station.diagnosis.mistakes.resolution import coarse_angles, commanded_angles, off_grid
 from station.measurements import Measurements
+from station.noise import MINIMUM_DOF, pure_error
 from station.robot import Robot
 
 FAR_BETTER = 60.0
 """Of the deviance: what a mistake must win over any account without one (e^30 times more probable)."""
+MECHANISM_BETTER, CLEARLY = 40.0, 12.0
 BEYOND_OTHERS = 6.0
 QUIET = 1.25
 """Noise over specification up to which a file is not searched any further."""
@@ -51,6 +53,7 @@ def find_mistake(
     if len(m) < FEWEST or m.joints != 2:
         return None
     context = context or Context.of(m)
+    fresh = None if fresh is None else on_mounts(fresh, m)
     found = copies(robot, m, fresh, context)
     if found:
         return found
@@ -106,9 +109,10 @@ def _in_readings(robot: Robot, m: Measurements, base: Fitted | None) -> tuple[Mi
     """The mistake in the sequence, and a fit that fresh readings can be held against."""
     if base is not None:
         beyond = zero_at(robot, m, base)
-        if beyond and base.noise < QUIET:
+        quiet = base.rms_mm < QUIET * _repeats_mm(m, base)
+        if beyond and (quiet or base.noise < QUIET):
             return beyond, base
-        if base.noise < QUIET and not _strained(robot, m, base):
+        if quiet and not _strained(robot, m, base):
             agreed = Rough(base.p, base.residual_mm)
             return glitches(robot, m, base, agreed, "readings"), base
     candidates: list[_Candidate] = []
@@ -132,9 +136,27 @@ def _in_readings(robot: Robot, m: Measurements, base: Fitted | None) -> tuple[Mi
     nameless = min((c.deviance for c in candidates if c.mistake is None), default=np.inf)
     if nameless < best.deviance - BEYOND_OTHERS:
         return None, start
-    if without and min(without) - best.deviance < FAR_BETTER:
+    if without and not _far_better(best, base, without):
         return None, start
     return best.mistake, start
+
+
+def _far_better(best: _Candidate, base: Fitted | None, without: list[float]) -> bool:
+    """Whether chance and the machine's own defects are beaten.
+
+    A mechanism that is elsewhere changes little that smooth defects all together could not imitate, so it has to
+    beat the plain model by far and those only clearly.
+    """
+    if best.mistake is not None and best.mistake.kind == "mechanism" and base is not None:
+        return base.deviance - best.deviance > MECHANISM_BETTER and min(without) - best.deviance > CLEARLY
+    return min(without) - best.deviance > FAR_BETTER
+
+
+def _repeats_mm(m: Measurements, base: Fitted) -> float:
+    """What repeats scatter by, mm; at most, and without enough of them, what the specification says."""
+    square, dof = pure_error(m, base.residual_mm)
+    specified = float(np.median(base.row_sd))
+    return min(float(np.sqrt(square / dof)), specified) if dof >= MINIMUM_DOF else specified
 
 
 def _strained(robot: Robot, m: Measurements, base: Fitted) -> bool:
