@@ -184,9 +184,13 @@ def _exchange(m: Measurements) -> Measurements:
 
 
 def _shift(column: str, by: int) -> Change:
-    """Values move down by so many rows; the ends are filled with their neighbours'."""
+    """Values move down by so many rows; rows that lose theirs are left out."""
 
     def change(m: Measurements) -> Measurements:
+        moved = move(m)
+        return moved.take(np.arange(len(m))[max(by, 0) : len(m) + min(by, 0)])
+
+    def move(m: Measurements) -> Measurements:
         source = np.clip(np.arange(len(m)) - by, 0, len(m) - 1)
         if column == "scale":
             return _scale(m, m.distance[source])
@@ -197,6 +201,21 @@ def _shift(column: str, by: int) -> Change:
         return replace(m, theta=theta, came_from=None)
 
     return change
+
+
+def _scale_down_from(first: float) -> Callable[[Files, np.random.Generator], Files]:
+    """A cell inserted in the column of the readings; its row, which has none then, is left out."""
+
+    def spoil(f: Files, rng: np.random.Generator) -> Files:
+        m, n = f.walk, len(f.walk)
+        row = int(first * n)
+        source = np.arange(n)
+        source[row:] -= 1
+        kept = np.delete(np.arange(n), row)
+        walk = _scale(m, m.distance[source]).take(kept)
+        return replace(f, walk=replace(walk, came_from=None), rows=tuple(m.ids[k] for k in range(row + 1, n)))
+
+    return spoil
 
 
 def _step(steps_mm: tuple[tuple[float, float, float], ...]) -> Callable[[Files, np.random.Generator], Files]:
@@ -356,8 +375,8 @@ VARIANTS: tuple[Variant, ...] = (
     Variant("row_shift: joint 1 down", ("row_shift",), _both(_shift("joint 1", 1))),
     Variant("row_shift: joint 2 up", ("row_shift",), _both(_shift("joint 2", -1))),
     Variant("row_shift: both joints down", ("row_shift",), _both(_shift("both", 1))),
-    Variant("row_shift: scale, from the middle on", ("row_shift",), _on_rows(_shift("scale", 1), 0.5, 1.0)),
-    Variant("row_shift: scale, from a fifth on", ("row_shift",), _on_rows(_shift("scale", 1), 0.2, 1.0)),
+    Variant("row_shift: scale, from the middle on", ("row_shift",), _scale_down_from(0.5)),
+    Variant("row_shift: scale, from a fifth on", ("row_shift",), _scale_down_from(0.2)),
     Variant("row_shift: scale, fresh only", ("row_shift",), _fresh(_shift("scale", 1))),
     Variant("zero_at: joint 1, 20 deg", ("zero_at",), _both(_add((20.0, 0.0)))),
     Variant("zero_at: joint 2, -10 deg", ("zero_at",), _both(_add((0.0, -10.0)))),

@@ -6,6 +6,8 @@ can be had without any mistake.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from station.diagnosis.mistakes.fitting import OFFSET_SD_MM, Extra, Fitted, fit
@@ -20,6 +22,10 @@ SCALE_GAIN = 0.002
 ECCENTRIC_RAD = float(np.radians(0.15))
 SAG_RAD = float(np.radians(0.1))
 PLAY_RAD = float(np.radians(0.02))
+LARGEST_LINK_MM = 10.0
+LARGEST_GAIN = 0.03
+LARGEST_SCALE = 0.02
+"""Beyond these a part could not be mounted, or is another one."""
 SLIP_RAD = float(np.radians(0.3))
 STEP_MM = 0.05
 BOW_MM = 0.1
@@ -77,14 +83,30 @@ def drift(m: Measurements) -> Extra:
     return Extra("drift", STEP_MM, by_reading=(m.t_s - m.t_s.mean()) / length)
 
 
-def without_a_mistake(robot: Robot, m: Measurements, base: Fitted) -> list[Fitted]:
-    """The readings as they are, under every account of this module that converges."""
+@dataclass(frozen=True)
+class WithoutAMistake:
+    """Minus twice the log evidence of the readings as they are, of the best account of each sort."""
+
+    simple: float
+    """Nothing, or one defect."""
+    everything: float
+    """All smooth defects at once, which imitate much."""
+
+
+def without_a_mistake(robot: Robot, m: Measurements, base: Fitted) -> WithoutAMistake:
+    """Every account of this module that converges and is of a size that occurs."""
+    simple, everything = accounts(robot, m, base)
+    return WithoutAMistake(
+        min(one.deviance for one in simple), min((one.deviance for one in everything), default=np.inf)
+    )
+
+
+def accounts(robot: Robot, m: Measurements, base: Fitted) -> tuple[list[Fitted], list[Fitted]]:
+    """Simple ones, the base model first, and those of everything at once."""
     links = {name: LINK_MM for name in ("L1", "L2", "l1", "l2")}
     some = plays(m)
     tries = [
         fit(robot, m, extras=(*some, drift(m)), start=base.p),
-        fit(robot, m, extras=smooth(robot, m), start=base.p),
-        fit(robot, m, extras=(*smooth(robot, m), *some, drift(m)), loosened=links, start=base.p),
         *(fit(robot, m, loosened={name: LINK_MM}, start=base.p) for name in links),
         *(fit(robot, m, loosened={n + "1": LINK_MM, n + "2": LINK_MM}, start=base.p) for n in "Ll"),
         fit(robot, m, extras=(both_gains(robot, m),), start=base.p),
@@ -92,7 +114,25 @@ def without_a_mistake(robot: Robot, m: Measurements, base: Fitted) -> list[Fitte
         fit(robot, m, extras=(scale_gain(m),), start=base.p),
     ]
     tries += slips(robot, m, base)
-    return [base, *(found for found in tries if found is not None)]
+    everything = [
+        fit(robot, m, extras=smooth(robot, m), start=base.p),
+        fit(robot, m, extras=(*smooth(robot, m), *some, drift(m)), loosened=links, start=base.p),
+    ]
+    occurring = [
+        [found for found in group if found is not None and _occurs(robot, m, found)]
+        for group in (tries, everything)
+    ]
+    return [base, *occurring[0]], occurring[1]
+
+
+def _occurs(robot: Robot, m: Measurements, found: Fitted) -> bool:
+    """Whether its sizes occur in machines, rather than in files."""
+    names = [p.name for p in FiveBar(robot, m).parameters]
+    links = max(abs(found.p[names.index(name)]) for name in ("L1", "L2", "l1", "l2"))
+    ratios = max((abs(v) for n, v in found.extra.items() if n.startswith("gain")), default=0.0)
+    return bool(
+        links <= LARGEST_LINK_MM and ratios <= LARGEST_GAIN and abs(found.extra.get("scale", 0.0)) <= LARGEST_SCALE
+    )
 
 
 def slips(robot: Robot, m: Measurements, base: Fitted) -> list[Fitted | None]:

@@ -7,7 +7,16 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from station.diagnosis.mistakes.defects import best_moment, both_gains, gain, scale_gain, slip
+from station.diagnosis.mistakes.defects import (
+    LARGEST_GAIN,
+    LARGEST_LINK_MM,
+    LARGEST_SCALE,
+    best_moment,
+    both_gains,
+    gain,
+    scale_gain,
+    slip,
+)
 from station.diagnosis.mistakes.fitting import Extra, Fitted
 from station.diagnosis.mistakes.mistake import Mistake, ids, named
 from station.five_bar import FiveBar
@@ -20,11 +29,11 @@ WIDE_RATIO = 0.2
 WIDE_SLIP_RAD = float(np.radians(3.0))
 MECHANISM_SDS = 5.0
 """Standard deviations of [mechanism] drm_sd_mm beyond which the mechanism is not as the file says."""
-SAME_AS_EFFECT_MM = 10.0
+SAME_AS_EFFECT_MM = LARGEST_LINK_MM
 """Up to here a wrong length in the file and a wrong part cannot be distinguished."""
 SAME_AS_CENTRE_MM = 3.0
-SAME_AS_EFFECT_RATIO = 0.03
-SAME_AS_EFFECT_SCALE = 0.02
+SAME_AS_EFFECT_RATIO = LARGEST_GAIN
+SAME_AS_EFFECT_SCALE = LARGEST_SCALE
 ZERO_MARGIN_DEG = 0.2
 SMALLEST_STEP_DEG = 0.02
 SMALLEST_ZEROING_MM = 1.0

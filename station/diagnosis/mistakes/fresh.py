@@ -10,7 +10,7 @@ from station.diagnosis.mistakes.corrections import corrections
 from station.diagnosis.mistakes.entries import WIDE_SLIP_RAD, moved_between, zeroed
 from station.diagnosis.mistakes.defects import slip
 from station.diagnosis.mistakes.fitting import Extra, Fitted, costs, fit, posterior
-from station.diagnosis.mistakes.gross import AGREES_MM, SHORTEST, Rough, best_run, zeroings
+from station.diagnosis.mistakes.gross import AGREES_MM, SHORTEST, Rough, best_run, grown, zeroings
 from station.diagnosis.mistakes.mistake import Mistake, ids, named
 from station.five_bar import FiveBar
 from station.measurements import Measurements
@@ -69,10 +69,11 @@ def _gross(
         rows = best_run(here - there)
         if rows is None or rows.sum() < SHORTEST:
             continue
+        rows = grown(rows, ~used)
         good = np.where(rows & used, np.abs(left) < tolerance, np.abs(residual) < tolerance)[used | ~rows]
         if np.mean(good) < AGREEING:
             continue
-        cost = float(np.sum(np.where(rows, there, here)))
+        cost = float(np.sum(np.where(rows, there, here)[used | ~rows]))
         if best is None or cost < best[0] - 3.0:
             at_fault = ids(fresh, np.flatnonzero(rows))
             where = "" if len(at_fault) == len(fresh) or rows[used].all() else f" in {named(at_fault)}"

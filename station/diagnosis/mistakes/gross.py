@@ -21,6 +21,7 @@ from station.diagnosis.mistakes.corrections import (
     scaled_readings,
 )
 from station.diagnosis.mistakes.fitting import Rough, costs, mean_cost, rough
+from station.error_model import pose
 from station.five_bar import FiveBar
 from station.kinematics import Real
 from station.measurements import Measurements
@@ -31,6 +32,8 @@ FACTORS = np.geomspace(0.04, 25.0, 260)
 """Of a ratio or a scale."""
 KNOWN_FACTORS = (0.5, 2.0, 0.25, 4.0, 0.1, 10.0, 0.2, 5.0, 0.8, 1.25, 0.75, 4.0 / 3.0, 2.0 / 3.0, 1.5)
 OFFSETS_DEG = np.arange(-180.0, 180.0, 10.0)
+EVERY_SO_MANY = 40
+"""Rows that the first look at zeros and factors takes."""
 MOST_ZEROINGS = 3
 AGREES_MM = 0.3
 SHORTEST = 3
@@ -112,7 +115,8 @@ def partial(robot: Robot, m: Measurements, agreed: Rough, from_corrected: list[F
             rows = best_run(here - there)
             if rows is None or rows.sum() < SHORTEST or rows.sum() > PART * len(m):
                 continue
-            cost = float(np.mean(np.where(rows, there, here)))
+            rows = grown(rows, ~used)
+            cost = float(np.sum(np.where(rows, there, here)[used | ~rows]) / len(m))
             out.append(Found(one, rows, used | ~rows, on_rows(m, corrected, rows), p, cost))
     return sorted(out, key=lambda found: found.cost)
 
@@ -143,6 +147,12 @@ def zeroings(robot: Robot, m: Measurements, agreed: Rough) -> Zeroings | None:
         taken |= run
     if not rows:
         return None
+    if len(rows) == 1 and rows[0][0] == 0 and len(rows[0]) < len(m):
+        # either part may be the wrong one; what came later is named
+        rows, steps = [np.arange(len(rows[0]), len(m))], [-steps[0]]
+        start = agreed.p.copy()
+        start[len(start) - len(m.mounts) :] += steps[0]
+        return Zeroings(tuple(rows), tuple(steps), start, mean_cost(residual))
     return Zeroings(tuple(rows), tuple(steps), agreed.p, mean_cost(residual))
 
 
@@ -177,6 +187,18 @@ def best_run(gain: Real, allowed: NDArray[np.bool_] | None = None) -> NDArray[np
     return out
 
 
+def grown(rows: NDArray[np.bool_], over: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(K,) a run with the rows of `over` (K,) that adjoin it."""
+    out = rows.copy()
+    first, last = (int(k) for k in np.flatnonzero(rows)[[0, -1]])
+    while last + 1 < len(rows) and over[last + 1]:
+        last += 1
+    while first > 0 and over[first - 1]:
+        first -= 1
+    out[first : last + 1] = True
+    return out
+
+
 def _possible(robot: Robot, m: Measurements) -> bool:
     """Whether the links meet at nearly all angles."""
     mechanism = FiveBar(robot, m)
@@ -187,23 +209,34 @@ def _possible(robot: Robot, m: Measurements) -> bool:
 
 def _searched(robot: Robot, m: Measurements) -> Iterator[Correction]:
     """Zeros, ratios and scale factors that come nearest by the nominal geometry."""
-    nominal = FiveBar(robot, m)
-    p = nominal.start
+    few = slice(None, None, max(1, len(m) // EVERY_SO_MANY))
+    theta, distance = m.theta[few], m.distance[few]
 
-    def apart(theta: Real, distance: Real) -> float:
+    def apart(angles: Real, readings: Real) -> Real:
+        """(C,) mm of C candidates: angles (C, K, 2), readings (C, K)."""
         with np.errstate(invalid="ignore"):
-            r = distance - nominal.observe(p, theta).value
-        if np.mean(np.isfinite(r)) < 0.95:
-            return NO_REACH_MM
-        return float(np.nanmedian(np.abs(r - np.nanmedian(r))))
+            r = readings - pose(robot.geometry, angles.reshape(-1, 2)).rho.reshape(readings.shape)
+        closed = np.isfinite(r)
+        r = np.where(closed, r, 0.0)
+        off = np.median(np.abs(r - np.median(r, axis=1)[:, None]), axis=1)
+        return np.where(np.mean(closed, axis=1) < 0.95, NO_REACH_MM, off)
 
-    pairs = [(a, b) for a in OFFSETS_DEG for b in OFFSETS_DEG if a or b]
-    ranked = sorted(pairs, key=lambda one: apart(m.theta + np.radians(one), m.distance))
-    single = [one for one in ranked if not (one[0] and one[1])]
-    for a, b in dict.fromkeys((*single[:6], *ranked[:6])):
-        yield offset_angles((float(a), float(b)))
+    pairs = np.array([(a, b) for a in OFFSETS_DEG for b in OFFSETS_DEG if a or b])
+    same = np.broadcast_to(distance, (len(pairs), len(distance)))
+    ranked = pairs[np.argsort(apart(theta + np.radians(pairs)[:, None, :], same))]
+    single = ranked[np.any(ranked == 0.0, axis=1)]
+    for a, b in dict.fromkeys((float(a), float(b)) for a, b in (*single[:6], *ranked[:6])):
+        yield offset_angles((a, b))
+    zero = np.radians(robot.zero_at_deg)
+    factors = np.array([*FACTORS, *KNOWN_FACTORS])
+    same = np.broadcast_to(distance, (len(factors), len(distance)))
     for joints in ((0,), (1,), (0, 1)):
-        own = [scaled_angles(joints, float(f), robot.zero_at_deg) for f in (*FACTORS, *KNOWN_FACTORS)]
-        yield from sorted(own, key=lambda one: apart(one.apply(m)[0].theta, m.distance))[:3]
-    readings = [scaled_readings(float(f)) for f in (*FACTORS, *-FACTORS)]
-    yield from sorted(readings, key=lambda one: apart(m.theta, one.apply(m)[0].distance))[:3]
+        angles = np.repeat(theta[None], len(factors), axis=0)
+        for i in joints:
+            angles[:, :, i] = zero[i] + factors[:, None] * (theta[:, i] - zero[i])
+        for f in factors[np.argsort(apart(angles, same))[:3]]:
+            yield scaled_angles(joints, float(f), robot.zero_at_deg)
+    signed = np.array([*FACTORS, *-FACTORS])
+    angles = np.broadcast_to(theta, (len(signed), *theta.shape))
+    for f in signed[np.argsort(apart(angles, signed[:, None] * distance))[:3]]:
+        yield scaled_readings(float(f))

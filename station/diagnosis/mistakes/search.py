@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from station.diagnosis.mistakes import gross
-from station.diagnosis.mistakes.defects import without_a_mistake
+from station.diagnosis.mistakes.defects import WithoutAMistake, without_a_mistake
 from station.diagnosis.mistakes.duplicates import copies
 from station.diagnosis.mistakes.entries import entries, zero_at, zeroed
 from station.diagnosis.mistakes.fitting import Extra, Fitted, Rough, fit
@@ -23,6 +23,7 @@ from station.robot import Robot
 FAR_BETTER = 60.0
 """Of the deviance: what a mistake must win over any account without one (e^30 times more probable)."""
 MECHANISM_BETTER, CLEARLY = 40.0, 12.0
+AS_GOOD = 20.0
 BEYOND_OTHERS = 6.0
 QUIET = 1.25
 """Noise over specification up to which a file is not searched any further."""
@@ -116,8 +117,7 @@ def _in_readings(robot: Robot, m: Measurements, base: Fitted | None) -> tuple[Mi
             agreed = Rough(base.p, base.residual_mm)
             return glitches(robot, m, base, agreed, "readings"), base
     candidates: list[_Candidate] = []
-    plain = [base] if base is None else without_a_mistake(robot, m, base)
-    without = [one.deviance for one in plain if one is not None]
+    without = None if base is None else without_a_mistake(robot, m, base)
     start = base
     if base is not None:
         candidates += _entries(robot, m, base)
@@ -136,20 +136,24 @@ def _in_readings(robot: Robot, m: Measurements, base: Fitted | None) -> tuple[Mi
     nameless = min((c.deviance for c in candidates if c.mistake is None), default=np.inf)
     if nameless < best.deviance - BEYOND_OTHERS:
         return None, start
-    if without and not _far_better(best, base, without):
+    if base is not None and without is not None and not _far_better(best, base, without):
         return None, start
     return best.mistake, start
 
 
-def _far_better(best: _Candidate, base: Fitted | None, without: list[float]) -> bool:
+def _far_better(best: _Candidate, base: Fitted, without: WithoutAMistake) -> bool:
     """Whether chance and the machine's own defects are beaten.
 
-    A mechanism that is elsewhere changes little that smooth defects all together could not imitate, so it has to
-    beat the plain model by far and those only clearly.
+    All smooth defects together imitate much of what a wrong length or a mechanism elsewhere does, with many sizes
+    where the mistake has one or two: those it has to beat clearly, the plain model and single defects by far.
     """
-    if best.mistake is not None and best.mistake.kind == "mechanism" and base is not None:
-        return base.deviance - best.deviance > MECHANISM_BETTER and min(without) - best.deviance > CLEARLY
-    return min(without) - best.deviance > FAR_BETTER
+    everything = without.everything - best.deviance
+    if best.mistake is not None and best.mistake.severity == "as_effect":
+        # an entry of a defect's size is reported where it is as probable as any account without
+        return base.deviance - best.deviance > FAR_BETTER and min(without.simple - best.deviance, everything) > -AS_GOOD
+    if best.mistake is not None and best.mistake.kind == "mechanism":
+        return without.simple - best.deviance > MECHANISM_BETTER and everything > CLEARLY
+    return without.simple - best.deviance > FAR_BETTER and everything > CLEARLY
 
 
 def _repeats_mm(m: Measurements, base: Fitted) -> float:
@@ -182,7 +186,7 @@ def _gross(robot: Robot, m: Measurements, agreed: Rough) -> list[_Candidate]:
     out = []
     n = len(m)
     whole = gross.whole(robot, m)
-    for found in whole[:5]:
+    for found in _promising(whole, agreed.cost):
         exact = _exact(robot, found)
         if exact is None:
             continue
@@ -190,7 +194,7 @@ def _gross(robot: Robot, m: Measurements, agreed: Rough) -> list[_Candidate]:
         mistake = _whole_file(robot, m, found, exact)
         out.append(_Candidate(exact.deviance + lost + TRIES, mistake, exact.rms_mm))
     runs = 4.0 * float(np.log(n))
-    for found in gross.partial(robot, m, agreed, whole[:2])[:4]:
+    for found in _promising(gross.partial(robot, m, agreed, whole[:2]), agreed.cost):
         exact = _exact(robot, found)
         if exact is not None:
             lost = _lost_rows(found, exact)
@@ -207,6 +211,11 @@ def _gross(robot: Robot, m: Measurements, agreed: Rough) -> list[_Candidate]:
             mistake = zeroed(m, rows, steps.steps_mm[0])
             out.append(_Candidate(exact.deviance + runs * len(extras), mistake, exact.rms_mm))
     return out
+
+
+def _promising(found: list[gross.Found], cost: float) -> list[gross.Found]:
+    """Those that make rows agree, and not far worse than the best does."""
+    return [one for one in found[:5] if one.cost < min(cost - 0.1, found[0].cost + 1.0)]
 
 
 def _exact(robot: Robot, found: gross.Found) -> Fitted | None:
