@@ -22,6 +22,7 @@ SCALE_GAIN = 0.002
 ECCENTRIC_RAD = float(np.radians(0.15))
 SAG_RAD = float(np.radians(0.1))
 PLAY_RAD = float(np.radians(0.02))
+FAR_MM = 1.0
 LARGEST_LINK_MM = 10.0
 LARGEST_GAIN = 0.03
 LARGEST_SCALE = 0.02
@@ -103,6 +104,9 @@ def without_a_mistake(robot: Robot, m: Measurements, base: Fitted) -> WithoutAMi
 
 def accounts(robot: Robot, m: Measurements, base: Fitted) -> tuple[list[Fitted], list[Fitted]]:
     """Simple ones, the base model first, and those of everything at once."""
+    if base.rms_mm > FAR_MM:
+        # of the defects of this module only a slip does as much
+        return [base, *(found for found in slips(robot, m, base) if found is not None)], []
     links = {name: LINK_MM for name in ("L1", "L2", "l1", "l2")}
     some = plays(m)
     tries = [

@@ -35,12 +35,13 @@ def between(robot: Robot, m: Measurements, fresh: Measurements, walked: Fitted) 
     limit = WORSE * max(walked.rms_mm, float(np.median(walked.row_sd)) / 2.0)
     if plain is not None and plain.rms_mm < limit and np.isfinite(residual).all() and _rms(residual) < limit:
         return None
+    moved = _moved(robot, m, fresh, walked, plain, known)
+    if moved is not None:
+        return moved
     tolerance = max(AGREES_MM, 6.0 * walked.rms_mm)
     if np.mean(np.abs(residual) < tolerance) < AGREEING:
-        found = _gross(robot, fresh, walked, residual, tolerance)
-        if found is not None:
-            return found
-    return _moved(robot, m, fresh, walked, plain, known)
+        return _gross(robot, fresh, walked, residual, tolerance)
+    return None
 
 
 def on_mounts(fresh: Measurements, m: Measurements) -> Measurements | None:

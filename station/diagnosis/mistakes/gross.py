@@ -147,13 +147,15 @@ def zeroings(robot: Robot, m: Measurements, agreed: Rough) -> Zeroings | None:
         taken |= run
     if not rows:
         return None
-    if len(rows) == 1 and rows[0][0] == 0 and len(rows[0]) < len(m):
-        # either part may be the wrong one; what came later is named
-        rows, steps = [np.arange(len(rows[0]), len(m))], [-steps[0]]
-        start = agreed.p.copy()
-        start[len(start) - len(m.mounts) :] += steps[0]
-        return Zeroings(tuple(rows), tuple(steps), start, mean_cost(residual))
-    return Zeroings(tuple(rows), tuple(steps), agreed.p, mean_cost(residual))
+    level = np.zeros(len(m))
+    for run, step in zip(rows, steps, strict=True):
+        level[run] = step
+    # any part may be the wrong one; what came later is named
+    start = agreed.p.copy()
+    start[len(start) - len(m.mounts) :] -= level[0]
+    level -= level[0]
+    others = [float(v) for v in dict.fromkeys(level) if abs(v) > AGREES_MM]
+    return Zeroings(tuple(np.flatnonzero(level == v) for v in others), tuple(others), start, mean_cost(residual))
 
 
 def _levels(residual: Real, taken: NDArray[np.bool_]) -> list[float]:

@@ -22,8 +22,9 @@ LEAST_DT_S = 0.1
 LONGEST_DT_S = 600.0
 SLOWEST_DEG_PER_S = 0.2
 FASTEST_DEG_PER_S = 3000.0
-ALIKE, UNLIKE = 0.9, 0.4
-"""Correlation of the time between readings with the way between them, that says they belong together."""
+ALIKE, LESS = 0.95, 0.2
+"""Correlation of the time between readings with the way between them, that says they belong together; and how much less
+it is for the rows as they stand where a column is out of place."""
 WAY_DEG = 0.05
 FEWEST = 20
 AGREE = 0.95
@@ -79,7 +80,7 @@ def time_column(m: Measurements) -> Mistake | None:
         return _time(f"{middle:.0f} s between readings are too many; the column is not in seconds", ())
     for by in (1, -1, 2, -2):
         moved = _correlation(gaps[max(by, 0) : len(gaps) + min(by, 0)], way[max(-by, 0) : len(way) - max(by, 0)])
-        if moved > ALIKE and along < UNLIKE:
+        if moved > ALIKE and along < moved - LESS:
             return _time(f"the column stands {abs(by)} row(s) too {'late' if by > 0 else 'early'}", ids(m, range(len(m))))
     return None
 

@@ -29,6 +29,12 @@ QUIET = 1.25
 """Noise over specification up to which a file is not searched any further."""
 GROSS_MM = 0.15
 """Residual from which on rows, units and columns are tried."""
+HOPELESS = 5.5
+"""Rough cost, of rows nearly a millimetre off, from which on no exact fit is tried."""
+FAR_MM = 1.0
+"""and from which on they are tried first: wrong numbers in the robot file seldom do as much."""
+SETTLED, SETTLED_MM = 1.0, 4e-3
+"""Residual over the specified noise, or mm, at which nothing else is tried."""
 TRIES = 2.0 * float(np.log(100.0))
 """Price of the search over corrections, of the deviance; that over runs of rows comes on top."""
 FEWEST = 8
@@ -116,17 +122,23 @@ def _in_readings(robot: Robot, m: Measurements, base: Fitted | None) -> tuple[Mi
         if quiet and not _strained(robot, m, base):
             agreed = Rough(base.p, base.residual_mm)
             return glitches(robot, m, base, agreed, "readings"), base
-    candidates: list[_Candidate] = []
-    without = None if base is None else without_a_mistake(robot, m, base)
     start = base
-    if base is not None:
-        candidates += _entries(robot, m, base)
-    if base is None or base.rms_mm > GROSS_MM:
+    agreed = Rough(base.p, base.residual_mm) if base is not None else None
+    candidates: list[_Candidate] = []
+    if base is None or base.rms_mm > FAR_MM:
         agreed = gross.majority(robot, m)
         candidates += _gross(robot, m, agreed)
-        some = glitches(robot, m, base, agreed, "readings")
-    else:
-        some = glitches(robot, m, base, Rough(base.p, base.residual_mm), "readings")
+    if base is None and agreed is not None and not _any_settles(candidates, base):
+        some_rows = np.abs(agreed.residual_mm) < gross.AGREES_MM
+        part = fit(robot, m, used=some_rows, start=agreed.p) if some_rows.sum() > 2 * FEWEST else None
+        if part is not None:
+            candidates += _entries(robot, m, part)
+    if base is not None and not _any_settles(candidates, base):
+        candidates += _entries(robot, m, base)
+        if GROSS_MM < base.rms_mm <= FAR_MM and not _any_settles(candidates, base):
+            agreed = gross.majority(robot, m)
+            candidates += _gross(robot, m, agreed)
+    some = None if agreed is None or _any_settles(candidates, base) else glitches(robot, m, base, agreed, "readings")
     named_ones = [c for c in candidates if c.mistake is not None]
     if some is not None:
         return some, start
@@ -136,9 +148,17 @@ def _in_readings(robot: Robot, m: Measurements, base: Fitted | None) -> tuple[Mi
     nameless = min((c.deviance for c in candidates if c.mistake is None), default=np.inf)
     if nameless < best.deviance - BEYOND_OTHERS:
         return None, start
-    if base is not None and without is not None and not _far_better(best, base, without):
+    if base is not None and not _far_better(best, base, without_a_mistake(robot, m, base)):
         return None, start
     return best.mistake, start
+
+
+def _any_settles(candidates: list[_Candidate], base: Fitted | None) -> bool:
+    """Whether one brings the readings to their noise, where the base model was far off."""
+    if base is not None and base.rms_mm < GROSS_MM:
+        return False
+    limit = SETTLED_MM if base is None else SETTLED * float(np.median(base.row_sd))
+    return any(c.rms_mm < limit for c in candidates if c.mistake is not None)
 
 
 def _far_better(best: _Candidate, base: Fitted, without: WithoutAMistake) -> bool:
@@ -215,7 +235,7 @@ def _gross(robot: Robot, m: Measurements, agreed: Rough) -> list[_Candidate]:
 
 def _promising(found: list[gross.Found], cost: float) -> list[gross.Found]:
     """Those that make rows agree, and not far worse than the best does."""
-    return [one for one in found[:5] if one.cost < min(cost - 0.1, found[0].cost + 1.0)]
+    return [one for one in found[:5] if one.cost < min(cost - 0.1, found[0].cost + 1.0, HOPELESS)]
 
 
 def _exact(robot: Robot, found: gross.Found) -> Fitted | None:
