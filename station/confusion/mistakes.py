@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from station.confusion.machines import FRESH, walk_of
+from station.diagnosis.mistakes.fitting import fit
 from station.kinematics import Real, inverse
 from station.measurements import Measurements
 from station.robot import Robot
@@ -106,7 +107,9 @@ def spoiled(variant: Variant, made: Measured, seed: int) -> Files:
 def _only_given(commanded: Files, fed_back: Files, variant: Variant) -> Files:
     if variant.name.endswith("joint 1"):
         theta = np.column_stack([commanded.walk.theta[:, 0], fed_back.walk.theta[:, 1]])
-        return replace(commanded, walk=replace(fed_back.walk, theta=theta, came_from=None), fresh=fed_back.fresh)
+        return replace(
+            commanded, walk=replace(fed_back.walk, theta=theta, came_from=None), fresh=fed_back.fresh
+        )
     if variant.name.endswith("sequence"):
         return replace(commanded, fresh=fed_back.fresh)
     if variant.name.endswith("fresh"):
@@ -165,7 +168,9 @@ def _factor(by: float, digits: int = SCALE_DIGITS) -> Change:
     return lambda m: _scale(m, np.round(m.distance * by, digits))
 
 
-def _turn(by: float, joints: tuple[int, ...] = (0, 1), digits: int = 6, about: tuple[float, float] = (0.0, 0.0)) -> Change:
+def _turn(
+    by: float, joints: tuple[int, ...] = (0, 1), digits: int = 6, about: tuple[float, float] = (0.0, 0.0)
+) -> Change:
     def change(m: Measurements) -> Measurements:
         degrees = np.degrees(m.theta)
         for i in joints:
@@ -304,8 +309,6 @@ def _written(*, sign: float = -1.0, between: bool = False) -> Callable[[Files, n
     """Stands for zeros written: `by` is set from the fit, as the station would."""
 
     def spoil(f: Files, rng: np.random.Generator) -> Files:
-        from station.diagnosis.mistakes.fitting import fit
-
         found = fit(f.robot, f.walk)
         by = sign * np.degrees(found.p[:2]) if found is not None else np.zeros(2)
         # feedback of the same pose counts from the new zero
@@ -399,7 +402,9 @@ VARIANTS: tuple[Variant, ...] = (
     Variant("readout_zeroed: twice", ("readout_zeroed",), _step(((0.3, 1.0, -35.2), (0.7, 1.0, 61.0)))),
     Variant("readout_zeroed: for some rows", ("readout_zeroed",), _step(((0.4, 0.6, 12.5),))),
     Variant("readout_zeroed: by 2 mm", ("readout_zeroed",), _step(((0.6, 1.0, 2.0),))),
-    Variant("readout_zeroed: before fresh", ("readout_zeroed",), _fresh(lambda m: _scale(m, m.distance + 44.4))),
+    Variant(
+        "readout_zeroed: before fresh", ("readout_zeroed",), _fresh(lambda m: _scale(m, m.distance + 44.4))
+    ),
     Variant("readout_stuck: 8 rows", ("readout_stuck",), _stuck(8)),
     Variant("readout_stuck: 4 rows, three times", ("readout_stuck",), _stuck(4, 3)),
     Variant("readout_stuck: at the end of its range", ("readout_stuck",), _clipped),
@@ -407,7 +412,9 @@ VARIANTS: tuple[Variant, ...] = (
     Variant("pasted_block: 8 distances", ("pasted_block",), _pasted(8)),
     Variant("pasted_block: 20 whole rows", ("pasted_block",), _pasted(20, whole=True), harmless=True),
     Variant("position_labels: all one", ("position_labels",), _labels(np.zeros_like), harmless=True),
-    Variant("position_labels: a row late", ("position_labels",), _labels(lambda p: np.roll(p, 1)), harmless=True),
+    Variant(
+        "position_labels: a row late", ("position_labels",), _labels(lambda p: np.roll(p, 1)), harmless=True
+    ),
     Variant("approach_sign: both", ("approach_sign",), _approach(lambda a: -a), play=True, harmless=True),
     Variant(
         "approach_sign: joint 1",
@@ -432,8 +439,15 @@ MORE: tuple[Variant, ...] = (
     Variant("commanded_angles: joint 1", ("commanded_angles",), lambda f, rng: f, commanded=True),
     Variant("commanded_angles: fresh", ("commanded_angles",), lambda f, rng: f, commanded=True),
     Variant("time: minutes", ("time",), _time(lambda t: t / 60), harmless=True),
-    Variant("time: a row late", ("time",), _walk(lambda m: replace(m, t_s=np.concatenate([m.t_s[:1] - 1, m.t_s[:-1]]))), harmless=True),
-    Variant("same_readings: 30 of them, shuffled", ("same_readings",), _copied(0.25, shuffled=True), harmless=True),
+    Variant(
+        "time: a row late",
+        ("time",),
+        _walk(lambda m: replace(m, t_s=np.concatenate([m.t_s[:1] - 1, m.t_s[:-1]]))),
+        harmless=True,
+    ),
+    Variant(
+        "same_readings: 30 of them, shuffled", ("same_readings",), _copied(0.25, shuffled=True), harmless=True
+    ),
     Variant("rehomed: joint 2 by 2 deg", ("rehomed",), _homed((0.0, 2.0))),
     Variant("rehomed: both by 0.05 deg", ("rehomed", "zeros_written"), _homed((0.05, -0.05))),
     Variant("zeros_written: before fresh", ("zeros_written", "rehomed"), _written(between=True)),
@@ -441,8 +455,19 @@ MORE: tuple[Variant, ...] = (
     Variant("glitches: one of 5 mm", ("glitches",), _glitched(1, 5.0)),
     Variant("glitches: digits exchanged", ("glitches",), _digit_exchanged),
     Variant("glitches: 3 of 0.1 mm", ("glitches",), _glitched(3, 0.1)),
-    Variant("approach_sign: exchanged", ("approach_sign",), _approach(lambda a: a[:, ::-1]), play=True, harmless=True),
-    Variant("position_labels: three wrong", ("position_labels",), _labels(lambda p: np.where(np.arange(len(p)) % 40 == 20, p[0], p)), harmless=True),
+    Variant(
+        "approach_sign: exchanged",
+        ("approach_sign",),
+        _approach(lambda a: a[:, ::-1]),
+        play=True,
+        harmless=True,
+    ),
+    Variant(
+        "position_labels: three wrong",
+        ("position_labels",),
+        _labels(lambda p: np.where(np.arange(len(p)) % 40 == 20, p[0], p)),
+        harmless=True,
+    ),
     Variant("robot_file: L1 and l1 exchanged", ("robot_file",), _robot(L=(378.0, 375.0)), as_effect=True),
 )
 """Held back: kinds that were not looked at while the search was written."""

@@ -1,9 +1,12 @@
 """Mistakes in a file or a robot file, each tried as an explanation of readings that do not agree.
 
 `find_mistake` is the one entry.  `mistake` says what a mistake is; `fitting` fits the base model under a
-hypothesis; `defects` are the accounts without a mistake that one has to beat; `corrections` undo one mistake each
-and `gross` finds the one that helps, on all rows or a run of them; `entries` are wrong numbers in the robot file
-and steps in between; `duplicates`, `resolution` and `labels` look at the columns themselves; `fresh` holds fresh
+hypothesis; `defects` are the accounts without a mistake that one has to beat; `corrections` undo one
+mistake each
+and `gross` finds the one that helps, on all rows or a run of them; `entries` are wrong numbers in the
+robot file
+and steps in between; `duplicates`, `resolution` and `labels` look at the columns themselves; `fresh` holds
+fresh
 readings against the sequence; `glitches` are single readings far off.
 """
 

@@ -27,7 +27,8 @@ ANGLE_UNITS = {
     "thousandths of a degree": 1e-3,
 }  # fmt: skip
 SHIFTS = (1, -1, 2, -2, 3, -3)
-BOTH = ((0,), (1,), (0, 1))
+BOTH: tuple[tuple[int, ...], ...] = ((0,), (1,), (0, 1))
+AT_MOST_ONE: tuple[tuple[int, ...], ...] = ((), (0,), (1,))
 
 
 @dataclass(frozen=True)
@@ -61,7 +62,11 @@ def corrections(robot: Robot) -> Iterator[Correction]:
     )
     for unit, factor in SCALE_UNITS.items():
         yield Correction(
-            "scale_unit", f"scale_mm is in {unit}", f"multiply scale_mm by {factor:g}", "scale_mm", _scaled(factor)
+            "scale_unit",
+            f"scale_mm is in {unit}",
+            f"multiply scale_mm by {factor:g}",
+            "scale_mm",
+            _scaled(factor),
         )
     for share, factor in SCALE_FACTORS.items():
         yield Correction(
@@ -96,7 +101,7 @@ def corrections(robot: Robot) -> Iterator[Correction]:
     for by in SHIFTS:
         rows = "one row" if abs(by) == 1 else f"{abs(by)} rows"
         way = "late" if by > 0 else "early"
-        for joints in ((), (0,), (1,)):
+        for joints in AT_MOST_ONE:
             column = columns_of(joints) if joints else "scale_mm"
             beside = "" if joints else ", or both angle columns the other way"
             yield Correction(
@@ -108,7 +113,8 @@ def corrections(robot: Robot) -> Iterator[Correction]:
 def scaled_angles(joints: tuple[int, ...], factor: float, about_deg: tuple[float, float]) -> Correction:
     """A ratio in [joints] that is wrong by the reciprocal of a factor."""
     return Correction(
-        "ratio", f"[joints] ratio or counts_per_rev of {joint_names(joints)} is wrong by a factor of {factor:.5g}",
+        "ratio", f"[joints] ratio or counts_per_rev of {joint_names(joints)} is wrong by a factor of "
+        "{factor:.5g}",
         f"divide the ratio by {factor:.5g} and read the angles again", columns_of(joints),
         _turned(joints, factor, about_deg),
     )  # fmt: skip
@@ -157,7 +163,9 @@ def _turned(
     return apply
 
 
-def _offset(offsets_deg: tuple[float, float]) -> Callable[[Measurements], tuple[Measurements, NDArray[np.bool_]]]:
+def _offset(
+    offsets_deg: tuple[float, float],
+) -> Callable[[Measurements], tuple[Measurements, NDArray[np.bool_]]]:
     def apply(m: Measurements) -> tuple[Measurements, NDArray[np.bool_]]:
         return _with_angles(m, m.theta + np.radians(offsets_deg)), _all(m)
 

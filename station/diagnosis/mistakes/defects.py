@@ -107,7 +107,7 @@ def accounts(robot: Robot, m: Measurements, base: Fitted) -> tuple[list[Fitted],
     if base.rms_mm > FAR_MM:
         # of the defects of this module only a slip does as much
         return [base, *(found for found in slips(robot, m, base) if found is not None)], []
-    links = {name: LINK_MM for name in ("L1", "L2", "l1", "l2")}
+    links = dict.fromkeys(("L1", "L2", "l1", "l2"), LINK_MM)
     some = plays(m)
     tries = [
         fit(robot, m, extras=(*some, drift(m)), start=base.p),
@@ -135,7 +135,9 @@ def _occurs(robot: Robot, m: Measurements, found: Fitted) -> bool:
     links = max(abs(found.p[names.index(name)]) for name in ("L1", "L2", "l1", "l2"))
     ratios = max((abs(v) for n, v in found.extra.items() if n.startswith("gain")), default=0.0)
     return bool(
-        links <= LARGEST_LINK_MM and ratios <= LARGEST_GAIN and abs(found.extra.get("scale", 0.0)) <= LARGEST_SCALE
+        links <= LARGEST_LINK_MM
+        and ratios <= LARGEST_GAIN
+        and abs(found.extra.get("scale", 0.0)) <= LARGEST_SCALE
     )
 
 
@@ -149,7 +151,8 @@ def slips(robot: Robot, m: Measurements, base: Fitted) -> list[Fitted | None]:
 
 
 def best_moment(robot: Robot, m: Measurements, base: Fitted, joint: int | None) -> int:
-    """Row from which a step of a joint's angle (None: of both, each its own) takes most of a fit's residual."""
+    """Row from which a step of a joint's angle (None: of both, each its own) takes most of a fit's
+    residual."""
     mechanism = FiveBar(robot, m)
     at = mechanism.observe(base.p, m.theta)
     sd = base.row_sd * base.noise

@@ -30,7 +30,8 @@ def same_readings(m: Measurements, fresh: Measurements) -> Mistake | None:
     rows = ids(fresh, copied)
     return Mistake(
         "same_readings",
-        f"{_whole(rows, len(fresh))} of the fresh file repeat angles and distance of the measurement sequence; "
+        f"{_whole(rows, len(fresh))} of the fresh file repeat angles and distance of the measurement "
+        "sequence; "
         "they confirm nothing: take new readings at new positions.",
         rows,
         "refused",
@@ -51,7 +52,7 @@ def _rarely(m: Measurements, fresh: Measurements) -> float:
 
 def _step(values: Real) -> float:
     """Resolution of a column, mm: the largest decimal step that all values are multiples of."""
-    for digits in range(0, 7):
+    for digits in range(7):
         if np.allclose(values, np.round(values, digits), rtol=0.0, atol=1e-9):
             return float(10.0**-digits)
     return 0.0
@@ -110,7 +111,7 @@ def _runs(same: np.ndarray) -> list[tuple[int, int]]:
 def _moves_mm(robot: Robot, m: Measurements, was: np.ndarray, now: np.ndarray) -> Real:
     """By how much the distance should differ between two sets of rows."""
     rho = nominal_mm(robot, m)
-    return np.abs(rho[was] - rho[now])
+    return np.asarray(np.abs(rho[was] - rho[now]))
 
 
 def nominal_mm(robot: Robot, m: Measurements) -> Real:
@@ -122,7 +123,7 @@ def nominal_mm(robot: Robot, m: Measurements) -> Real:
 def by_joint_mm(robot: Robot, m: Measurements) -> Real:
     """(K, 2) d rho / d theta, mm/rad, by the nominal geometry."""
     with np.errstate(invalid="ignore"):
-        return distance_by_joint(pose(robot.geometry, m.theta))
+        return np.asarray(distance_by_joint(pose(robot.geometry, m.theta)))
 
 
 def readout_stuck(robot: Robot, m: Measurements, file: str = "readings") -> Mistake | None:

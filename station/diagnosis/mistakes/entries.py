@@ -1,4 +1,5 @@
-"""Wrong entries that a fit finds the size of: robot file, mechanism, zeros, ratios, scale, steps in between."""
+"""Wrong entries that a fit finds the size of: robot file, mechanism, zeros, ratios, scale, steps in
+between."""
 
 from __future__ import annotations
 
@@ -39,7 +40,8 @@ SMALLEST_STEP_DEG = 0.02
 SMALLEST_ZEROING_MM = 1.0
 SURE = 6.0
 CENTRES_PRICE = 16.0
-"""Of the deviance: joint centres are machined together, a mechanism is mounted by hand, and much of what the one
+"""Of the deviance: joint centres are machined together, a mechanism is mounted by hand, and much of what
+the one
 does to the readings the other does too."""
 
 
@@ -88,7 +90,8 @@ def mechanism(robot: Robot, names: list[str], f: Fitted) -> Mistake | None:
     by = " and ".join(f"{by:+.2f} mm in {n[-1]}" for n, by in far)
     return Mistake(
         "mechanism",
-        f"The readings agree to {f.rms_mm * 1e3:.1f} um, but only if the mechanism is {by} from where the robot "
+        f"The readings agree to {f.rms_mm * 1e3:.1f} um, but only if the mechanism is {by} from where "
+        "the robot "
         f"file has it (drm_mm about [{found}]): check [mechanism] c, d and drm_mm, their signs too.",
         (),
         "refused",
@@ -96,7 +99,9 @@ def mechanism(robot: Robot, names: list[str], f: Fitted) -> Mistake | None:
     )
 
 
-def zero_at(robot: Robot, m: Measurements, f: Fitted, before_deg: tuple[float, float] = (0.0, 0.0)) -> Mistake | None:
+def zero_at(
+    robot: Robot, m: Measurements, f: Fitted, before_deg: tuple[float, float] = (0.0, 0.0)
+) -> Mistake | None:
     """A zero offset beyond the tolerance; `before_deg` was added to the angles already."""
     tolerance = robot.tolerances.zero_offset_deg
     offset = np.degrees(f.p[:2]) + np.array(before_deg)
@@ -104,12 +109,17 @@ def zero_at(robot: Robot, m: Measurements, f: Fitted, before_deg: tuple[float, f
     far = [i for i in (0, 1) if abs(offset[i]) > tolerance + 3.0 * min(sd[i], 1.0) + ZERO_MARGIN_DEG]
     if not far:
         return None
-    by = " and ".join(f"joint {i + 1} reads {abs(offset[i]):.1f} deg too {'little' if offset[i] > 0 else 'much'}" for i in far)
+    by = " and ".join(
+        f"joint {i + 1} reads {abs(offset[i]):.1f} deg too {'little' if offset[i] > 0 else 'much'}"
+        for i in far
+    )
     new = ", ".join(f"{robot.zero_at_deg[i] + (offset[i] if i in far else 0.0):.1f}" for i in (0, 1))
     return Mistake(
         "zero_at",
-        f"{by[0].upper()}{by[1:]}, beyond the tolerance of {tolerance:g} deg: zero_at_deg of the robot file is wrong "
-        f"(about [{new}] would agree), or the joint was homed at another mark; correct it and read the angles again.",
+        f"{by[0].upper()}{by[1:]}, beyond the tolerance of {tolerance:g} deg: zero_at_deg of the robot "
+        "file is wrong "
+        f"(about [{new}] would agree), or the joint was homed at another mark; correct it and read the "
+        "angles again.",
         (),
         "refused",
         "robot",
@@ -130,7 +140,8 @@ def _lengths(robot: Robot, names: list[str], group: tuple[str, ...]) -> Callable
         key = "e" if centre else group[0][0]
         return Mistake(
             "robot_file",
-            f"The readings agree to {f.rms_mm * 1e3:.1f} um once {what} is changed: check [robot] {key} in the robot "
+            f"The readings agree to {f.rms_mm * 1e3:.1f} um once {what} is changed: check [robot] {key} "
+            "in the robot "
             "file against the drawing" + ("." if largest > limit else ", or the part itself."),
             (),
             "refused" if largest > limit else "as_effect",
@@ -150,8 +161,10 @@ def _ratio(robot: Robot, f: Fitted, name: str, joints: tuple[int, ...]) -> Mista
     which = "both joints" if len(joints) == 2 else f"joint {joints[0] + 1}"
     return Mistake(
         "ratio",
-        f"The angles of {which} are {by * 100:+.3g} % of their travel off: check [joints] ratio ({robot.ratio:g}; "
-        f"{robot.ratio / (1.0 + by):.5g} would agree) and counts_per_rev" + (", or the gear itself." if real else "."),
+        f"The angles of {which} are {by * 100:+.3g} % of their travel off: check [joints] ratio "
+        f"({robot.ratio:g}; "
+        f"{robot.ratio / (1.0 + by):.5g} would agree) and counts_per_rev"
+        + (", or the gear itself." if real else "."),
         (),
         "as_effect" if real else "refused",
         "robot",
@@ -169,8 +182,8 @@ def _scale(f: Fitted) -> Mistake | None:
     real = abs(by) <= SAME_AS_EFFECT_SCALE
     return Mistake(
         "scale_factor",
-        f"Column scale_mm: the readings are {by * 100:+.3g} % of the travel off: check the resolution set in the readout"
-        + (", or the scale itself." if real else "."),
+        f"Column scale_mm: the readings are {by * 100:+.3g} % of the travel off: check the resolution "
+        "set in the readout" + (", or the scale itself." if real else "."),
         (),
         "as_effect" if real else "refused",
     )
@@ -191,7 +204,8 @@ def stepped(m: Measurements, row: int, f: Fitted) -> Mistake | None:
     why = "their zero offsets: zeros were written to the drives" if written else "they were homed anew"
     return Mistake(
         "zeros_written" if written else "rehomed",
-        f"Both joints step at reading {rows[0]} ({by}), {'by ' if written else ''}{why} during the measurement; {holds}: "
+        f"Both joints step at reading {rows[0]} ({by}), {'by ' if written else ''}{why} during the "
+        f"measurement; {holds}: "
         "measure again without touching the zeros.",
         rows,
         "refused",

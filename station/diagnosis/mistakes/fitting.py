@@ -22,7 +22,8 @@ from station.robot import Robot
 OFFSET_SD_MM = 1e4
 """Prior of the reading offset: as wide as anything that is measured."""
 LEAST_NOISE = 0.2
-"""Readings may be so much better than specified: servos that rest on whole pulses leave no half pulse open."""
+"""Readings may be so much better than specified: servos that rest on whole pulses leave no half pulse
+open."""
 SOFT_MM = 0.05
 """Residual from which on a row counts as disagreeing, in the rough fit."""
 ANNEALED_MM = (200.0, 100.0, 50.0, 25.0, 12.0, 6.0, 3.0, 1.5, 0.8, 0.4, 0.2, 0.1, 0.05, 0.05, 0.05)
@@ -97,7 +98,7 @@ def fit(
     """
     mechanism = FiveBar(robot, m)
     names = [p.name for p in mechanism.parameters]
-    mean = np.array([p.prior_mean for p in mechanism.parameters])
+    mean: Real = np.array([p.prior_mean for p in mechanism.parameters])
     spread = np.array([min(p.prior_sd, OFFSET_SD_MM) for p in mechanism.parameters])
     for name, value in (loosened or {}).items():
         spread[names.index(name)] = value
@@ -106,13 +107,11 @@ def fit(
     used = np.ones(len(m), dtype=bool) if used is None else used
     sd = row_sd(robot, m) if sd is None else sd
     size, count = len(names), len(extras)
-    root = np.diag(1.0 / spread)
+    root: Real = np.diag(1.0 / spread)
     if prior is not None:
         mean, root = prior
     widths = np.array([e.sd for e in extras])
-    root = np.block(
-        [[root, np.zeros((len(root), count))], [np.zeros((count, size)), np.diag(1.0 / widths)]]
-    )
+    root = np.block([[root, np.zeros((len(root), count))], [np.zeros((count, size)), np.diag(1.0 / widths)]])
     held = Prior(np.concatenate([mean, np.zeros(count)]), root)
     angle = np.stack([_or_zero(e.by_angle, (len(m), 2)) for e in extras], axis=2) if count else None
     reading = np.stack([_or_zero(e.by_reading, (len(m),)) for e in extras], axis=1) if count else None
@@ -149,10 +148,10 @@ def fit(
             found = whitened(noise)
         if found is None:
             return None
-        solution, value = found
+        solution, predicted = found
         begin = solution.x
         square = float(np.sum((solution.residual * noise) ** 2))
-        wanted = max(LEAST_NOISE, np.sqrt(square / max(used.sum() - 4, 1)))
+        wanted = max(LEAST_NOISE, float(np.sqrt(square / max(int(used.sum()) - 4, 1))))
         done = abs(np.log(wanted / noise)) < 0.05
         noise = wanted
         if done:
@@ -171,7 +170,7 @@ def fit(
         spread_all[:size],
         dict(zip(names_extra, solution.x[size:].tolist(), strict=True)),
         dict(zip(names_extra, spread_all[size:].tolist(), strict=True)),
-        m.distance - value,
+        m.distance - predicted,
         sd,
         used,
         noise,

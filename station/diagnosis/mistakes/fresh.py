@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 
 from station.diagnosis.mistakes.corrections import corrections
-from station.diagnosis.mistakes.entries import WIDE_SLIP_RAD, moved_between, zeroed
 from station.diagnosis.mistakes.defects import slip
-from station.diagnosis.mistakes.fitting import Extra, Fitted, costs, fit, posterior
-from station.diagnosis.mistakes.gross import AGREES_MM, SHORTEST, Rough, best_run, grown, zeroings
+from station.diagnosis.mistakes.entries import WIDE_SLIP_RAD, moved_between, zeroed
+from station.diagnosis.mistakes.fitting import Extra, Fitted, Rough, costs, fit, posterior
+from station.diagnosis.mistakes.gross import AGREES_MM, SHORTEST, best_run, grown, zeroings
 from station.diagnosis.mistakes.mistake import Mistake, ids, named
 from station.five_bar import FiveBar
 from station.measurements import Measurements
@@ -103,7 +103,9 @@ def _moved(
     known: tuple[np.ndarray, np.ndarray],
 ) -> Mistake | None:
     """Homed anew, zeros written, or the readout zeroed, with everything else as it was."""
-    shifts = {joints: tuple(slip(fresh, i, 0, WIDE_SLIP_RAD) for i in joints) for joints in ((0,), (1,), (0, 1))}
+    shifts = {
+        joints: tuple(slip(fresh, i, 0, WIDE_SLIP_RAD) for i in joints) for joints in ((0,), (1,), (0, 1))
+    }
     offset = (Extra("offset", 1000.0, by_reading=np.ones(len(fresh))),)
     drifted = Extra("drift", 0.2, by_reading=(fresh.t_s - fresh.t_s.mean()) / (np.ptp(fresh.t_s) or 1.0))
     tries = {name: fit(robot, fresh, prior=known, start=walked.p, extras=e) for name, e in shifts.items()}
@@ -128,7 +130,11 @@ def _moved(
 
 def _cures(robot: Robot, fresh: Measurements, walked: Fitted, found: Fitted, without: list[float]) -> bool:
     """Whether it is far more probable than anything without, and leaves no more than the sequence does."""
-    frozen = float(np.sqrt(np.nanmean((fresh.distance - FiveBar(robot, fresh).observe(walked.p, fresh.theta).value) ** 2)))
+    frozen = float(
+        np.sqrt(
+            np.nanmean((fresh.distance - FiveBar(robot, fresh).observe(walked.p, fresh.theta).value) ** 2)
+        )
+    )
     far = not without or min(without) - found.deviance > FAR_BETTER
     left = found.rms_mm < max(1.7 * walked.rms_mm, 1.5e-3)
     return far and left and frozen > CURED * found.rms_mm

@@ -43,7 +43,8 @@ def glitches(robot: Robot, m: Measurements, base: Fitted | None, agreed: Rough, 
     largest = float(np.abs(found.residual_mm[far]).max())
     return Mistake(
         "glitches",
-        f"Column scale_mm: {named(rows)} {'is' if len(rows) == 1 else 'are'} up to {largest:.3f} mm off, the others "
+        f"Column scale_mm: {named(rows)} {'is' if len(rows) == 1 else 'are'} up to {largest:.3f} mm "
+        "off, the others "
         f"agree to {found.rms_mm * 1e3:.1f} um: dirt or a disturbed readout; they are left out.",
         rows,
         "label",

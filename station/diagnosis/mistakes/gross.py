@@ -139,7 +139,7 @@ def zeroings(robot: Robot, m: Measurements, agreed: Rough) -> Zeroings | None:
                 best = won, run, value
         if best is None or best[0] < 5.0 * SHORTEST:
             break
-        _, run, value = best
+        run = best[1]
         step = float(np.median(residual[run]))
         rows.append(np.flatnonzero(run))
         steps.append(step)
@@ -148,19 +148,21 @@ def zeroings(robot: Robot, m: Measurements, agreed: Rough) -> Zeroings | None:
     if not rows:
         return None
     level = np.zeros(len(m))
-    for run, step in zip(rows, steps, strict=True):
-        level[run] = step
+    for chosen, step in zip(rows, steps, strict=True):
+        level[chosen] = step
     # any part may be the wrong one; what came later is named
     start = agreed.p.copy()
     start[len(start) - len(m.mounts) :] -= level[0]
     level -= level[0]
     others = [float(v) for v in dict.fromkeys(level) if abs(v) > AGREES_MM]
-    return Zeroings(tuple(np.flatnonzero(level == v) for v in others), tuple(others), start, mean_cost(residual))
+    return Zeroings(
+        tuple(np.flatnonzero(level == v) for v in others), tuple(others), start, mean_cost(residual)
+    )
 
 
 def _levels(residual: Real, taken: NDArray[np.bool_]) -> list[float]:
     """Values that some rows in a row share."""
-    out = []
+    out: list[float] = []
     for k in range(len(residual) - SHORTEST + 1):
         window = residual[k : k + SHORTEST]
         if np.isfinite(window).all() and np.ptp(window) < AGREES_MM and not taken[k : k + SHORTEST].any():

@@ -23,7 +23,8 @@ LONGEST_DT_S = 600.0
 SLOWEST_DEG_PER_S = 0.2
 FASTEST_DEG_PER_S = 3000.0
 ALIKE, LESS = 0.95, 0.2
-"""Correlation of the time between readings with the way between them, that says they belong together; and how much less
+"""Correlation of the time between readings with the way between them, that says they belong together; and
+how much less
 it is for the rows as they stand where a column is out of place."""
 WAY_DEG = 0.05
 FEWEST = 20
@@ -79,9 +80,14 @@ def time_column(m: Measurements) -> Mistake | None:
     if middle > LONGEST_DT_S or (along > ALIKE and slope > 1.0 / SLOWEST_DEG_PER_S):
         return _time(f"{middle:.0f} s between readings are too many; the column is not in seconds", ())
     for by in (1, -1, 2, -2):
-        moved = _correlation(gaps[max(by, 0) : len(gaps) + min(by, 0)], way[max(-by, 0) : len(way) - max(by, 0)])
+        moved = _correlation(
+            gaps[max(by, 0) : len(gaps) + min(by, 0)], way[max(-by, 0) : len(way) - max(by, 0)]
+        )
         if moved > ALIKE and along < moved - LESS:
-            return _time(f"the column stands {abs(by)} row(s) too {'late' if by > 0 else 'early'}", ids(m, range(len(m))))
+            return _time(
+                f"the column stands {abs(by)} row(s) too {'late' if by > 0 else 'early'}",
+                ids(m, range(len(m))),
+            )
     return None
 
 
@@ -105,13 +111,17 @@ def approach_columns(robot: Robot, m: Measurements) -> Mistake | None:
     """Approach columns that contradict the order of the rows: reversed, exchanged, a row off."""
     if not m.approach.any():
         return None
-    moved = np.where(np.abs(np.diff(m.theta, axis=0)) > np.radians(WAY_DEG), np.sign(np.diff(m.theta, axis=0)), 0)
+    moved = np.where(
+        np.abs(np.diff(m.theta, axis=0)) > np.radians(WAY_DEG), np.sign(np.diff(m.theta, axis=0)), 0
+    )
     recorded = m.approach[1:].astype(float)
     own = [_agreement(recorded[:, i], moved[:, i]) for i in (0, 1)]
     reversed_joints = [i for i in (0, 1) if own[i] is not None and own[i] < 1.0 - AGREE]  # type: ignore[operator]
     if reversed_joints and not _positive_play(robot, m, reversed_joints):
         which = " and ".join(f"approach{i + 1}" for i in reversed_joints)
-        return _approach(f"{which} has the wrong sign: it says the opposite of every motion from row to row", m)
+        return _approach(
+            f"{which} has the wrong sign: it says the opposite of every motion from row to row", m
+        )
     if any(a is None or a > AGREE for a in own):
         if all(a is None or a > AGREE for a in own):
             return None
@@ -121,7 +131,10 @@ def approach_columns(robot: Robot, m: Measurements) -> Mistake | None:
         return _approach("approach1 and approach2 are exchanged", m)
     for by in (1, -1):
         late = [
-            _agreement(recorded[max(by, 0) : len(recorded) + min(by, 0), i], moved[max(-by, 0) : len(moved) - max(by, 0), i])
+            _agreement(
+                recorded[max(by, 0) : len(recorded) + min(by, 0), i],
+                moved[max(-by, 0) : len(moved) - max(by, 0), i],
+            )
             for i in (0, 1)
         ]
         if all(a is not None and a > AGREE for a in late):
@@ -152,7 +165,9 @@ def _positive_play(robot: Robot, m: Measurements, joints: list[int]) -> bool:
     found = fit(robot, m, extras=plays(m))
     if found is None:
         return False
-    return any(found.extra.get(f"play{i + 1}", 0.0) > 6.0 * found.extra_sd.get(f"play{i + 1}", 1.0) for i in joints)
+    return any(
+        found.extra.get(f"play{i + 1}", 0.0) > 6.0 * found.extra_sd.get(f"play{i + 1}", 1.0) for i in joints
+    )
 
 
 def _approach(what: str, m: Measurements) -> Mistake:
@@ -170,10 +185,8 @@ def approach_missing(robot: Robot, m: Measurements, base: Fitted, context: Conte
     if context.approach_recorded:
         return None
     guessed = with_guesses(replace(m, approach=np.zeros_like(m.approach)))
-    without = [base.deviance]
-    for extras in (smooth(robot, m), (drift(m),)):
-        if (other := fit(robot, m, extras=extras, start=base.p)) is not None:
-            without.append(other.deviance)
+    others = [fit(robot, m, extras=extras, start=base.p) for extras in (smooth(robot, m), (drift(m),))]
+    without = [base.deviance, *(other.deviance for other in others if other is not None)]
     found = fit(robot, guessed, extras=plays(guessed), start=base.p)
     if found is None or min(without) - found.deviance < FAR_BETTER:
         return None

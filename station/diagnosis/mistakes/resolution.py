@@ -13,7 +13,7 @@ from station.kinematics import Real
 from station.measurements import Measurements
 from station.robot import Robot
 
-STEPS_DEG = tuple(m * 10.0**-k for k in range(0, 5) for m in (5, 2, 1))
+STEPS_DEG = tuple(m * 10.0**-k for k in range(5) for m in (5, 2, 1))
 """From coarse to fine."""
 STEPS_RAD = tuple(m * 10.0**-k for k in range(2, 6) for m in (5, 2, 1))
 ON_STEP = 1e-6
@@ -39,9 +39,7 @@ def coarse_angles(robot: Robot, m: Measurements, base: Fitted | None, file: str)
     coarse = [i for i in (0, 1) if steps[i] > 1.5 * robot.pulse_deg]
     if not coarse:
         return None
-    square = sum(
-        float(np.nanmean((np.radians(steps[i]) * by_joint[:, i]) ** 2)) / 12.0 for i in coarse
-    )
+    square = sum(float(np.nanmean((np.radians(steps[i]) * by_joint[:, i]) ** 2)) / 12.0 for i in coarse)
     cost_mm = float(np.sqrt(square))
     if cost_mm < COSTLY * SCALE_SD_MM or base is None or base.rms_mm < SEEN * cost_mm:
         return None
@@ -49,7 +47,8 @@ def coarse_angles(robot: Robot, m: Measurements, base: Fitted | None, file: str)
     step = max(steps[i] for i in coarse)
     return Mistake(
         "coarse_angles",
-        f"Column {which}: all angles are multiples of {step:.4g} deg, which costs {cost_mm * 1e3:.0f} um in each "
+        f"Column {which}: all angles are multiples of {step:.4g} deg, which costs {cost_mm * 1e3:.0f} "
+        "um in each "
         f"reading; write the drives' feedback with all its digits (one pulse is {robot.pulse_deg:.4g} deg).",
         (),
         "refused",
@@ -87,7 +86,9 @@ def commanded_angles(robot: Robot, m: Measurements, base: Fitted | None, file: s
     on_grid = [_on_grid(robot, m, i) for i in joints]
     if all(on_grid) and _wanders(m, base, firsts, seconds):
         return None
-    joint_deg = np.degrees(scatter_mm / float(np.sqrt(np.nanmean(np.sum(by_joint_mm(robot, m) ** 2, axis=1)))))
+    joint_deg = np.degrees(
+        scatter_mm / float(np.sqrt(np.nanmean(np.sum(by_joint_mm(robot, m) ** 2, axis=1))))
+    )
     if joint_deg > 10 * robot.pulse_deg + 0.02:
         return None
     which = " and ".join(f"theta{i + 1}_deg" for i in joints)
@@ -95,7 +96,8 @@ def commanded_angles(robot: Robot, m: Measurements, base: Fitted | None, file: s
     return Mistake(
         "commanded_angles",
         f"Column {which}: the angles of repeats are identical{beside}, while their readings scatter by "
-        f"{scatter_mm * 1e3:.0f} um: these look like commanded angles; write the drives' feedback after the stop.",
+        f"{scatter_mm * 1e3:.0f} um: these look like commanded angles; write the drives' feedback after "
+        "the stop.",
         (),
         "refused",
         "fresh" if file == "fresh" else "readings",

@@ -7,7 +7,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from station.diagnosis.mistakes import gross
-from station.diagnosis.mistakes.defects import WithoutAMistake, without_a_mistake
+from station.diagnosis.mistakes.defects import (
+    WithoutAMistake,
+    both_gains,
+    gain,
+    scale_gain,
+    without_a_mistake,
+)
 from station.diagnosis.mistakes.duplicates import copies
 from station.diagnosis.mistakes.entries import entries, zero_at, zeroed
 from station.diagnosis.mistakes.fitting import Extra, Fitted, Rough, fit
@@ -16,6 +22,7 @@ from station.diagnosis.mistakes.glitches import glitches
 from station.diagnosis.mistakes.labels import approach_columns, approach_missing, position_labels, time_column
 from station.diagnosis.mistakes.mistake import Context, Mistake, ids, named
 from station.diagnosis.mistakes.resolution import coarse_angles, commanded_angles, off_grid
+from station.five_bar import FiveBar
 from station.measurements import Measurements
 from station.noise import MINIMUM_DOF, pure_error
 from station.robot import Robot
@@ -48,7 +55,10 @@ class _Candidate:
 
 
 def find_mistake(
-    robot: Robot, measurements: Measurements, fresh: Measurements | None = None, context: Context | None = None
+    robot: Robot,
+    measurements: Measurements,
+    fresh: Measurements | None = None,
+    context: Context | None = None,
 ) -> Mistake | None:
     """The mistake in these files that makes them agree, or none.
 
@@ -103,7 +113,8 @@ def _angles(robot: Robot, m: Measurements, fresh: Measurements | None, base: Fit
     if off_grid(robot, fresh) and not off_grid(robot, m):
         return Mistake(
             "commanded_angles",
-            "Fresh file, columns theta1_deg and theta2_deg: the angles do not lie on the pulses of the drives and "
+            "Fresh file, columns theta1_deg and theta2_deg: the angles do not lie on the pulses of the "
+            "drives and "
             "the readings scatter: these look like commanded angles; write the drives' feedback.",
             (),
             "refused",
@@ -120,8 +131,7 @@ def _in_readings(robot: Robot, m: Measurements, base: Fitted | None) -> tuple[Mi
         if beyond and (quiet or base.noise < QUIET):
             return beyond, base
         if quiet and not _strained(robot, m, base):
-            agreed = Rough(base.p, base.residual_mm)
-            return glitches(robot, m, base, agreed, "readings"), base
+            return glitches(robot, m, base, Rough(base.p, base.residual_mm), "readings"), base
     start = base
     agreed = Rough(base.p, base.residual_mm) if base is not None else None
     candidates: list[_Candidate] = []
@@ -138,7 +148,11 @@ def _in_readings(robot: Robot, m: Measurements, base: Fitted | None) -> tuple[Mi
         if GROSS_MM < base.rms_mm <= FAR_MM and not _any_settles(candidates, base):
             agreed = gross.majority(robot, m)
             candidates += _gross(robot, m, agreed)
-    some = None if agreed is None or _any_settles(candidates, base) else glitches(robot, m, base, agreed, "readings")
+    some = (
+        None
+        if agreed is None or _any_settles(candidates, base)
+        else glitches(robot, m, base, agreed, "readings")
+    )
     named_ones = [c for c in candidates if c.mistake is not None]
     if some is not None:
         return some, start
@@ -164,13 +178,17 @@ def _any_settles(candidates: list[_Candidate], base: Fitted | None) -> bool:
 def _far_better(best: _Candidate, base: Fitted, without: WithoutAMistake) -> bool:
     """Whether chance and the machine's own defects are beaten.
 
-    All smooth defects together imitate much of what a wrong length or a mechanism elsewhere does, with many sizes
+    All smooth defects together imitate much of what a wrong length or a mechanism elsewhere does, with
+    many sizes
     where the mistake has one or two: those it has to beat clearly, the plain model and single defects by far.
     """
     everything = without.everything - best.deviance
     if best.mistake is not None and best.mistake.severity == "as_effect":
         # an entry of a defect's size is reported where it is as probable as any account without
-        return base.deviance - best.deviance > FAR_BETTER and min(without.simple - best.deviance, everything) > -AS_GOOD
+        return (
+            base.deviance - best.deviance > FAR_BETTER
+            and min(without.simple - best.deviance, everything) > -AS_GOOD
+        )
     if best.mistake is not None and best.mistake.kind == "mechanism":
         return without.simple - best.deviance > MECHANISM_BETTER and everything > CLEARLY
     return without.simple - best.deviance > FAR_BETTER and everything > CLEARLY
@@ -185,8 +203,6 @@ def _repeats_mm(m: Measurements, base: Fitted) -> float:
 
 def _strained(robot: Robot, m: Measurements, base: Fitted) -> bool:
     """Whether a fit within the noise has drawn a parameter far from where it was known to be."""
-    from station.five_bar import FiveBar
-
     known = FiveBar(robot, m).parameters
     return any(
         abs(value - p.prior_mean) > 4.0 * p.prior_sd for value, p in zip(base.p[2:], known[2:], strict=True)
@@ -239,17 +255,17 @@ def _promising(found: list[gross.Found], cost: float) -> list[gross.Found]:
 
 
 def _exact(robot: Robot, found: gross.Found) -> Fitted | None:
-    wide = {"dtheta1": np.radians(20.0), "dtheta2": np.radians(20.0)} if found.correction.kind == "zero_at" else {}
+    wide = (
+        {"dtheta1": np.radians(20.0), "dtheta2": np.radians(20.0)}
+        if found.correction.kind == "zero_at"
+        else {}
+    )
     scale = found.correction.kind in ("ratio", "scale_factor")
     extras: tuple[Extra, ...] = ()
     if scale:
-        from station.diagnosis.mistakes.defects import both_gains, scale_gain
-
         m = found.corrected
         extras = (both_gains(robot, m, 0.05),) if found.correction.kind == "ratio" else (scale_gain(m, 0.05),)
         if found.correction.kind == "ratio" and "and" not in found.correction.column:
-            from station.diagnosis.mistakes.defects import gain
-
             extras = (gain(robot, m, int(found.correction.column[5]) - 1, 0.05),)
     return fit(robot, found.corrected, used=found.used, start=found.start, loosened=wide, extras=extras)
 
@@ -265,9 +281,7 @@ def _whole_file(robot: Robot, m: Measurements, found: gross.Found, exact: Fitted
     if one.kind == "zero_at":
         added = np.degrees(np.median(found.corrected.theta - m.theta, axis=0))
         return zero_at(robot, m, exact, (float(added[0]), float(added[1])))
-    text = (
-        f"All readings agree to {exact.rms_mm * 1e3:.1f} um once this is undone: {one.what}; {one.action}."
-    )
+    text = f"All readings agree to {exact.rms_mm * 1e3:.1f} um once this is undone: {one.what}; {one.action}."
     return Mistake(one.kind, text, ids(m, range(len(m))), "refused")
 
 
