@@ -114,7 +114,7 @@ def scaled_angles(joints: tuple[int, ...], factor: float, about_deg: tuple[float
     """A ratio in [joints] that is wrong by the reciprocal of a factor."""
     return Correction(
         "ratio", f"[joints] ratio or counts_per_rev of {joint_names(joints)} is wrong by a factor of "
-        "{factor:.5g}",
+        f"{factor:.5g}",
         f"divide the ratio by {factor:.5g} and read the angles again", columns_of(joints),
         _turned(joints, factor, about_deg),
     )  # fmt: skip

@@ -37,6 +37,7 @@ SAME_AS_EFFECT_RATIO = LARGEST_GAIN
 SAME_AS_EFFECT_SCALE = LARGEST_SCALE
 ZERO_MARGIN_DEG = 0.2
 SMALLEST_STEP_DEG = 0.02
+CLEAR_STEP_DEG = 0.1
 SMALLEST_ZEROING_MM = 1.0
 SURE = 6.0
 CENTRES_PRICE = 16.0
@@ -193,11 +194,13 @@ def stepped(m: Measurements, row: int, f: Fitted) -> Mistake | None:
     """Both joints step at one reading: zeros were written, or both were homed."""
     steps = [np.degrees(f.extra[f"slip{i + 1}"]) for i in (0, 1)]
     sds = [np.degrees(f.extra_sd[f"slip{i + 1}"]) for i in (0, 1)]
-    if any(abs(s) < max(SMALLEST_STEP_DEG, SURE * sd) for s, sd in zip(steps, sds, strict=True)):
-        return None
     before = np.degrees(f.p[:2])
     now = before + np.array(steps)
     written = _are_zeros(before, np.array(steps), np.degrees(f.sd[:2]) + np.array(sds))
+    clear = [abs(s) > max(SMALLEST_STEP_DEG, SURE * sd) for s, sd in zip(steps, sds, strict=True)]
+    # a joint whose zero offset is nothing does not step when zeros are written
+    if not all(clear) and not (written and any(clear) and max(map(abs, steps)) > CLEAR_STEP_DEG):
+        return None
     rows = ids(m, range(row, len(m)))
     by = f"joint 1 by {steps[0]:+.3f} deg and joint 2 by {steps[1]:+.3f} deg"
     holds = f"the zero offsets are {now[0]:.3f} and {now[1]:.3f} deg since then"

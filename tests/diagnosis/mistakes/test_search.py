@@ -15,13 +15,14 @@ from station.robot import Robot
 SEED = 4711
 QUICK = (
     "scale_sign: both files", "scale_sign: fresh only", "scale_unit: inches", "angle_unit: radians",
-    "joint_sign: joint 1", "joints_exchanged: both files", "row_shift: scale down", "zero_at: joint 1, 20 deg",
-    "ratio: both, 2", "robot_file: l1 of another robot", "mechanism: c digits exchanged",
-    "readout_zeroed: middle", "readout_zeroed: before fresh", "readout_stuck: 8 rows",
-    "pasted_block: 45 distances", "position_labels: all one", "approach_sign: both", "approach_missing: play",
-    "commanded_angles: both files", "coarse_angles: 0.01 deg", "time: milliseconds",
-    "same_readings: the file again", "rehomed: joint 1 by 0.3 deg", "zeros_written: in the sequence",
-    "glitches: 7 of 0.3 mm", "scale_factor: half",
+    "joint_sign: joint 1", "joints_exchanged: both files", "row_shift: scale down",
+    "zero_at: joint 1, 20 deg", "ratio: both, 2", "robot_file: l1 of another robot",
+    "mechanism: c digits exchanged", "readout_zeroed: middle", "readout_zeroed: before fresh",
+    "readout_stuck: 8 rows", "pasted_block: 45 distances", "position_labels: all one",
+    "approach_sign: both", "approach_missing: play", "commanded_angles: both files",
+    "coarse_angles: 0.01 deg", "time: milliseconds", "same_readings: the file again",
+    "rehomed: joint 1 by 0.3 deg", "zeros_written: in the sequence", "glitches: 7 of 0.3 mm",
+    "scale_factor: half",
 )  # fmt: skip
 """One of each kind at least; all of them are measured by `station.confusion.mistakes`."""
 
@@ -75,6 +76,14 @@ def test_a_zero_within_the_tolerance_is_an_offset() -> None:
     assert found is None
     offsets = np.degrees(files.walk.theta).mean(axis=0)
     assert np.all(np.isfinite(offsets))
+
+
+def test_what_is_explained_is_not_searched_for_small_entries() -> None:
+    variant = next(v for v in VARIANTS if v.name == "scale_factor: 1.01")
+    made = spoiled(variant, machine(False), SEED)
+    gross = next(v for v in VARIANTS if v.name == "scale_sign: both files")
+    assert find_mistake(made.robot, made.walk, explained=True) is None
+    assert find_mistake(made.robot, spoiled(gross, machine(False), SEED).walk, explained=True) is not None
 
 
 def test_few_readings_are_not_judged() -> None:
