@@ -19,6 +19,9 @@ def glitches(robot: Robot, m: Measurements, base: Fitted | None, agreed: Rough, 
     """Few readings, scattered over the file, without which the base model fits."""
     far = np.abs(agreed.residual_mm) > 1.0
     far |= ~np.isfinite(agreed.residual_mm)
+    size = np.abs(agreed.residual_mm)
+    if not far.any() and size.max() < FAR_SDS / 2.0 * float(np.median(size)):
+        return None
     for _ in range(6):
         if far.sum() > LARGEST_SHARE * len(m):
             return None

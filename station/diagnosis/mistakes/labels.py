@@ -79,7 +79,7 @@ def time_column(m: Measurements) -> Mistake | None:
     slope = np.polyfit(way, gaps, 1)[0] if np.ptp(way) > 0 else 0.0
     if middle > LONGEST_DT_S or (along > ALIKE and slope > 1.0 / SLOWEST_DEG_PER_S):
         return _time(f"{middle:.0f} s between readings are too many; the column is not in seconds", ())
-    for by in (1, -1, 2, -2):
+    for by in (1, -1, 2, -2) if along < 1.0 - LESS else ():
         moved = _correlation(
             gaps[max(by, 0) : len(gaps) + min(by, 0)], way[max(-by, 0) : len(way) - max(by, 0)]
         )
@@ -104,7 +104,7 @@ def _time(what: str, rows: tuple[int | str, ...]) -> Mistake:
 def _correlation(a: Real, b: Real) -> float:
     if len(a) < FEWEST or np.ptp(a) == 0.0 or np.ptp(b) == 0.0:
         return 0.0
-    return float(stats.spearmanr(a, b).statistic)
+    return float(np.corrcoef(stats.rankdata(a), stats.rankdata(b))[0, 1])
 
 
 def approach_columns(robot: Robot, m: Measurements) -> Mistake | None:

@@ -56,6 +56,12 @@ def coarse_angles(robot: Robot, m: Measurements, base: Fitted | None, file: str)
     )
 
 
+def is_coarse(robot: Robot, m: Measurements) -> bool:
+    """Whether a column's angles are multiples of a step coarser than the pulse, whatever that costs."""
+    steps = (_step_deg(np.degrees(m.theta[:, i]), m.theta[:, i]) for i in (0, 1))
+    return any(step > 1.5 * robot.pulse_deg for step in steps)
+
+
 def _step_deg(degrees: Real, rad: Real) -> float:
     """The coarsest step that all values are multiples of, in deg; 0 if there is none worth naming."""
     found = 0.0

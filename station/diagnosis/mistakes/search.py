@@ -21,7 +21,7 @@ from station.diagnosis.mistakes.fresh import between, on_mounts
 from station.diagnosis.mistakes.glitches import glitches
 from station.diagnosis.mistakes.labels import approach_columns, approach_missing, position_labels, time_column
 from station.diagnosis.mistakes.mistake import Context, Mistake, ids, named
-from station.diagnosis.mistakes.resolution import coarse_angles, commanded_angles, off_grid
+from station.diagnosis.mistakes.resolution import coarse_angles, commanded_angles, is_coarse, off_grid
 from station.five_bar import FiveBar
 from station.measurements import Measurements
 from station.noise import MINIMUM_DOF, pure_error
@@ -109,13 +109,14 @@ def _angles(robot: Robot, m: Measurements, fresh: Measurements | None, base: Fit
     found = coarse_angles(robot, m, base, "readings") or commanded_angles(robot, m, base, "readings")
     if found or fresh is None or len(fresh) < FEWEST or base is None:
         return found
-    again = fit(robot, fresh, start=base.p)
+    beside = off_grid(robot, fresh) and not off_grid(robot, m)
+    again = fit(robot, fresh, start=base.p) if beside or is_coarse(robot, fresh) else None
     if again is None:
         return None
     found = coarse_angles(robot, fresh, again, "fresh")
     if found or base.noise > QUIET or again.noise < 1.5:
         return found
-    if off_grid(robot, fresh) and not off_grid(robot, m):
+    if beside:
         return Mistake(
             "commanded_angles",
             "Fresh file, columns theta1_deg and theta2_deg: the angles do not lie on the pulses of the "
