@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from contextlib import suppress
 from dataclasses import dataclass
 from random import Random
@@ -56,6 +56,10 @@ class Axis:
         """Where the drive's zero has been declared to be."""
         self.direction = 0
         """Sign of the joint angle's last motion, 0 before the first."""
+        self.way_deg = 0.0
+        """How far that motion goes, deg, never negative."""
+        self.top_deg_per_s = 0.0
+        """Its highest speed, deg/s of the machine's time, never negative."""
 
     def command(self, pulses: int, rpm: float, rpm_per_s: float = _USUAL_RPM_PER_S) -> None:
         """Start a move to `pulses` from the drive's zero; the servo comes to rest near it."""
@@ -122,6 +126,8 @@ class Axis:
         self._started_s = self._clock()
         if motion.end != motion.start:
             self.direction = self._sign * (1 if motion.end > motion.start else -1)
+            self.way_deg = abs((motion.end - motion.start) * self._deg_per_pulse)
+            self.top_deg_per_s = motion.top_speed * abs(self._deg_per_pulse)
 
     def _at(self, at_s: float) -> tuple[float, float]:
         """Position and speed, pulses and pulses per second of the machine's time."""
@@ -165,6 +171,7 @@ class Machine:
             effect.start(Random(f"{seed} effect {number}"))
         self._on_s = self._looked_s = clock()
         self._rested = True
+        self._commanded_s = -math.inf
         self._stops = 0
         self._start_memories()
 
@@ -178,6 +185,7 @@ class Machine:
             self._look()
             self.axes[joint - 1].command(pulses, rpm, rpm_per_s)
             self._rested = False
+            self._commanded_s = self._clock()
 
     def quick_stop(self, joint: JointNumber) -> None:
         with self._lock:
@@ -251,7 +259,7 @@ class Machine:
                 at_s = self._looked_s + (until_s - self._looked_s) * step / steps
                 with suppress(Unreachable):  # the head has lost the scale; nothing follows the arms there
                     self._reading_mm(self._scene(at_s))
-            if now_s >= rests_s:
+            if now_s >= rests_s and now_s > self._commanded_s:  # the other joint's command may still come
                 self._rested = True
                 self._stops += 1
                 for effect in self._effects:
@@ -265,6 +273,9 @@ class Machine:
             stop=self._stops,
             direction=(first.direction, second.direction),
             travel_deg=(first.travel_deg(at_s), second.travel_deg(at_s)),
+            way_deg=(first.way_deg, second.way_deg),
+            top_deg_per_s=(first.top_deg_per_s, second.top_deg_per_s),
+            rested_s=max(0.0, at_s - self.rests_from_s),
             theta_deg=[first.arm_deg(at_s), second.arm_deg(at_s)],
         )
         for effect in self._joint_effects:
@@ -275,33 +286,34 @@ class Machine:
             [length + error for length, error in zip(spec.L_mm, spec.L_error_mm, strict=True)],
             [length + error for length, error in zip(spec.l_mm, spec.l_error_mm, strict=True)],
         )
-        self._place(scene, lengths)
+        centres = self._centres()
+        self._place(scene, lengths, centres)
         if self._effects:
             for effect in self._effects:
                 effect.on_lengths(lengths, scene)
-            self._place(scene, lengths)
-        scene.rho_mm = math.dist(
-            scene.r_mm,
-            (
-                spec.c_mm[0] + spec.d_mm[0] + spec.drm_mm[0],
-                spec.c_mm[1] + spec.d_mm[1] + spec.drm_mm[1],
-            ),
+            shifts = [_sum(effect.on_base_mm(joint, scene) for effect in self._effects) for joint in _JOINTS]
+            self._place(scene, lengths, (_sum((centres[0], shifts[0])), _sum((centres[1], shifts[1]))))
+        foot = (
+            spec.c_mm[0] + spec.d_mm[0] + spec.drm_mm[0],
+            spec.c_mm[1] + spec.d_mm[1] + spec.drm_mm[1],
         )
+        head = _sum((scene.r_mm, *(effect.on_mechanism_mm(scene) for effect in self._effects)))
+        scene.rho_mm = math.dist(head, foot)
         scene.travel_mm = scene.rho_mm - spec.head_zero_mm
         return scene
 
-    def _place(self, scene: Scene, lengths: Lengths) -> None:
-        """Elbows and P for the arms' angles."""
+    def _centres(self) -> tuple[Point, Point]:
+        """A_1 and A_2 of the machine at rest and cold."""
+        (x1, y1), (x2, y2) = self._spec.e_mm
         errors = self._spec.e_error_mm
+        return (x1 + errors[0], y1 + errors[1]), (x2 + errors[2], y2 + errors[3])
+
+    def _place(self, scene: Scene, lengths: Lengths, centres: tuple[Point, Point]) -> None:
+        """Elbows and P for the arms' angles."""
         elbows: list[Point] = []
-        for i, (x, y) in enumerate(self._spec.e_mm):
+        for i, (x, y) in enumerate(centres):
             angle = math.radians(scene.theta_deg[i])
-            elbows.append(
-                (
-                    x + errors[2 * i] + lengths.L[i] * math.cos(angle),
-                    y + errors[2 * i + 1] + lengths.L[i] * math.sin(angle),
-                )
-            )
+            elbows.append((x + lengths.L[i] * math.cos(angle), y + lengths.L[i] * math.sin(angle)))
         scene.elbows_mm = (elbows[0], elbows[1])
         scene.r_mm = lower_meeting_point(elbows[0], lengths.l[0], elbows[1], lengths.l[1])
 
@@ -326,6 +338,14 @@ def lower_meeting_point(first: Point, first_mm: float, second: Point, second_mm:
         for angle in (towards_second - opening, towards_second + opening)
     ]
     return min(points, key=lambda point: point[1])
+
+
+def _sum(points: Iterable[Point]) -> Point:
+    x_mm = y_mm = 0.0
+    for x, y in points:
+        x_mm += x
+        y_mm += y
+    return x_mm, y_mm
 
 
 def _fresh(effect: Effect) -> Effect:

@@ -19,6 +19,15 @@ class Motion:
     def duration_s(self) -> float:
         return sum(duration_s for duration_s, _ in self.phases)
 
+    @property
+    def top_speed(self) -> float:
+        """The highest speed on the way, never negative."""
+        highest, speed = abs(self.speed), self.speed
+        for duration_s, acceleration in self.phases:
+            speed += acceleration * duration_s
+            highest = max(highest, abs(speed))
+        return highest
+
     def at(self, t_s: float) -> tuple[float, float]:
         """Position and speed at `t_s` after the start."""
         position, speed = self.start, self.speed

@@ -17,6 +17,7 @@ from station.diagnosis.learned import (
     targets_of,
     transfer,
 )
+from station.diagnosis.mistakes import Context, Mistake, find_mistake, fit_readings
 from station.diagnosis.report import (
     Curve,
     Findings,
@@ -32,11 +33,13 @@ from station.diagnosis.separating import Experiment, experiment
 from station.diagnosis.tests_of_fit import without_a_quarter
 
 __all__ = [
+    "Context",
     "Curve",
     "Decision",
     "Diagnosis",
     "Experiment",
     "Findings",
+    "Mistake",
     "Scan",
     "StageFigures",
     "Transfer",
@@ -46,6 +49,8 @@ __all__ = [
     "decide",
     "diagnose",
     "experiment",
+    "find_mistake",
+    "fit_readings",
     "kept_fresh",
     "learned_model",
     "model_document",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from random import Random
 from typing import ClassVar, Literal
@@ -23,6 +24,12 @@ class Scene:
     """Sign of each joint's last motion, 0 before the first."""
     travel_deg: tuple[float, float]
     """What each drive has turned its joint from the drive's zero, deg."""
+    way_deg: tuple[float, float]
+    """How far each joint's last motion went, deg, never negative."""
+    top_deg_per_s: tuple[float, float]
+    """The highest speed of each joint's last motion, deg/s of the machine's time, never negative."""
+    rested_s: float
+    """How long both axes have stood still, s; 0 while one moves."""
     theta_deg: list[float]
     """The arms' angles as far as they are known, deg."""
     elbows_mm: tuple[tuple[float, float], tuple[float, float]] = ((0.0, 0.0), (0.0, 0.0))
@@ -30,7 +37,7 @@ class Scene:
     r_mm: tuple[float, float] = (0.0, 0.0)
     """P, once the arms are known."""
     rho_mm: float = 0.0
-    """Distance O_1 to O_2, once P is known."""
+    """Distance O_1 to O_2, once P and O_2 are known."""
     travel_mm: float = 0.0
     """The slider's place on the scale: rho less the head's constant."""
 
@@ -70,6 +77,14 @@ class Effect(BaseModel):
     def on_lengths(self, lengths: Lengths, scene: Scene) -> None:
         """May change the links."""
 
+    def on_base_mm(self, joint: JointNumber, scene: Scene) -> tuple[float, float]:
+        """Shift of the joint's centre A_i beside its place, x and y, mm."""
+        return 0.0, 0.0
+
+    def on_mechanism_mm(self, scene: Scene) -> tuple[float, float]:
+        """Shift of O_2 beside P + d, less the shift of O_1, x and y, mm."""
+        return 0.0, 0.0
+
     def on_head_mm(self, scene: Scene) -> float:
         """Added to the reading, mm."""
         return 0.0
@@ -108,3 +123,26 @@ class Play:
             self._follower = driver
         self._follower = min(max(self._follower, driver - width / 2), driver + width / 2)
         return self._follower - driver
+
+
+@dataclass(slots=True)
+class LastStop:
+    """Remembers a value from one stop to the next."""
+
+    _stop: int | None = None
+    _here: float = 0.0
+    _before: float | None = None
+
+    def before(self, stop: int, value: float) -> float | None:
+        """The value at the stop before this one; `value` is the present one, None is the answer at first."""
+        if stop != self._stop:
+            self._before = None if self._stop is None else self._here
+            self._stop, self._here = stop, value
+        return self._before
+
+
+def turned(vector_mm: tuple[float, float], deg: float) -> tuple[float, float]:
+    """How far the end of a vector moves when it turns by `deg` about its foot, mm."""
+    x, y = vector_mm
+    cosine, sine = math.cos(math.radians(deg)), math.sin(math.radians(deg))
+    return x * cosine - y * sine - x, x * sine + y * cosine - y

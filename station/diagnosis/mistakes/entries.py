@@ -1,0 +1,259 @@
+"""Wrong entries that a fit finds the size of: robot file, mechanism, zeros, ratios, scale, steps in
+between."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from station.diagnosis.mistakes.defects import (
+    LARGEST_GAIN,
+    LARGEST_LINK_MM,
+    LARGEST_SCALE,
+    best_moment,
+    both_gains,
+    gain,
+    scale_gain,
+    slip,
+)
+from station.diagnosis.mistakes.fitting import Extra, Fitted
+from station.diagnosis.mistakes.mistake import Mistake, ids, named
+from station.five_bar import FiveBar, Robot
+from station.records import Measurements
+
+WIDE_MM = 30.0
+WIDE_RAD = float(np.radians(60.0))
+WIDE_RATIO = 0.2
+WIDE_SLIP_RAD = float(np.radians(3.0))
+MECHANISM_SDS = 5.0
+"""Standard deviations of [mechanism] drm_sd_mm beyond which the mechanism is not as the file says."""
+SAME_AS_EFFECT_MM = LARGEST_LINK_MM
+"""Up to here a wrong length in the file and a wrong part cannot be distinguished."""
+SAME_AS_CENTRE_MM = 3.0
+SAME_AS_EFFECT_RATIO = LARGEST_GAIN
+SAME_AS_EFFECT_SCALE = LARGEST_SCALE
+ZERO_MARGIN_DEG = 0.2
+SMALLEST_STEP_DEG = 0.02
+CLEAR_STEP_DEG = 0.1
+SMALLEST_ZEROING_MM = 1.0
+SURE = 6.0
+CENTRES_PRICE = 16.0
+"""Of the deviance: joint centres are machined together, a mechanism is mounted by hand, and much of what
+the one
+does to the readings the other does too."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One hypothesis about an entry."""
+
+    verdict: Callable[[Fitted], Mistake | None]
+    """What it says once it has won; None: too small to be a mistake."""
+    loosened: Mapping[str, float] = field(default_factory=dict)
+    extras: tuple[Extra, ...] = ()
+    price: float = 0.0
+    """Of the deviance, for what was searched."""
+
+
+def entries(robot: Robot, m: Measurements, base: Fitted) -> Iterator[Entry]:
+    """All of them."""
+    names = [p.name for p in FiveBar(robot, m).parameters]
+    drm = {name: WIDE_MM for name in names if name.startswith(("rMx", "rMy"))}
+    yield Entry(lambda f: mechanism(robot, names, f), drm)
+    yield Entry(lambda f: zero_at(robot, m, f), {"dtheta1": WIDE_RAD, "dtheta2": WIDE_RAD})
+    for group in (("L1", "L2"), ("l1", "l2"), ("L1",), ("L2",), ("l1",), ("l2",)):
+        yield Entry(_lengths(robot, names, group), dict.fromkeys(group, WIDE_MM))
+    for group in (("e1x", "e2x"), ("e1y", "e2y"), ("e1x",), ("e2x",), ("e1y",), ("e2y",)):
+        yield Entry(_lengths(robot, names, group), dict.fromkeys(group, WIDE_MM), price=CENTRES_PRICE)
+    yield Entry(lambda f: _ratio(robot, f, "gain", (0, 1)), extras=(both_gains(robot, m, WIDE_RATIO),))
+    for i in (0, 1):
+        yield Entry(_one_ratio(robot, i), extras=(gain(robot, m, i, WIDE_RATIO),))
+    yield Entry(_scale, extras=(scale_gain(m, WIDE_RATIO),))
+    moments = 2.0 * float(np.log(len(m)))
+    row = best_moment(robot, m, base, None)
+    both = (slip(m, 0, row, WIDE_SLIP_RAD), slip(m, 1, row, WIDE_SLIP_RAD))
+    yield Entry(lambda f: stepped(m, row, f), extras=both, price=moments)
+
+
+def mechanism(robot: Robot, names: list[str], f: Fitted) -> Mistake | None:
+    """dr_M, c or d is not as the robot file says."""
+    off = [
+        (name, f.p[names.index(name)] - robot.drm[axis], robot.drm_sd[axis], f.sd[names.index(name)])
+        for axis, name in enumerate(("rMx", "rMy"))
+    ]
+    far = [(n, by) for n, by, sd, own in off if abs(by) > MECHANISM_SDS * sd and abs(by) > 4.0 * own]
+    if not far:
+        return None
+    found = ", ".join(f"{f.p[names.index(n)]:.2f}" for n in ("rMx", "rMy"))
+    by = " and ".join(f"{by:+.2f} mm in {n[-1]}" for n, by in far)
+    return Mistake(
+        "mechanism",
+        f"The readings agree to {f.rms_mm * 1e3:.1f} um, but only if the mechanism is {by} from where "
+        "the robot "
+        f"file has it (drm_mm about [{found}]): check [mechanism] c, d and drm_mm, their signs too.",
+        (),
+        "refused",
+        "robot",
+    )
+
+
+def zero_at(
+    robot: Robot, m: Measurements, f: Fitted, before_deg: tuple[float, float] = (0.0, 0.0)
+) -> Mistake | None:
+    """A zero offset beyond the tolerance; `before_deg` was added to the angles already."""
+    tolerance = robot.tolerances.zero_offset_deg
+    offset = np.degrees(f.p[:2]) + np.array(before_deg)
+    sd = np.degrees(f.sd[:2])
+    far = [i for i in (0, 1) if abs(offset[i]) > tolerance + 3.0 * min(sd[i], 1.0) + ZERO_MARGIN_DEG]
+    if not far:
+        return None
+    by = " and ".join(
+        f"joint {i + 1} reads {abs(offset[i]):.1f} deg too {'little' if offset[i] > 0 else 'much'}"
+        for i in far
+    )
+    new = ", ".join(f"{robot.zero_at_deg[i] + (offset[i] if i in far else 0.0):.1f}" for i in (0, 1))
+    return Mistake(
+        "zero_at",
+        f"{by[0].upper()}{by[1:]}, beyond the tolerance of {tolerance:g} deg: zero_at_deg of the robot "
+        "file is wrong "
+        f"(about [{new}] would agree), or the joint was homed at another mark; correct it and read the "
+        "angles again.",
+        (),
+        "refused",
+        "robot",
+    )
+
+
+def _lengths(robot: Robot, names: list[str], group: tuple[str, ...]) -> Callable[[Fitted], Mistake | None]:
+    def verdict(f: Fitted) -> Mistake | None:
+        by = {name: float(f.p[names.index(name)]) for name in group}
+        sure = any(abs(v) > SURE * f.sd[names.index(n)] for n, v in by.items())
+        largest = max(abs(v) for v in by.values())
+        centre = group[0].startswith("e")
+        limit = SAME_AS_CENTRE_MM if centre else SAME_AS_EFFECT_MM
+        tolerance = robot.tolerances.e_mm if centre else robot.tolerances.link_mm
+        if not sure or largest < 6.0 * tolerance:
+            return None
+        what = " and ".join(f"{n} by {v:+.2f} mm" for n, v in by.items())
+        key = "e" if centre else group[0][0]
+        return Mistake(
+            "robot_file",
+            f"The readings agree to {f.rms_mm * 1e3:.1f} um once {what} is changed: check [robot] {key} "
+            "in the robot "
+            "file against the drawing" + ("." if largest > limit else ", or the part itself."),
+            (),
+            "refused" if largest > limit else "as_effect",
+            "robot",
+        )
+
+    return verdict
+
+
+def _ratio(robot: Robot, f: Fitted, name: str, joints: tuple[int, ...]) -> Mistake | None:
+    by = f.extra[name]
+    if abs(by) < SURE * f.extra_sd[name]:
+        return None
+    real = abs(by) <= SAME_AS_EFFECT_RATIO
+    if real and len(joints) == 1:
+        return None
+    which = "both joints" if len(joints) == 2 else f"joint {joints[0] + 1}"
+    return Mistake(
+        "ratio",
+        f"The angles of {which} are {by * 100:+.3g} % of their travel off: check [joints] ratio "
+        f"({robot.ratio:g}; "
+        f"{robot.ratio / (1.0 + by):.5g} would agree) and counts_per_rev"
+        + (", or the gear itself." if real else "."),
+        (),
+        "as_effect" if real else "refused",
+        "robot",
+    )
+
+
+def _one_ratio(robot: Robot, joint: int) -> Callable[[Fitted], Mistake | None]:
+    return lambda f: _ratio(robot, f, f"gain{joint + 1}", (joint,))
+
+
+def _scale(f: Fitted) -> Mistake | None:
+    by = f.extra["scale"]
+    if abs(by) < SURE * f.extra_sd["scale"]:
+        return None
+    real = abs(by) <= SAME_AS_EFFECT_SCALE
+    return Mistake(
+        "scale_factor",
+        f"Column scale_mm: the readings are {by * 100:+.3g} % of the travel off: check the resolution "
+        "set in the readout" + (", or the scale itself." if real else "."),
+        (),
+        "as_effect" if real else "refused",
+    )
+
+
+def stepped(m: Measurements, row: int, f: Fitted) -> Mistake | None:
+    """Both joints step at one reading: zeros were written, or both were homed."""
+    steps = [np.degrees(f.extra[f"slip{i + 1}"]) for i in (0, 1)]
+    sds = [np.degrees(f.extra_sd[f"slip{i + 1}"]) for i in (0, 1)]
+    before = np.degrees(f.p[:2])
+    now = before + np.array(steps)
+    written = _are_zeros(before, np.array(steps), np.degrees(f.sd[:2]) + np.array(sds))
+    clear = [abs(s) > max(SMALLEST_STEP_DEG, SURE * sd) for s, sd in zip(steps, sds, strict=True)]
+    # a joint whose zero offset is nothing does not step when zeros are written
+    if not all(clear) and not (written and any(clear) and max(map(abs, steps)) > CLEAR_STEP_DEG):
+        return None
+    rows = ids(m, range(row, len(m)))
+    by = f"joint 1 by {steps[0]:+.3f} deg and joint 2 by {steps[1]:+.3f} deg"
+    holds = f"the zero offsets are {now[0]:.3f} and {now[1]:.3f} deg since then"
+    why = "their zero offsets: zeros were written to the drives" if written else "they were homed anew"
+    return Mistake(
+        "zeros_written" if written else "rehomed",
+        f"Both joints step at reading {rows[0]} ({by}), {'by ' if written else ''}{why} during the "
+        f"measurement; {holds}: "
+        "measure again without touching the zeros.",
+        rows,
+        "refused",
+    )
+
+
+def _are_zeros(before: np.ndarray, steps: np.ndarray, sd: np.ndarray) -> bool:
+    """Whether the steps are the zero offsets, with either sign."""
+    room = 3.0 * sd + 0.05
+    return bool(np.all(np.abs(steps + before) < room) or np.all(np.abs(steps - before) < room))
+
+
+def moved_between(m: Measurements, fresh: Measurements, walked: Fitted, f: Fitted) -> Mistake | None:
+    """One joint or both stand elsewhere in the fresh readings: homed or written in between."""
+    steps = np.degrees([f.extra.get(f"slip{i + 1}", 0.0) for i in (0, 1)])
+    sds = np.degrees([f.extra_sd.get(f"slip{i + 1}", 0.0) for i in (0, 1)])
+    moved = [i for i in (0, 1) if abs(steps[i]) > max(SMALLEST_STEP_DEG, SURE * sds[i])]
+    if not moved:
+        return None
+    before = np.degrees(walked.p[:2])
+    written = len(moved) == 2 and _are_zeros(before, steps, np.degrees(walked.sd[:2]) + sds)
+    by = " and ".join(f"joint {i + 1} is shifted by {steps[i]:+.3f} deg" for i in moved)
+    why = "zeros were written to the drives" if written else "the joint was homed anew or has slipped"
+    return Mistake(
+        "zeros_written" if written else "rehomed",
+        f"The fresh readings agree with the measurement sequence once {by}: {why} in between; "
+        "repeat the sequence or take the fresh readings again.",
+        ids(fresh, range(len(fresh))),
+        "refused",
+        "fresh",
+    )
+
+
+def zeroed(m: Measurements, rows: np.ndarray, step_mm: float, file: str = "readings") -> Mistake | None:
+    """The readout counts from another zero on some rows."""
+    if abs(step_mm) < SMALLEST_ZEROING_MM:
+        return None
+    at_fault = ids(m, rows)
+    where = f"From reading {at_fault[0]} on" if rows[-1] == len(m) - 1 else f"In {named(at_fault)}"
+    if file == "fresh" and len(rows) == len(m):
+        where = "In the fresh readings"
+    return Mistake(
+        "readout_zeroed",
+        f"{where} scale_mm reads {step_mm:+.3f} mm beside the others: the readout was zeroed or preset anew; "
+        "measure again, or give these readings a mount of their own.",
+        at_fault,
+        "refused",
+        "fresh" if file == "fresh" else "readings",
+    )

@@ -1,0 +1,261 @@
+"""Fits of the base model under a hypothesis, and how probable they make the readings.
+
+`fit` is the exact one: all parameters with their priors, some loosened, some columns added, the noise as
+large as the readings want it.  `rough` is the quick one that nine
+wrong rows in twenty do not disturb: two zero offsets and the reading offset, gross rows weighed down.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.fitting import NotConvergedError, Prior, Solution, solve
+from station.five_bar import SCALE_SD_MM, FiveBar, Robot
+from station.records import Measurements, Real
+
+OFFSET_SD_MM = 1e4
+"""Prior of the reading offset: as wide as anything that is measured."""
+LEAST_NOISE = 0.2
+"""Readings may be so much better than specified: servos that rest on whole pulses leave no half pulse
+open."""
+SOFT_MM = 0.05
+"""Residual from which on a row counts as disagreeing, in the rough fit."""
+ANNEALED_MM = (200.0, 100.0, 50.0, 25.0, 12.0, 6.0, 3.0, 1.5, 0.8, 0.4, 0.2, 0.1, 0.05, 0.05, 0.05)
+"""Widths of the Cauchy weights, one after the other."""
+
+
+@dataclass(frozen=True)
+class Extra:
+    """One column more: an angle or a reading that goes with it."""
+
+    name: str
+    sd: float
+    """Prior, in the column's own unit."""
+    by_angle: Real | None = None
+    """(K, 2) rad per unit, added to the joint angles."""
+    by_reading: Real | None = None
+    """(K,) mm per unit, added to the predicted reading."""
+
+
+@dataclass(frozen=True)
+class Fitted:
+    """A converged fit."""
+
+    p: Real
+    """(P,) of the base model, mm and rad."""
+    sd: Real
+    """(P,)"""
+    extra: Mapping[str, float]
+    extra_sd: Mapping[str, float]
+    residual_mm: Real
+    """(K,) measured less predicted, of all rows."""
+    row_sd: Real
+    """(K,) mm as specified."""
+    used: NDArray[np.bool_]
+    """(K,) rows that took part."""
+    noise: float
+    """Standard deviation of the readings over the specified one, at least `LEAST_NOISE`."""
+    deviance: float
+    """Minus twice the log of the readings' evidence, up to a constant of the rows that took part."""
+
+    @property
+    def rms_mm(self) -> float:
+        return float(np.sqrt(np.mean(self.residual_mm[self.used] ** 2)))
+
+
+def row_sd(robot: Robot, m: Measurements) -> Real:
+    """(K,) mm as specified; where the links do not meet, as in the middle of the others."""
+    with np.errstate(invalid="ignore"):
+        sd = FiveBar(robot, m).row_sd
+    good = np.isfinite(sd)
+    typical = float(np.median(sd[good])) if good.any() else 2.0 * SCALE_SD_MM
+    return np.where(good, sd, typical)
+
+
+def fit(
+    robot: Robot,
+    m: Measurements,
+    *,
+    loosened: Mapping[str, float] | None = None,
+    extras: tuple[Extra, ...] = (),
+    used: NDArray[np.bool_] | None = None,
+    start: Real | None = None,
+    centre: Mapping[str, float] | None = None,
+    sd: Real | None = None,
+    prior: tuple[Real, Real] | None = None,
+) -> Fitted | None:
+    """None where it does not converge.
+
+    :param loosened: parameter -> standard deviation in place of its prior's, mm or rad
+    :param centre: parameter -> prior mean in place of its own
+    :param prior: mean (P,) and root (H, P) in place of all of that
+    """
+    mechanism = FiveBar(robot, m)
+    names = [p.name for p in mechanism.parameters]
+    mean: Real = np.array([p.prior_mean for p in mechanism.parameters])
+    spread = np.array([min(p.prior_sd, OFFSET_SD_MM) for p in mechanism.parameters])
+    for name, value in (loosened or {}).items():
+        spread[names.index(name)] = value
+    for name, value in (centre or {}).items():
+        mean[names.index(name)] = value
+    used = np.ones(len(m), dtype=bool) if used is None else used
+    sd = row_sd(robot, m) if sd is None else sd
+    size, count = len(names), len(extras)
+    root: Real = np.diag(1.0 / spread)
+    if prior is not None:
+        mean, root = prior
+    widths = np.array([e.sd for e in extras])
+    root = np.block([[root, np.zeros((len(root), count))], [np.zeros((count, size)), np.diag(1.0 / widths)]])
+    held = Prior(np.concatenate([mean, np.zeros(count)]), root)
+    angle = np.stack([_or_zero(e.by_angle, (len(m), 2)) for e in extras], axis=2) if count else None
+    reading = np.stack([_or_zero(e.by_reading, (len(m),)) for e in extras], axis=1) if count else None
+
+    def whitened(noise: float) -> tuple[Solution, Real] | None:
+        def residuals(z: Real) -> tuple[Real, Real]:
+            value, J = predict(z)
+            return (value - m.distance)[used] / sd[used] / noise, J[used] / (sd[used] * noise)[:, None]
+
+        try:
+            found = solve(residuals, begin, held)
+        except (NotConvergedError, np.linalg.LinAlgError):
+            return None
+        return found, predict(found.x)[0]
+
+    def predict(z: Real) -> tuple[Real, Real]:
+        if angle is None or reading is None:
+            at = mechanism.observe(z, m.theta)
+            return at.value, at.by_parameter
+        q = z[size:]
+        at = mechanism.observe(z[:size], m.theta + angle @ q)
+        J = np.hstack([at.by_parameter, np.einsum("kj,kjq->kq", at.by_joint, angle) + reading])
+        return at.value + reading @ q, J
+
+    begin = held.mean.copy()
+    begin[:size] = mean if start is None else start
+    if start is None:
+        with np.errstate(invalid="ignore"):
+            offset = np.nanmedian(predict(begin)[0] - m.distance) if used.any() else 0.0
+        begin[size - len(m.mounts) : size] += offset if np.isfinite(offset) else 0.0
+    noise = 1.0
+    for _ in range(3):
+        with np.errstate(invalid="ignore"):
+            found = whitened(noise)
+        if found is None:
+            return None
+        solution, predicted = found
+        begin = solution.x
+        square = float(np.sum((solution.residual * noise) ** 2))
+        wanted = max(LEAST_NOISE, float(np.sqrt(square / max(int(used.sum()) - 4, 1))))
+        done = abs(np.log(wanted / noise)) < 0.05
+        noise = wanted
+        if done:
+            break
+    J = solution.jacobian
+    normal = held.root.T @ held.root
+    rows = int(used.sum())
+    pulled = float(np.sum((held.root @ (solution.x - held.mean)) ** 2))
+    occam = float(np.linalg.slogdet(J.T @ J + normal)[1] - np.linalg.slogdet(normal)[1])
+    deviance = rows * 2.0 * np.log(noise) + square / noise**2 + pulled + occam
+    deviance += 2.0 * float(np.sum(np.log(sd[used])))
+    spread_all = np.sqrt(np.diag(np.linalg.pinv(J.T @ J + normal)))
+    names_extra = [e.name for e in extras]
+    return Fitted(
+        solution.x[:size],
+        spread_all[:size],
+        dict(zip(names_extra, solution.x[size:].tolist(), strict=True)),
+        dict(zip(names_extra, spread_all[size:].tolist(), strict=True)),
+        m.distance - predicted,
+        sd,
+        used,
+        noise,
+        float(deviance),
+    )
+
+
+def posterior(robot: Robot, m: Measurements, found: Fitted) -> tuple[Real, Real]:
+    """Mean (P,) and root (P, P) of what a fit of the base model knows, for `fit` of other readings."""
+    mechanism = FiveBar(robot, m)
+    at = mechanism.observe(found.p, m.theta)
+    J = (at.by_parameter / (found.row_sd * found.noise)[:, None])[found.used]
+    spread = np.array([min(p.prior_sd, OFFSET_SD_MM) for p in mechanism.parameters])
+    stacked = np.vstack([J, np.diag(1.0 / spread)])
+    return found.p, np.asarray(np.linalg.qr(stacked, mode="r"))
+
+
+def _or_zero(column: Real | None, shape: tuple[int, ...]) -> Real:
+    return np.zeros(shape) if column is None else column
+
+
+@dataclass(frozen=True)
+class Rough:
+    """Zero offsets and reading offset that most rows agree with."""
+
+    p: Real
+    """(P,) parameters of the base model."""
+    residual_mm: Real
+    """(K,) NaN where the links do not meet."""
+
+    @property
+    def cost(self) -> float:
+        """Mean over the rows of log(1 + (residual / 0.05 mm)^2)."""
+        return mean_cost(self.residual_mm)
+
+
+def mean_cost(residual_mm: Real) -> float:
+    """Mean of `costs`."""
+    return float(np.mean(costs(residual_mm)))
+
+
+def costs(residual_mm: Real) -> Real:
+    """(K,) log(1 + (residual / 0.05 mm)^2); a row without a residual disagrees by a metre."""
+    return np.log1p((np.where(np.isfinite(residual_mm), residual_mm, 1e3) / SOFT_MM) ** 2)
+
+
+def rough(
+    robot: Robot,
+    m: Measurements,
+    weights: NDArray[np.bool_] | None = None,
+    from_mm: float = ANNEALED_MM[0],
+    start: Real | None = None,
+) -> Rough:
+    """Robust fit of zero offsets, the mechanism within its tolerance and reading offset.
+
+    :param weights: (K,) rows that decide; the residual is of all
+    """
+    mechanism = FiveBar(robot, m)
+    names = [p.name for p in mechanism.parameters]
+    p = mechanism.start if start is None else start.copy()
+    free = [0, 1, names.index("rMy"), *range(len(names) - len(m.mounts), len(names))]
+    mean = mechanism.start[free]
+    zero_sd = np.radians(robot.tolerances.zero_offset_deg)
+    tight = np.array([zero_sd, zero_sd, robot.drm_sd[1], *[OFFSET_SD_MM] * len(m.mounts)])
+    decide = np.ones(len(m), dtype=bool) if weights is None else weights
+    with np.errstate(invalid="ignore"):
+        at = mechanism.observe(p, m.theta)
+        for mount in range(len(m.mounts)):
+            own = decide & (m.mount == mount) & np.isfinite(at.value)
+            if own.any():
+                p[len(names) - len(m.mounts) + mount] += np.median((at.value - m.distance)[own])
+        for width in ANNEALED_MM:
+            if width > from_mm:
+                continue
+            at = mechanism.observe(p, m.theta)
+            r = m.distance - at.value
+            ok = decide & np.isfinite(r)
+            if ok.sum() < len(free):
+                break
+            w = 1.0 / (1.0 + (r[ok] / width) ** 2) / width**2
+            J = at.by_parameter[ok][:, free]
+            # the prior counts as in a fit whose rows scatter by the present width
+            hold = np.diag(1.0 / tight**2)
+            step = np.linalg.lstsq(
+                J.T @ (J * w[:, None]) + hold, J.T @ (w * r[ok]) - hold @ (p[free] - mean), rcond=None
+            )[0]
+            step[:2] = np.clip(step[:2], -0.1, 0.1)
+            p[free] += step
+        residual = m.distance - mechanism.observe(p, m.theta).value
+    return Rough(p, residual)

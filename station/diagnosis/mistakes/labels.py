@@ -1,0 +1,200 @@
+"""Columns that only name or order readings: position, time, approach."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+from scipy import stats
+
+from station.diagnosis.mistakes.defects import drift, plays, smooth
+from station.diagnosis.mistakes.fitting import Fitted, fit
+from station.diagnosis.mistakes.mistake import Context, Mistake, ids, named
+from station.five_bar import Robot
+from station.records import Measurements, Real, with_guesses
+
+APART_DEG = 0.3
+"""Readings of one position stand no further from each other; servos rest within hundredths."""
+LEAST_DT_S = 0.1
+"""No arm moves, settles and is read faster."""
+LONGEST_DT_S = 600.0
+SLOWEST_DEG_PER_S = 0.2
+FASTEST_DEG_PER_S = 3000.0
+ALIKE, LESS = 0.95, 0.2
+"""Correlation of the time between readings with the way between them, that says they belong together; and
+how much less
+it is for the rows as they stand where a column is out of place."""
+WAY_DEG = 0.05
+FEWEST = 20
+AGREE = 0.95
+FAR_BETTER = 40.0
+"""Of the deviance: e^20 times more probable."""
+RECORDED_LATE = 0.25
+"""A play that explains the readings is at least this share of the residual."""
+
+
+def position_labels(m: Measurements, context: Context) -> Mistake | None:
+    """Readings of one position that stand far from each other."""
+    if not context.position_recorded:
+        return None
+    theta = np.degrees(m.theta)
+    wrong: list[int] = []
+    for label in np.unique(m.position):
+        rows = np.flatnonzero(m.position == label)
+        middle = np.median(theta[rows], axis=0)
+        far = np.abs(theta[rows] - middle).max(axis=1) > APART_DEG
+        wrong += rows[far].tolist()
+    if not wrong:
+        return None
+    rows_at_fault = ids(m, sorted(wrong))
+    where = "all rows" if len(wrong) > 0.9 * len(m) else named(rows_at_fault)
+    return Mistake(
+        "position_labels",
+        f"Column position: readings that share a label stand degrees apart ({where}); repeats cannot be "
+        "recognised from it, so the diagnosis goes on without that column: put the labels right.",
+        rows_at_fault,
+        "label",
+    )
+
+
+def time_column(m: Measurements) -> Mistake | None:
+    """A time that no arm can keep, or that belongs to other rows."""
+    gaps = np.diff(m.t_s)
+    backwards = np.flatnonzero(gaps < 0)
+    if backwards.size:
+        rows = ids(m, backwards + 1)
+        return _time(f"time runs backwards at {named(rows)}", rows)
+    if len(m) < FEWEST:
+        return None
+    way = np.degrees(np.abs(np.diff(m.theta, axis=0)).max(axis=1))
+    still = np.flatnonzero((gaps <= 0) & (way > 1.0))
+    if len(still) > max(2, len(gaps) // 20):
+        return _time(f"time stands still at {named(ids(m, still + 1))}", ids(m, still + 1))
+    middle = float(np.median(gaps))
+    if middle < LEAST_DT_S:
+        return _time(f"{middle:.3g} s between readings are too few; the column is not in seconds", ())
+    along = _correlation(gaps, way)
+    slope = np.polyfit(way, gaps, 1)[0] if np.ptp(way) > 0 else 0.0
+    if middle > LONGEST_DT_S or (along > ALIKE and slope > 1.0 / SLOWEST_DEG_PER_S):
+        return _time(f"{middle:.0f} s between readings are too many; the column is not in seconds", ())
+    for by in (1, -1, 2, -2) if along < 1.0 - LESS else ():
+        moved = _correlation(
+            gaps[max(by, 0) : len(gaps) + min(by, 0)], way[max(-by, 0) : len(way) - max(by, 0)]
+        )
+        if moved > ALIKE and along < moved - LESS:
+            return _time(
+                f"the column stands {abs(by)} row(s) too {'late' if by > 0 else 'early'}",
+                ids(m, range(len(m))),
+            )
+    return None
+
+
+def _time(what: str, rows: tuple[int | str, ...]) -> Mistake:
+    return Mistake(
+        "time",
+        f"Column t_s: {what}; the diagnosis goes on without it and sees nothing that depends on time: "
+        "put the seconds since start there.",
+        rows,
+        "label",
+    )
+
+
+def _correlation(a: Real, b: Real) -> float:
+    if len(a) < FEWEST or np.ptp(a) == 0.0 or np.ptp(b) == 0.0:
+        return 0.0
+    return float(np.corrcoef(stats.rankdata(a), stats.rankdata(b))[0, 1])
+
+
+def approach_columns(robot: Robot, m: Measurements) -> Mistake | None:
+    """Approach columns that contradict the order of the rows: reversed, exchanged, a row off."""
+    if not m.approach.any():
+        return None
+    moved = np.where(
+        np.abs(np.diff(m.theta, axis=0)) > np.radians(WAY_DEG), np.sign(np.diff(m.theta, axis=0)), 0
+    )
+    recorded = m.approach[1:].astype(float)
+    own = [_agreement(recorded[:, i], moved[:, i]) for i in (0, 1)]
+    reversed_joints = [i for i in (0, 1) if own[i] is not None and own[i] < 1.0 - AGREE]  # type: ignore[operator]
+    if reversed_joints and not _positive_play(robot, m, reversed_joints):
+        which = " and ".join(f"approach{i + 1}" for i in reversed_joints)
+        return _approach(
+            f"{which} has the wrong sign: it says the opposite of every motion from row to row", m
+        )
+    if any(a is None or a > AGREE for a in own):
+        if all(a is None or a > AGREE for a in own):
+            return None
+        return _one_column(m, recorded, moved, own)
+    crossed = [_agreement(recorded[:, i], moved[:, 1 - i]) for i in (0, 1)]
+    if all(a is not None and a > AGREE for a in crossed):
+        return _approach("approach1 and approach2 are exchanged", m)
+    for by in (1, -1):
+        late = [
+            _agreement(
+                recorded[max(by, 0) : len(recorded) + min(by, 0), i],
+                moved[max(-by, 0) : len(moved) - max(by, 0), i],
+            )
+            for i in (0, 1)
+        ]
+        if all(a is not None and a > AGREE for a in late):
+            return _approach(f"the columns stand one row too {'late' if by > 0 else 'early'}", m)
+    return None
+
+
+def _one_column(m: Measurements, recorded: Real, moved: Real, own: list[float | None]) -> Mistake | None:
+    for i in (0, 1):
+        a = own[i]
+        if a is None or a > AGREE:
+            continue
+        other = _agreement(recorded[:, i], moved[:, 1 - i])
+        if other is not None and other > AGREE:
+            return _approach(f"approach{i + 1} is that of joint {2 - i}", m)
+    return None
+
+
+def _agreement(recorded: Real, moved: Real) -> float | None:
+    judged = (recorded != 0) & (moved != 0)
+    if judged.sum() < FEWEST:
+        return None
+    return float(np.mean(recorded[judged] == moved[judged]))
+
+
+def _positive_play(robot: Robot, m: Measurements, joints: list[int]) -> bool:
+    """Whether a play as recorded is there: then the columns are right and the order of the rows is not."""
+    found = fit(robot, m, extras=plays(m))
+    if found is None:
+        return False
+    return any(
+        found.extra.get(f"play{i + 1}", 0.0) > 6.0 * found.extra_sd.get(f"play{i + 1}", 1.0) for i in joints
+    )
+
+
+def _approach(what: str, m: Measurements) -> Mistake:
+    return Mistake(
+        "approach_sign",
+        f"Columns approach1 and approach2: {what}; the diagnosis goes on without them and sees neither play "
+        "nor hysteresis: put the sign of each joint's last motion there.",
+        ids(m, range(len(m))),
+        "label",
+    )
+
+
+def approach_missing(robot: Robot, m: Measurements, base: Fitted, context: Context) -> Mistake | None:
+    """No approach is recorded, and with the one guessed from the order of the rows a play shows."""
+    if context.approach_recorded:
+        return None
+    guessed = with_guesses(replace(m, approach=np.zeros_like(m.approach)))
+    others = [fit(robot, m, extras=extras, start=base.p) for extras in (smooth(robot, m), (drift(m),))]
+    without = [base.deviance, *(other.deviance for other in others if other is not None)]
+    found = fit(robot, guessed, extras=plays(guessed), start=base.p)
+    if found is None or min(without) - found.deviance < FAR_BETTER:
+        return None
+    if not any(found.extra[name] > 6.0 * found.extra_sd[name] for name in found.extra):
+        return None
+    return Mistake(
+        "approach_missing",
+        "Columns approach1 and approach2 are missing, and the readings depend on the direction in which "
+        "positions are approached: record the sign of each joint's last motion, or play and hysteresis "
+        "cannot be told apart.",
+        (),
+        "label",
+    )

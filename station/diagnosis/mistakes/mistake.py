@@ -1,0 +1,78 @@
+"""What a data-entry mistake is: the contract's `mistake`, with what follows from it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from station.records import Index, Measurements
+
+Kind = Literal[
+    "scale_sign", "scale_unit", "scale_factor", "angle_unit", "joint_sign", "joints_exchanged", "row_shift",
+    "zero_at", "ratio", "robot_file", "mechanism", "readout_zeroed", "readout_stuck", "pasted_block",
+    "position_labels", "approach_sign", "approach_missing", "commanded_angles", "coarse_angles", "time",
+    "same_readings", "rehomed", "zeros_written", "glitches",
+]  # fmt: skip
+Severity = Literal["refused", "label", "as_effect"]
+"""Refused: readings, angles or the robot file are wrong.  Label: the diagnosis goes on without that column
+or those readings, and confirms nothing.  As effect: an entry or a defect of the same size, for the
+diagnosis to report as the effect with both remedies; not a `mistake` of the document."""
+FEW = 3
+"""Ids that are written out at each end of a longer list."""
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """One mistake and all that is said about it."""
+
+    kind: Kind
+    text: str
+    """One sentence or two: what is wrong, where, what to do."""
+    rows: tuple[int | str, ...]
+    """Ids of the readings at fault; empty where the robot file or a whole file is."""
+    severity: Severity
+    file: Literal["readings", "fresh", "both", "robot"] = "readings"
+    """Where it has to be put right."""
+
+    def as_json(self) -> dict[str, Any]:
+        """The contract's object."""
+        return {"kind": self.kind, "text": self.text, "rows": list(self.rows)}
+
+
+@dataclass(frozen=True)
+class Context:
+    """What the file itself said, beside the numbers."""
+
+    approach_recorded: bool = True
+    """Whether the file had approach columns with something in them."""
+    position_recorded: bool = True
+    """Whether it had position labels; else a place is one reading."""
+    name: str = "the file"
+
+    @classmethod
+    def of(cls, measurements: Measurements) -> Context:
+        """As far as the numbers still show it."""
+        recorded = bool(measurements.approach.any()) and "approach" not in measurements.guessed
+        labelled = len(np.unique(measurements.position)) < len(measurements)
+        return cls(recorded, labelled and "position" not in measurements.guessed)
+
+
+def ids(measurements: Measurements, rows: Index | Sequence[int]) -> tuple[int | str, ...]:
+    """Ids of rows by index."""
+    return tuple(measurements.ids[int(k)] for k in rows)
+
+
+def named(rows: Sequence[int | str]) -> str:
+    """Ids in words: "reading 7", "readings 61 to 120", "readings 3, 9 and 12"."""
+    if len(rows) == 1:
+        return f"reading {rows[0]}"
+    whole = [r for r in rows if isinstance(r, int)]
+    if len(whole) == len(rows) and whole == list(range(whole[0], whole[0] + len(whole))) and len(rows) > 2:
+        return f"readings {rows[0]} to {rows[-1]}"
+    if len(rows) > 3 * FEW:
+        shown = ", ".join(str(r) for r in rows[: 2 * FEW])
+        return f"{len(rows)} readings ({shown}, ... {rows[-1]})"
+    return f"readings {', '.join(str(r) for r in rows[:-1])} and {rows[-1]}"

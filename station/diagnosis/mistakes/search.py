@@ -1,0 +1,303 @@
+"""Every kind of mistake as an explanation; the one that makes the readings agree, if it is beyond chance."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from station.diagnosis.mistakes import gross
+from station.diagnosis.mistakes.defects import (
+    WithoutAMistake,
+    both_gains,
+    gain,
+    scale_gain,
+    without_a_mistake,
+)
+from station.diagnosis.mistakes.duplicates import copies
+from station.diagnosis.mistakes.entries import entries, zero_at, zeroed
+from station.diagnosis.mistakes.fitting import Extra, Fitted, Rough, fit
+from station.diagnosis.mistakes.fresh import between, on_mounts
+from station.diagnosis.mistakes.glitches import glitches
+from station.diagnosis.mistakes.labels import approach_columns, approach_missing, position_labels, time_column
+from station.diagnosis.mistakes.mistake import Context, Mistake, ids, named
+from station.diagnosis.mistakes.resolution import coarse_angles, commanded_angles, is_coarse, off_grid
+from station.fitting import MINIMUM_DOF, pure_error
+from station.five_bar import FiveBar, Robot
+from station.records import Measurements
+
+FAR_BETTER = 60.0
+"""Of the deviance: what a mistake must win over any account without one (e^30 times more probable)."""
+MECHANISM_BETTER, CLEARLY = 40.0, 12.0
+AS_GOOD = 20.0
+BEYOND_OTHERS = 6.0
+QUIET = 1.25
+"""Noise over specification up to which a file is not searched any further."""
+GROSS_MM = 0.15
+"""Residual from which on rows, units and columns are tried."""
+HOPELESS = 5.5
+"""Rough cost, of rows nearly a millimetre off, from which on no exact fit is tried."""
+FAR_MM = 1.0
+"""and from which on they are tried first: wrong numbers in the robot file seldom do as much."""
+SETTLED, SETTLED_MM = 1.0, 4e-3
+"""Residual over the specified noise, or mm, at which nothing else is tried."""
+TRIES = 2.0 * float(np.log(100.0))
+"""Price of the search over corrections, of the deviance; that over runs of rows comes on top."""
+FEWEST = 8
+
+
+@dataclass(frozen=True)
+class _Candidate:
+    deviance: float
+    mistake: Mistake | None
+    rms_mm: float
+
+
+def find_mistake(
+    robot: Robot,
+    measurements: Measurements,
+    fresh: Measurements | None = None,
+    context: Context | None = None,
+    *,
+    explained: bool = False,
+) -> Mistake | None:
+    """The mistake in these files that makes them agree, or none.
+
+    :param measurements: a file read without `Mechanism.check`, which refuses what is to be named here
+    :param fresh: fresh readings, read alike
+    :param context: what the file recorded; without it what the numbers show
+    :param explained: the diagnosis accounts for the readings already, so that small wrong entries need no
+    search;
+        saves a quarter of a second on a machine with a defect
+    """
+    m = measurements
+    if len(m) < FEWEST or m.joints != 2:
+        return None
+    context = context or Context.of(m)
+    fresh = None if fresh is None else on_mounts(fresh, m)
+    found = copies(robot, m, fresh, context)
+    if found:
+        return found
+    base = fit(robot, m)
+    angles = _angles(robot, m, fresh, base)
+    if angles:
+        return angles
+    found, walked = _in_readings(robot, m, base, explained)
+    if found and found.severity == "refused":
+        return found
+    late = None
+    if fresh is not None and walked is not None and len(fresh) >= FEWEST // 2:
+        late = between(robot, m, fresh, walked)
+        if late:
+            return late
+    labels = position_labels(m, context) or time_column(m) or approach_columns(robot, m)
+    if labels is None and fresh is not None:
+        labels = _labels_of_fresh(robot, fresh)
+    if labels is None and base is not None and not found:
+        labels = approach_missing(robot, m, base, context)
+    return labels or found
+
+
+def _labels_of_fresh(robot: Robot, fresh: Measurements) -> Mistake | None:
+    found = time_column(fresh) or position_labels(fresh, Context.of(fresh)) or approach_columns(robot, fresh)
+    return None if found is None else replace(found, file="fresh", text=f"Fresh file: {found.text}")
+
+
+def _angles(robot: Robot, m: Measurements, fresh: Measurements | None, base: Fitted | None) -> Mistake | None:
+    """Angles that are rounded or commanded, in either file."""
+    found = coarse_angles(robot, m, base, "readings") or commanded_angles(robot, m, base, "readings")
+    if found or fresh is None or len(fresh) < FEWEST or base is None:
+        return found
+    beside = off_grid(robot, fresh) and not off_grid(robot, m)
+    again = fit(robot, fresh, start=base.p) if beside or is_coarse(robot, fresh) else None
+    if again is None:
+        return None
+    found = coarse_angles(robot, fresh, again, "fresh")
+    if found or base.noise > QUIET or again.noise < 1.5:
+        return found
+    if beside:
+        return Mistake(
+            "commanded_angles",
+            "Fresh file, columns theta1_deg and theta2_deg: the angles do not lie on the pulses of the "
+            "drives and "
+            "the readings scatter: these look like commanded angles; write the drives' feedback.",
+            (),
+            "refused",
+            "fresh",
+        )
+    return None
+
+
+def _in_readings(
+    robot: Robot, m: Measurements, base: Fitted | None, explained: bool
+) -> tuple[Mistake | None, Fitted | None]:
+    """The mistake in the sequence, and a fit that fresh readings can be held against."""
+    if base is not None:
+        beyond = zero_at(robot, m, base)
+        quiet = base.rms_mm < QUIET * _repeats_mm(m, base)
+        if beyond and (quiet or base.noise < QUIET):
+            return beyond, base
+        if (explained and base.rms_mm < GROSS_MM) or (quiet and not _strained(robot, m, base)):
+            return glitches(robot, m, base, Rough(base.p, base.residual_mm), "readings"), base
+    start = base
+    agreed = Rough(base.p, base.residual_mm) if base is not None else None
+    candidates: list[_Candidate] = []
+    if base is None or base.rms_mm > FAR_MM:
+        agreed = gross.majority(robot, m)
+        candidates += _gross(robot, m, agreed)
+    if base is None and agreed is not None and not _any_settles(candidates, base):
+        some_rows = np.abs(agreed.residual_mm) < gross.AGREES_MM
+        part = fit(robot, m, used=some_rows, start=agreed.p) if some_rows.sum() > 2 * FEWEST else None
+        if part is not None:
+            candidates += _entries(robot, m, part)
+    if base is not None and not _any_settles(candidates, base):
+        candidates += _entries(robot, m, base)
+        if GROSS_MM < base.rms_mm <= FAR_MM and not _any_settles(candidates, base):
+            agreed = gross.majority(robot, m)
+            candidates += _gross(robot, m, agreed)
+    some = (
+        None
+        if agreed is None or _any_settles(candidates, base)
+        else glitches(robot, m, base, agreed, "readings")
+    )
+    named_ones = [c for c in candidates if c.mistake is not None]
+    if some is not None:
+        return some, start
+    if not named_ones:
+        return None, start
+    best = min(named_ones, key=lambda c: c.deviance)
+    nameless = min((c.deviance for c in candidates if c.mistake is None), default=np.inf)
+    if nameless < best.deviance - BEYOND_OTHERS:
+        return None, start
+    if base is not None and not _far_better(best, base, without_a_mistake(robot, m, base)):
+        return None, start
+    return best.mistake, start
+
+
+def _any_settles(candidates: list[_Candidate], base: Fitted | None) -> bool:
+    """Whether one brings the readings to their noise, where the base model was far off."""
+    if base is not None and base.rms_mm < GROSS_MM:
+        return False
+    limit = SETTLED_MM if base is None else SETTLED * float(np.median(base.row_sd))
+    return any(c.rms_mm < limit for c in candidates if c.mistake is not None)
+
+
+def _far_better(best: _Candidate, base: Fitted, without: WithoutAMistake) -> bool:
+    """Whether chance and the machine's own defects are beaten.
+
+    All smooth defects together imitate much of what a wrong length or a mechanism elsewhere does, with
+    many sizes
+    where the mistake has one or two: those it has to beat clearly, the plain model and single defects by far.
+    """
+    everything = without.everything - best.deviance
+    if best.mistake is not None and best.mistake.severity == "as_effect":
+        # an entry of a defect's size is reported where it is as probable as any account without
+        return (
+            base.deviance - best.deviance > FAR_BETTER
+            and min(without.simple - best.deviance, everything) > -AS_GOOD
+        )
+    if best.mistake is not None and best.mistake.kind == "mechanism":
+        return without.simple - best.deviance > MECHANISM_BETTER and everything > CLEARLY
+    return without.simple - best.deviance > FAR_BETTER and everything > CLEARLY
+
+
+def _repeats_mm(m: Measurements, base: Fitted) -> float:
+    """What repeats scatter by, mm; at most, and without enough of them, what the specification says."""
+    square, dof = pure_error(m, base.residual_mm)
+    specified = float(np.median(base.row_sd))
+    return min(float(np.sqrt(square / dof)), specified) if dof >= MINIMUM_DOF else specified
+
+
+def _strained(robot: Robot, m: Measurements, base: Fitted) -> bool:
+    """Whether a fit within the noise has drawn a parameter far from where it was known to be."""
+    known = FiveBar(robot, m).parameters
+    return any(
+        abs(value - p.prior_mean) > 4.0 * p.prior_sd for value, p in zip(base.p[2:], known[2:], strict=True)
+    )
+
+
+def _entries(robot: Robot, m: Measurements, base: Fitted) -> list[_Candidate]:
+    out = []
+    for one in entries(robot, m, base):
+        found = fit(robot, m, loosened=one.loosened, extras=one.extras, start=base.p)
+        if found is not None:
+            out.append(_Candidate(found.deviance + one.price + TRIES, one.verdict(found), found.rms_mm))
+    return out
+
+
+def _gross(robot: Robot, m: Measurements, agreed: Rough) -> list[_Candidate]:
+    out = []
+    n = len(m)
+    whole = gross.whole(robot, m)
+    for found in _promising(whole, agreed.cost):
+        exact = _exact(robot, found)
+        if exact is None:
+            continue
+        lost = _lost_rows(found, exact)
+        mistake = _whole_file(robot, m, found, exact)
+        out.append(_Candidate(exact.deviance + lost + TRIES, mistake, exact.rms_mm))
+    runs = 4.0 * float(np.log(n))
+    for found in _promising(gross.partial(robot, m, agreed, whole[:2]), agreed.cost):
+        exact = _exact(robot, found)
+        if exact is not None:
+            lost = _lost_rows(found, exact)
+            out.append(_Candidate(exact.deviance + lost + TRIES + runs, _part(m, found), exact.rms_mm))
+    steps = gross.zeroings(robot, m, agreed)
+    if steps is not None:
+        extras = tuple(
+            Extra(f"step{k}", 1000.0, by_reading=np.isin(np.arange(n), rows).astype(float))
+            for k, rows in enumerate(steps.rows)
+        )
+        exact = fit(robot, m, extras=extras, start=steps.start)
+        if exact is not None:
+            rows = np.sort(np.concatenate(steps.rows))
+            mistake = zeroed(m, rows, steps.steps_mm[0])
+            out.append(_Candidate(exact.deviance + runs * len(extras), mistake, exact.rms_mm))
+    return out
+
+
+def _promising(found: list[gross.Found], cost: float) -> list[gross.Found]:
+    """Those that make rows agree, and not far worse than the best does."""
+    return [one for one in found[:5] if one.cost < min(cost - 0.1, found[0].cost + 1.0, HOPELESS)]
+
+
+def _exact(robot: Robot, found: gross.Found) -> Fitted | None:
+    wide = (
+        {"dtheta1": np.radians(20.0), "dtheta2": np.radians(20.0)}
+        if found.correction.kind == "zero_at"
+        else {}
+    )
+    scale = found.correction.kind in ("ratio", "scale_factor")
+    extras: tuple[Extra, ...] = ()
+    if scale:
+        m = found.corrected
+        extras = (both_gains(robot, m, 0.05),) if found.correction.kind == "ratio" else (scale_gain(m, 0.05),)
+        if found.correction.kind == "ratio" and "and" not in found.correction.column:
+            extras = (gain(robot, m, int(found.correction.column[5]) - 1, 0.05),)
+    return fit(robot, found.corrected, used=found.used, start=found.start, loosened=wide, extras=extras)
+
+
+def _lost_rows(found: gross.Found, exact: Fitted) -> float:
+    """What the rows left out would have cost at the fit's own noise."""
+    out = int((~found.used).sum())
+    return out * (1.0 + 2.0 * float(np.log(exact.noise * np.median(exact.row_sd))))
+
+
+def _whole_file(robot: Robot, m: Measurements, found: gross.Found, exact: Fitted) -> Mistake | None:
+    one = found.correction
+    if one.kind == "zero_at":
+        added = np.degrees(np.median(found.corrected.theta - m.theta, axis=0))
+        return zero_at(robot, m, exact, (float(added[0]), float(added[1])))
+    text = f"All readings agree to {exact.rms_mm * 1e3:.1f} um once this is undone: {one.what}; {one.action}."
+    return Mistake(one.kind, text, ids(m, range(len(m))), "refused")
+
+
+def _part(m: Measurements, found: gross.Found) -> Mistake:
+    rows = ids(m, np.flatnonzero(found.rows))
+    one = found.correction
+    return Mistake(
+        one.kind,
+        f"In {named(rows)} {one.what}, in the others it is as it should be; {one.action} in these rows.",
+        rows,
+        "refused",
+    )

@@ -1,0 +1,81 @@
+"""Copies, labels and resolutions: what the columns show without a fit."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from station.diagnosis.mistakes import Context
+from station.diagnosis.mistakes.duplicates import pasted_block, readout_stuck, same_readings
+from station.diagnosis.mistakes.gross import best_run, grown
+from station.diagnosis.mistakes.labels import approach_columns, position_labels, time_column
+from station.diagnosis.mistakes.mistake import Mistake, named
+from station.five_bar.robot_file import Robot
+from station.studies.confusion.spoiling import measured
+
+ROBOT = Robot.default()
+FILES = measured(98).files
+WALK, FRESH = FILES.walk, FILES.fresh
+
+
+def test_an_honest_file_has_none_of_these() -> None:
+    context = Context.of(WALK)
+    assert same_readings(WALK, FRESH) is None
+    for file in (WALK, FRESH):
+        assert pasted_block(ROBOT, file) is None and readout_stuck(ROBOT, file) is None
+    assert position_labels(WALK, context) is None
+    assert time_column(WALK) is None
+    assert approach_columns(ROBOT, WALK) is None
+
+
+def test_rows_of_a_paste_and_of_a_standing_readout() -> None:
+    distance = WALK.distance.copy()
+    distance[60:70] = distance[10:20]
+    found = pasted_block(ROBOT, replace(WALK, distance=distance))
+    assert found is not None and found.rows == WALK.ids[60:70]
+    distance = WALK.distance.copy()
+    distance[30:36] = distance[30]
+    found = readout_stuck(ROBOT, replace(WALK, distance=distance))
+    assert found is not None and found.rows == WALK.ids[30:36]
+
+
+def test_time_that_runs_backwards_names_its_row() -> None:
+    t_s = WALK.t_s.copy()
+    t_s[40:] -= 20.0
+    found = time_column(replace(WALK, t_s=t_s))
+    assert found is not None and found.severity == "label" and found.rows == (WALK.ids[40],)
+
+
+@pytest.mark.parametrize("by", [1, -1])
+def test_approaches_a_row_off(by: int) -> None:
+    found = approach_columns(ROBOT, replace(WALK, approach=np.roll(WALK.approach, by, axis=0)))
+    assert found is None or found.kind == "approach_sign"
+
+
+def test_one_wrong_label() -> None:
+    position = WALK.position.copy()
+    position[17] = position[40]
+    found = position_labels(replace(WALK, position=position), Context.of(WALK))
+    assert found is not None and WALK.ids[17] in found.rows
+
+
+def test_best_run_and_its_neighbours() -> None:
+    run = best_run(np.array([-1.0, 2.0, -0.5, 3.0, -4.0, 1.0]))
+    assert run is not None and np.flatnonzero(run).tolist() == [1, 2, 3]
+    assert best_run(np.array([-1.0, -2.0])) is None
+    over = np.array([True, False, False, False, True, False])
+    assert np.flatnonzero(grown(run, over)).tolist() == [0, 1, 2, 3, 4]
+
+
+def test_ids_in_words() -> None:
+    assert named((7,)) == "reading 7"
+    assert named((3, 9, 12)) == "readings 3, 9 and 12"
+    assert named(tuple(range(61, 121))) == "readings 61 to 120"
+    assert named(tuple(range(0, 40, 2))) == "20 readings (0, 2, 4, 6, 8, 10, ... 38)"
+
+
+def test_the_documents_object() -> None:
+    mistake = Mistake("time", "Text.", (1, "a"), "label")
+    assert mistake.as_json() == {"kind": "time", "text": "Text.", "rows": [1, "a"]}
