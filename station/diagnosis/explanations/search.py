@@ -1,0 +1,169 @@
+"""Which sets of up to three errors account for the readings: searched over the set, not from one winner on.
+
+Every family alone; beside each of the most probable ones every other; beside the most probable pairs every
+third.  Then what is best is revisited: each of its errors is exchanged for every other until nothing better is
+found.  The evidence of a set is that of its best members, times the price paid for each search.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from station.diagnosis.explanations.evidence import Bank, Choice, Scan
+from station.diagnosis.explanations.family import Family
+from station.kinematics import Real
+
+BY_COUNT = (0.35, 0.45, 0.15, 0.05)
+"""Prior probability of so many errors; a natural pair is one."""
+FIRST, SECOND = 20, 10
+"""Most sets of one and of two errors beside which others are looked for."""
+WITHIN = 25.0
+"""Log of probability below the best beyond which a set is not looked beside,"""
+POLISHED_WITHIN = 7.0
+"""and within which its evidence is settled."""
+MOST_POLISHED = 24
+NOTHING_FOUND = 6.0
+"""Log of odds by which the best single error must beat the base model before pairs are looked for."""
+EXCHANGES = 4
+SWEEPS = 2
+
+Key = tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A set of errors at their best members and sizes."""
+
+    choices: tuple[Choice, ...]
+    log_evidence: float
+    """Averaged over members and sizes, over the base model's."""
+    log_prior: float
+
+    @property
+    def key(self) -> Key:
+        return tuple(sorted(c.family for c in self.choices))
+
+    @property
+    def log_posterior(self) -> float:
+        """Up to a constant that all share."""
+        return self.log_evidence + self.log_prior
+
+
+class Search:
+    """All sets found in one frame."""
+
+    def __init__(self, bank: Bank) -> None:
+        self.bank = bank
+        self.families = bank.families
+        weight = np.array([f.weight for f in bank.families])
+        self._log_weight: Real = np.log(weight / weight.sum())
+        self.found: dict[Key, Candidate] = {(): Candidate((), 0.0, float(np.log(BY_COUNT[0])))}
+        self._looked: set[Key] = set()
+
+    def run(self, seeds: Sequence[tuple[Choice, ...]] = ()) -> list[Candidate]:
+        """Most probable first; `seeds` are sets to look beside as well."""
+        self._look(Candidate((), 0.0, 0.0))
+        singles = self._best(1, FIRST)
+        worth = bool(singles) and singles[0].log_posterior > self.found[()].log_posterior + np.log(0.02)
+        if worth and singles[0].log_evidence > NOTHING_FOUND:
+            for single in singles:
+                self._look(single)
+            for seed in seeds:
+                self._look(Candidate(seed, self.bank.log_evidence(seed), 0.0))
+            for pair in self._best(2, SECOND):
+                self._look(pair)
+            self._exchange()
+        self._polish()
+        return sorted(self.found.values(), key=lambda c: -c.log_posterior)
+
+    def _best(self, count: int, most: int) -> list[Candidate]:
+        sets = sorted((c for c in self.found.values() if len(c.choices) == count), key=lambda c: -c.log_posterior)
+        if not sets:
+            return []
+        top = max(c.log_posterior for c in self.found.values())
+        # a set far below may still be half of the best pair
+        limit = min(top, sets[0].log_posterior) - (WITHIN if count > 1 else np.inf)
+        return [c for c in sets[:most] if c.log_posterior > limit]
+
+    def log_prior(self, key: Key) -> float:
+        """Of a set of families in any order."""
+        count = len(key)
+        orders = float(np.log([1.0, 1.0, 2.0, 6.0][count]))
+        return float(np.log(BY_COUNT[count]) + orders + sum(self._log_weight[k] for k in key))
+
+    def _look(self, beside: Candidate) -> None:
+        """Every family beside a set."""
+        key = beside.key
+        if key in self._looked or len(key) >= len(BY_COUNT) - 1:
+            return
+        self._looked.add(key)
+        scan = self.bank.scan(beside.choices)
+        price = beside.log_evidence - self.bank.log_evidence(beside.choices)
+        for family in range(len(self.families)):
+            if self._fits(key, family):
+                self._add(beside.choices, scan, family, price)
+
+    def _add(self, beside: tuple[Choice, ...], scan: Scan, family: int, price: float) -> None:
+        choice = scan.best[family]
+        if choice is None:
+            return
+        value = float(scan.total[family]) + price
+        choices = (*beside, choice)
+        key = tuple(sorted(c.family for c in choices))
+        before = self.found.get(key)
+        if before is None or value > before.log_evidence:
+            self.found[key] = Candidate(choices, value, self.log_prior(key))
+
+    def _fits(self, key: Key, family: int) -> bool:
+        """The same effect twice only where the machine can have it more than once."""
+        added = self.families[family]
+        if family in key:
+            return added.repeats
+        return not any(compete(self.families[k], added) for k in key)
+
+    def _exchange(self) -> None:
+        for _ in range(EXCHANGES):
+            best = max(self.found.values(), key=lambda c: c.log_posterior)
+            looked = len(self._looked)
+            for left_out in range(len(best.choices)):
+                rest = tuple(c for k, c in enumerate(best.choices) if k != left_out)
+                known = self.found.get(tuple(sorted(c.family for c in rest)))
+                if known is not None:
+                    self._look(replace(known, choices=rest) if len(rest) == 1 else known)
+            self._look(best)
+            if len(self._looked) == looked:
+                return
+
+    def _polish(self) -> None:
+        """Settle members and sizes of the best sets, each given the others, and their prices."""
+        top = max(c.log_posterior for c in self.found.values())
+        best = sorted(self.found.values(), key=lambda c: -c.log_posterior)[:MOST_POLISHED]
+        for candidate in best:
+            if len(candidate.choices) > 1 and candidate.log_posterior > top - POLISHED_WITHIN:
+                self.found[candidate.key] = self._polished(candidate)
+
+    def _polished(self, candidate: Candidate) -> Candidate:
+        choices = list(candidate.choices)
+        for _ in range(SWEEPS):
+            prices, moved = 0.0, False
+            for k, old in enumerate(choices):
+                rest = [c for j, c in enumerate(choices) if j != k]
+                scan = self.bank.scan(rest, only=old.family)
+                new = scan.best[old.family]
+                if new is None:
+                    continue
+                moved |= new != old
+                choices[k] = new
+                prices += float(scan.total[old.family] - scan.at_best[old.family])
+            if not moved:
+                break
+        value = self.bank.log_evidence(choices) + prices
+        return replace(candidate, choices=tuple(choices), log_evidence=value)
+
+
+def compete(a: Family, b: Family) -> bool:
+    """Whether two families hold the same effect, which is then one or the other."""
+    return a is not b and a.named and b.named and bool(a.keys & b.keys)
