@@ -59,6 +59,9 @@ class Family:
     repeats: bool = False
     """Whether the machine can have it more than once, with other hidden parameters."""
 
+    width: int = 0
+    """Number q of amplitudes; counted by `catalogue`."""
+
     @property
     def named(self) -> bool:
         return self.depends_on is None

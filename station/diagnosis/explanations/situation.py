@@ -14,9 +14,9 @@ from typing import NamedTuple
 import numpy as np
 
 from station.conditions import Reference
-from station.error_model import Pose, distance_jacobian, position_jacobian
+from station.error_model import Pose, distance_by_joint, distance_jacobian, position_jacobian
 from station.five_bar import FiveBar
-from station.kinematics import Complex, Geometry, Real, inverse
+from station.kinematics import Complex, Geometry, Real
 
 TARGETS = (
     "joint1", "joint2", "e1x", "e1y", "e2x", "e2y", "L1", "L2", "l1", "l2", "shift_x", "shift_y", "reading",
@@ -79,9 +79,14 @@ class Situation:
         return out.reshape(out.shape[0], rows * width, out.shape[3])
 
 
-def at_readings(mechanism: FiveBar, p: Real, reference: Reference, added: Real | None = None) -> Situation:
-    """The readings of a mechanism at base parameters p (P,); `added` (K, 13) what errors add to the targets."""
-    c = mechanism.conditions(p, reference, first=True)
+def at_readings(
+    mechanism: FiveBar, p: Real, reference: Reference, added: Real | None = None, *, first: bool = True
+) -> Situation:
+    """The readings of a mechanism at base parameters p (P,); `added` (K, 13) what errors add to the targets.
+
+    `first` is False for readings that follow those that the reference is of.
+    """
+    c = mechanism.conditions(p, reference, first=first)
     at, geometry = posed(mechanism, p, added)
     jacobian = distance_jacobian(geometry, at)
     m = mechanism.measurements
@@ -113,35 +118,39 @@ def predicted(mechanism: FiveBar, p: Real, added: Real | None = None) -> Real:
     return np.asarray(reading if added is None else reading + added[:, 12])
 
 
-def at_grid(mechanism: FiveBar, p: Real, last: Situation, grid: tuple[int, int]) -> tuple[Situation, Real]:
-    """The workspace after the last reading, commanded with the nominal geometry, and its errors (G, 2).
+class Commanded(NamedTuple):
+    """The platform at G joint commands."""
 
-    Joints are taken as approached from no side: what depends on the approach is compensated by it.
-    """
-    target = mechanism.robot.workspace_grid(*grid)
-    nominal = inverse(mechanism.nominal, target)
-    theta = nominal + p[:2]
+    situation: Situation
+    """m = 2"""
+    r: Complex
+    """(G,) position of P, mm, without the errors."""
+
+
+def at_commands(mechanism: FiveBar, p: Real, last: Situation, theta: Real, approach: Real) -> Commanded:
+    """Joint commands theta (G, 2), rad, come to from sides (G, 2), after the last reading of `last`."""
     base = mechanism.geometry_at(p)
-    cd = base.cd if np.ndim(base.cd) == 0 else np.asarray(base.cd)[-1]
+    now = int(np.argmax(last.t_s))
+    cd = base.cd if np.ndim(base.cd) == 0 else np.asarray(base.cd)[now]
     geometry = Geometry(base.e, base.L, base.l, complex(cd))
-    at = _pose(geometry, theta)
-    count = len(target)
+    actual = theta + p[:2]
+    at = _pose(geometry, actual)
+    count = len(theta)
     by_parameter = np.zeros((count, 2, len(mechanism.parameters)))
     by_parameter[:, :, :PARAMETERS] = position_jacobian(geometry, at)
     by_target = np.zeros((count, 2, len(TARGETS)))
     by_target[:, :, :10] = by_parameter[:, :, :10]
     by_target[:, 0, 10] = by_target[:, 1, 11] = 1.0
-    error = at.r - target
-    now = int(np.argmax(last.t_s))
+    moving = np.sign(np.sum(distance_by_joint(at) * approach, axis=1))
     situation = Situation(
         by_parameter=by_parameter,
         by_target=by_target,
         t_s=np.full(count, last.t_s[now]),
-        theta=theta,
-        drive_angle=nominal - np.radians(mechanism.robot.zero_at_deg),
-        approach=np.zeros((count, 2)),
+        theta=actual,
+        drive_angle=theta - np.radians(mechanism.robot.zero_at_deg),
+        approach=approach,
         travel=at.rho - mechanism.offset(p)[now],
-        slider=np.zeros((count, 2)),
+        slider=np.column_stack([moving, moving]),
         rise=None if last.rise is None else np.full(count, last.rise[now]),
         payload_kg=None if last.payload_kg is None else np.full(count, last.payload_kg[now]),
         mount=np.full(count, last.mount[now]),
@@ -149,7 +158,7 @@ def at_grid(mechanism: FiveBar, p: Real, last: Situation, grid: tuple[int, int])
         phi=np.angle(at.w),
         force=_force(at),
     )
-    return situation, np.column_stack([error.real, error.imag])
+    return Commanded(situation, at.r)
 
 
 def posed(mechanism: FiveBar, p: Real, added: Real | None) -> tuple[Pose, Geometry]:

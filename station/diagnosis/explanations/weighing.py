@@ -1,0 +1,131 @@
+"""All explanations of one set of readings with their probabilities: search, settle, linearise anew where needed."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import logsumexp
+
+from station.conditions import Reference
+from station.diagnosis.explanations.catalogue import catalogue
+from station.diagnosis.explanations.evidence import Bank
+from station.diagnosis.explanations.family import Family
+from station.diagnosis.explanations.frame import Frame, frame
+from station.diagnosis.explanations.noise_level import NoiseLevel
+from station.diagnosis.explanations.search import Candidate, Key, Search
+from station.diagnosis.explanations.settle import Settled, settle
+from station.five_bar import FiveBar, lengths
+from station.kinematics import Real
+
+MOST_SETTLED = 16
+SETTLED_WITHIN = 6.0
+"""Log of probability below the best within which an explanation is settled."""
+ANEW = 1.0
+"""Standard deviations by which the best explanation may differ from its tangent before all is linearised anew."""
+ROUNDS = 3
+
+
+@dataclass(frozen=True)
+class Weighed:
+    """One explanation and its share of the probability."""
+
+    settled: Settled
+    log_posterior: float
+    probability: float
+
+
+@dataclass(frozen=True)
+class Weighing:
+    """What the readings say of all explanations."""
+
+    mechanism: FiveBar
+    families: tuple[Family, ...]
+    frame: Frame
+    bank: Bank
+    candidates: dict[Key, Candidate]
+    """Everything that was looked at."""
+    log_posterior: dict[Key, float]
+    """Absolute, up to a constant of the readings; of settled explanations as settled."""
+    settled: tuple[Weighed, ...]
+    """Most probable first; probabilities among themselves."""
+
+    @property
+    def best(self) -> Settled:
+        return self.settled[0].settled
+
+
+def weigh(
+    mechanism: FiveBar, p: Real, reference: Reference, row_sd: Real, families: Sequence[Family] | None = None
+) -> Weighing:
+    """Explanations of the readings of `mechanism`, linearised at base parameters p (P,) first."""
+    at = frame(mechanism, p, reference, row_sd)
+    if families is None:
+        recorded = mechanism.measurements.temperature_c is not None
+        families = catalogue(at.situation, lengths(mechanism.robot), thermometer=recorded)
+    families = tuple(families)
+    noise = NoiseLevel(len(row_sd), at.parameters_taken)
+    base = settle(at, families, (), noise, reference)
+    out: Weighing | None = None
+    for _ in range(ROUNDS):
+        bank = Bank(at, families, noise)
+        search = Search(bank)
+        found = search.run([out.best.choices] if out is not None and out.best.choices else ())
+        out = _weighed(mechanism, families, bank, found, base, reference)
+        best = out.best
+        if best.bend < ANEW or not best.choices:
+            break
+        at = frame(mechanism, best.x[: best.size], reference, row_sd, best.present)
+    assert out is not None
+    return out
+
+
+def _weighed(
+    mechanism: FiveBar,
+    families: tuple[Family, ...],
+    bank: Bank,
+    found: Sequence[Candidate],
+    base: Settled,
+    reference: Reference,
+) -> Weighing:
+    """Settle the most probable, and bring all to one scale: the base model's evidence in this frame."""
+    at, noise = bank.frame, bank.noise
+    level = settle_base(bank)
+    posterior = {c.key: c.log_posterior + level for c in found}
+    top = found[0].log_posterior
+    settled: dict[Key, Settled] = {}
+    for c in found[:MOST_SETTLED]:
+        if c.log_posterior < top - SETTLED_WITHIN:
+            break
+        one = base if not c.choices else settle(at, families, c.choices, noise, reference)
+        linear = bank.log_evidence(c.choices) + level if c.choices else level
+        posterior[c.key] += one.log_evidence - linear + _signs(bank, c)
+        settled[c.key] = one
+    if () not in settled:
+        settled[()] = base
+        posterior[()] += base.log_evidence - level
+    total = float(logsumexp(list(posterior.values())))
+    shares = {key: float(np.exp(posterior[key] - total)) for key in settled}
+    known = sum(shares.values())
+    order = sorted(settled, key=lambda key: -posterior[key])
+    return Weighing(
+        mechanism,
+        families,
+        at,
+        bank,
+        {c.key: c for c in found},
+        posterior,
+        tuple(Weighed(settled[key], posterior[key], shares[key] / known) for key in order),
+    )
+
+
+def settle_base(bank: Bank) -> float:
+    """Absolute log evidence of the base model as the frame's tangent has it."""
+    D = np.linalg.svd(bank.frame.jacobian * bank.frame.prior_sd, compute_uv=False)
+    return bank.base - 0.5 * float(np.sum(np.log1p(D**2)))
+
+
+def _signs(bank: Bank, c: Candidate) -> float:
+    """The bound on signs, which settling does not know."""
+    return bank.known(c.choices).sign
