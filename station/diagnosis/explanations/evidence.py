@@ -8,7 +8,7 @@ already take up is projected out by an update of rank r.  The noise level is ave
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -19,8 +19,10 @@ from station.diagnosis.explanations.frame import Frame
 from station.diagnosis.explanations.noise_level import NoiseLevel
 from station.kinematics import Real
 
-WIDTHS = (1, 2, 4, 8, 16, 32)
+WIDTHS = (1, 2, 4, 8, 16)
 """Families are kept by the number of their amplitudes, filled up with empty columns to these."""
+SHARES = (0.5, 0.25, 0.12)
+"""Of the search step, by which continuous hidden parameters are refined."""
 LOG2 = float(np.log(2.0))
 
 
@@ -77,7 +79,8 @@ class Bank:
     """All families whitened in one frame."""
 
     def __init__(self, frame: Frame, families: Sequence[Family], noise: NoiseLevel) -> None:
-        self.frame, self.families, self.noise = frame, families, noise
+        self.frame, self.noise = frame, noise
+        self.families = list(families)
         self.square = float(frame.white @ frame.white)
         self.base = float(noise(np.array(self.square)))
         self._groups = self._grouped()
@@ -162,28 +165,64 @@ class Bank:
                 continue
             wanted = range(len(group.families)) if only is None else (self._where[only][1],)
             low, high = int(group.first[wanted[0]]), int(group.first[wanted[-1] + 1])
-            value = self._values(group, slice(low, high), known)
-            for k in wanted:
-                family = group.families[k]
-                own = value[group.first[k] - low : group.first[k + 1] - low]
-                at = int(np.argmax(own))
-                peak = own.flat[at]
-                total[family] = peak + np.log(np.mean(np.exp(own - peak)))
-                at_best[family] = peak
-                best[family] = Choice(family, *divmod(at, own.shape[1]))
+            value = self._of_group(group, slice(low, high), known)
+            edges = group.first[wanted[0] : wanted[-1] + 2] - low
+            peak = np.maximum.reduceat(value.max(axis=1), edges[:-1])
+            counts = np.diff(edges)
+            relative = np.exp(value - np.repeat(peak, counts)[:, None]).sum(axis=1)
+            mean = np.add.reduceat(relative, edges[:-1]) / (counts * value.shape[1])
+            for k, family in enumerate(group.families[wanted[0] : wanted[-1] + 1]):
+                own = value[edges[k] : edges[k + 1]]
+                total[family], at_best[family] = peak[k] + np.log(mean[k]), peak[k]
+                best[family] = Choice(family, *divmod(int(own.argmax()), own.shape[1]))
         return Scan(total, tuple(best), at_best)
 
-    def _values(self, group: _Group, rows: slice, known: Known) -> Real:
-        """(V, T) log evidence over the base model's."""
-        gram, along, X = group.gram[rows], group.along[rows], group.X[rows]
-        precision = group.precision[rows]
+    def refined(self, choice: Choice, beside: Sequence[Choice]) -> Choice:
+        """The member of a choice moved to where its continuous hidden parameters are best beside others."""
+        family = self.families[choice.family]
+        if family.neighbours is None:
+            return choice
+        g, k = self._where[choice.family]
+        group = self._groups[g]
+        row = int(group.first[k]) + choice.member
+        known = self.known(beside)
+        hidden, here = family.hidden[choice.member], group.X[row : row + 1]
+        precision, signed = group.precision[row : row + 1], group.signed[row : row + 1]
+        value = float(self._values(here, precision, signed, known).max())
+        for share in SHARES:
+            near = replace(family, hidden=tuple(family.neighbours(hidden, share)))
+            columns = self.frame.whiten(self.frame.signature(near).transpose(1, 0, 2))
+            X = np.zeros((columns.shape[1], *group.X.shape[1:]))
+            X[:, : columns.shape[2]] = columns.transpose(1, 2, 0)
+            count = len(X)
+            values = self._values(X, np.repeat(precision, count, 0), np.repeat(signed, count), known).max(axis=1)
+            if values.max() > value:
+                at = int(values.argmax())
+                value, hidden, here = float(values[at]), near.hidden[at], X[at : at + 1]
+        group.X[row : row + 1] = here
+        group.gram[row], group.along[row] = here[0] @ here[0].T, here[0] @ self.frame.white
+        moved = (*family.hidden[: choice.member], hidden, *family.hidden[choice.member + 1 :])
+        self.families[choice.family] = replace(family, hidden=moved)
+        node = int(self._values(here, precision, signed, known).argmax())
+        return Choice(choice.family, choice.member, node)
+
+    def _of_group(self, group: _Group, rows: slice, known: Known) -> Real:
+        """(V, T) log evidence of members of a group over the base model's."""
+        ready = group.gram[rows], group.along[rows]
+        return self._values(group.X[rows], group.precision[rows], group.signed[rows], known, ready)
+
+    def _values(
+        self, X: Real, precision: Real, signed: Real, known: Known, ready: tuple[Real, Real] | None = None
+    ) -> Real:
+        """(V, T) log evidence of whitened columns X (V, q, K) over the base model's."""
+        gram, along = ready if ready is not None else (X @ X.transpose(0, 2, 1), X @ self.frame.white)
         if len(known.share):
             Y = (X.reshape(-1, X.shape[2]) @ known.directions).reshape(*X.shape[:2], -1)
             gram = gram - (Y * known.share) @ Y.transpose(0, 2, 1)
             along = along - Y @ (known.share * known.along)
         gain, log_det = _gain(gram, along, precision)
         out = self.noise(self.square - 2.0 * (known.gain + gain)) - self.base - 0.5 * (known.log_det + log_det)
-        signed = group.signed[rows]
+        signed = signed & (X.shape[1] == 1)
         if signed.any():
             b, S = along[signed, 0][:, None], gram[signed, 0, 0][:, None]
             out[signed] += log_ndtr(b / np.sqrt(S + precision[signed])) + LOG2

@@ -14,7 +14,7 @@ from station.records import Quantity
 Hidden = Mapping[str, float]
 Quantities = Callable[[Hidden, Real, Real], tuple[Quantity, ...]]
 """Hidden parameters, amplitudes (q,) and their covariance (q, q) in the units of the catalogue."""
-NODES = 7
+NODES = 6
 """Sizes of a family, evenly in the logarithm."""
 
 
@@ -56,6 +56,8 @@ class Family:
     """Of an unnamed error: "joint1", "joint2", "reading", "place", "time" or "approach"."""
     signed: bool = False
     """Whether its only amplitude cannot be negative."""
+    neighbours: Callable[[Hidden, float], list[Hidden]] | None = None
+    """Where hidden parameters are continuous: those about given ones, at a share of the search step."""
     repeats: bool = False
     """Whether the machine can have it more than once, with other hidden parameters."""
 

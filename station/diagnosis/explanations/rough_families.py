@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from station.diagnosis.explanations.family import (
     Family,
@@ -28,6 +29,7 @@ OVERSAMPLING = 3.0
 """Search steps per independent frequency."""
 EDGE = 2
 """Readings on either side of a step, at least."""
+MOST_DOUBTFUL = 12
 HEALING = (4, 8, 16, 32)
 """Lengths of a step that heals, in readings."""
 
@@ -46,7 +48,7 @@ def rough_families(
         *(_healing(s, f"joint{i}", i) for i in (1, 2)),
         _healing(s, "reading", None),
         _scale_cyclic(s),
-        _hysteresis(),
+        _hysteresis(s),
         _drift(),
         *_thermal(s, lengths, thermometer=thermometer),
     )
@@ -96,9 +98,16 @@ def _ripple(s: Situation, joint: int) -> Family:
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
         return [Action(f"joint{joint}", wave(s.theta[:, joint - 1], [h["per_rev"] for h in hidden]))]
 
+    def neighbours(h: Hidden, share: float) -> list[Hidden]:
+        n = h["per_rev"]
+        return [{"per_rev": max(n + sign * share * step, LOWEST_RIPPLE)} for sign in (-1.0, 1.0)]
+
     quantities = waving("amplitude_deg", 1.0 / DEG, "deg", "per_rev", "1/rev")
     part = Part("gear_cyclic", joint, None, (0, 1), quantities)
-    return Family("ripple", (part,), 0.5, sizes(3e-4 * DEG, 0.2 * DEG), hidden, actions, repeats=True)
+    return Family(
+        "ripple", (part,), 0.5, sizes(3e-4 * DEG, 0.2 * DEG), hidden, actions,
+        neighbours=neighbours, repeats=True,
+    )  # fmt: skip
 
 
 def _stepped(t_s: Real, hidden: Sequence[Hidden]) -> Real:
@@ -184,18 +193,35 @@ def _scale_cyclic(s: Situation) -> Family:
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
         return [Action("reading", wave(s.travel, [2.0 * np.pi / h["period_mm"] for h in hidden]))]
 
+    def neighbours(h: Hidden, share: float) -> list[Hidden]:
+        f, step = 1.0 / h["period_mm"], share / span / OVERSAMPLING
+        return [{"period_mm": 1.0 / max(f + sign * step, 1.0 / span)} for sign in (-1.0, 1.0)]
+
     part = Part("scale_cyclic", None, None, (0, 1), waving("amplitude_mm", 1.0, "mm", "period_mm", "mm"))
-    return Family("scale ripple", (part,), 1.0, sizes(5e-4, 0.3), hidden, actions, repeats=True)
+    return Family(
+        "scale ripple", (part,), 1.0, sizes(5e-4, 0.3), hidden, actions, neighbours=neighbours, repeats=True
+    )
 
 
-def _hysteresis() -> Family:
+def _hysteresis(s: Situation) -> Family:
+    """Where the slider turned round on the way, or the way is unknown, it may hang on either side.
+
+    Those readings have an amplitude of their own, as large as the width.
+    """
+    moments = s.t_s[_doubtful(s)][:MOST_DOUBTFUL]
+
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
-        ways = [0 if "last_motion" in h else 1 for h in hidden]
-        return [Action("reading", -0.5 * s.slider[:, ways].T[:, :, None])]
+        own = 0.5 * (s.t_s[:, None] == moments)
+        sure = np.where(own.any(axis=1), 0.0, -0.5 * s.slider[:, 1])
+        return [Action("reading", np.column_stack([sure, own])[None])]
 
     part = Part("scale_hysteresis", None, None, (0,), scaled("width_mm", 1.0, "mm"))
-    hidden = ({"last_motion": 1.0}, {"net_travel": 1.0})
-    return Family("hysteresis", (part,), 1.0, sizes(1e-3, 0.3), hidden, actions, signed=True)
+    return Family("hysteresis", (part,), 1.0, sizes(1e-3, 0.3), ({},), actions)
+
+
+def _doubtful(s: Situation) -> NDArray[np.bool_]:
+    """(K,) readings before which last motion and net travel differ or are unknown."""
+    return np.asarray((s.slider[:, 0] != s.slider[:, 1]) | (s.slider[:, 0] == 0.0))
 
 
 def _drift() -> Family:

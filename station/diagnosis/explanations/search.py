@@ -18,12 +18,14 @@ from station.kinematics import Real
 
 BY_COUNT = (0.35, 0.45, 0.15, 0.05)
 """Prior probability of so many errors; a natural pair is one."""
-FIRST, SECOND = 20, 10
+FIRST, SECOND = 14, 6
 """Most sets of one and of two errors beside which others are looked for."""
 WITHIN = 25.0
 """Log of probability below the best beyond which a set is not looked beside,"""
 POLISHED_WITHIN = 7.0
 """and within which its evidence is settled."""
+REFINED_WITHIN = 12.0
+"""Log of evidence below the best of a scan within which continuous hidden parameters are refined."""
 MOST_POLISHED = 24
 NOTHING_FOUND = 6.0
 """Log of odds by which the best single error must beat the base model before pairs are looked for."""
@@ -62,6 +64,7 @@ class Search:
         self._log_weight: Real = np.log(weight / weight.sum())
         self.found: dict[Key, Candidate] = {(): Candidate((), 0.0, float(np.log(BY_COUNT[0])))}
         self._looked: set[Key] = set()
+        self._polished_keys: set[Key] = set()
 
     def run(self, seeds: Sequence[tuple[Choice, ...]] = ()) -> list[Candidate]:
         """Most probable first; `seeds` are sets to look beside as well."""
@@ -72,9 +75,9 @@ class Search:
             for single in singles:
                 self._look(single)
             for seed in seeds:
-                self._look(Candidate(seed, self.bank.log_evidence(seed), 0.0))
+                self._look(self._polished(Candidate(seed, 0.0, 0.0)))
             for pair in self._best(2, SECOND):
-                self._look(pair)
+                self._look(self._settled(pair))
             self._exchange()
         self._polish()
         return sorted(self.found.values(), key=lambda c: -c.log_posterior)
@@ -102,9 +105,26 @@ class Search:
         self._looked.add(key)
         scan = self.bank.scan(beside.choices)
         price = beside.log_evidence - self.bank.log_evidence(beside.choices)
+        scan = self._refined(scan, beside.choices)
         for family in range(len(self.families)):
             if self._fits(key, family):
                 self._add(beside.choices, scan, family, price)
+
+    def _refined(self, scan: Scan, beside: tuple[Choice, ...]) -> Scan:
+        """The promising ones of a scan at the best values of their continuous hidden parameters."""
+        top = float(scan.total.max())
+        if top < NOTHING_FOUND:
+            return scan
+        best, total, at_best = list(scan.best), scan.total.copy(), scan.at_best.copy()
+        for family, choice in enumerate(scan.best):
+            searched = self.families[family].neighbours is not None
+            if not searched or choice is None or total[family] < top - REFINED_WITHIN:
+                continue
+            self.bank.refined(choice, beside)
+            again = self.bank.scan(beside, only=family)
+            best[family] = again.best[family]
+            total[family], at_best[family] = again.total[family], again.at_best[family]
+        return Scan(total, tuple(best), at_best)
 
     def _add(self, beside: tuple[Choice, ...], scan: Scan, family: int, price: float) -> None:
         choice = scan.best[family]
@@ -128,6 +148,7 @@ class Search:
         for _ in range(EXCHANGES):
             best = max(self.found.values(), key=lambda c: c.log_posterior)
             looked = len(self._looked)
+            best = self._settled(best)
             for left_out in range(len(best.choices)):
                 rest = tuple(c for k, c in enumerate(best.choices) if k != left_out)
                 known = self.found.get(tuple(sorted(c.family for c in rest)))
@@ -138,12 +159,24 @@ class Search:
                 return
 
     def _polish(self) -> None:
-        """Settle members and sizes of the best sets, each given the others, and their prices."""
-        top = max(c.log_posterior for c in self.found.values())
-        best = sorted(self.found.values(), key=lambda c: -c.log_posterior)[:MOST_POLISHED]
-        for candidate in best:
-            if len(candidate.choices) > 1 and candidate.log_posterior > top - POLISHED_WITHIN:
-                self.found[candidate.key] = self._polished(candidate)
+        """Settle the best sets."""
+        for _ in range(MOST_POLISHED):
+            open_ = [c for c in self.found.values() if len(c.choices) > 1 and c.key not in self._polished_keys]
+            if not open_:
+                return
+            top = max(c.log_posterior for c in self.found.values())
+            best = max(open_, key=lambda c: c.log_posterior)
+            if best.log_posterior < top - POLISHED_WITHIN:
+                return
+            self._settled(best)
+
+    def _settled(self, candidate: Candidate) -> Candidate:
+        """Members and sizes of a set, each given the others, and their prices."""
+        if len(candidate.choices) < 2 or candidate.key in self._polished_keys:
+            return self.found[candidate.key]
+        self._polished_keys.add(candidate.key)
+        self.found[candidate.key] = self._polished(candidate)
+        return self.found[candidate.key]
 
     def _polished(self, candidate: Candidate) -> Candidate:
         choices = list(candidate.choices)
@@ -156,6 +189,9 @@ class Search:
                 if new is None:
                     continue
                 moved |= new != old
+                new = self.bank.refined(new, rest)
+                scan = self.bank.scan(rest, only=old.family)
+                new = scan.best[old.family] or new
                 choices[k] = new
                 prices += float(scan.total[old.family] - scan.at_best[old.family])
             if not moved:

@@ -7,18 +7,19 @@ independent amplitudes of unit variance then have its covariance.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from station.diagnosis.explanations.family import Family, Hidden
+from station.diagnosis.explanations.family import Family, Hidden, sizes
 from station.diagnosis.explanations.rough_families import DEG
 from station.diagnosis.explanations.situation import Action, Situation
 from station.diagnosis.explanations.structured_families import unnamed
-from station.diagnosis.explanations.family import sizes
 from station.kinematics import Real
 
-NEGLIGIBLE = 1e-5
+NEGLIGIBLE = 3e-4
 """Eigenvalues below this share of the largest are left out."""
+MOST_SHAPES = 16
 Shapes = Callable[[Situation], Real]
 """(K, q)"""
 
@@ -35,7 +36,7 @@ def processes(s: Situation) -> tuple[Family, ...]:
         ),
         *(
             _process("reading", "smooth travel", "reading", weight, mm, _over_travel(s, h))
-            for h, weight in ((1.0, 0.2), (0.4, 0.3), (0.15, 0.3), (0.06, 0.2))
+            for h, weight in ((1.0, 0.2), (0.4, 0.3), (0.15, 0.3), (0.08, 0.2))
         ),
         *(
             _process("reading", "smooth place", "place", 0.3, mm, _over_place(h, n))
@@ -78,7 +79,7 @@ def _induced(points: Real, scale: Real) -> Callable[[Real], Real]:
     """x (K, d) -> (K, q) shapes of a process with length scales `scale` (d,) from inducing points (M, d)."""
     z = points / scale
     values, vectors = np.linalg.eigh(_kernel(z, z))
-    kept = values > NEGLIGIBLE * values[-1]
+    kept = values > max(NEGLIGIBLE * values[-1], np.sort(values)[-min(MOST_SHAPES, len(values))] * 0.999)
     root = vectors[:, kept] / np.sqrt(values[kept])
     return lambda x: _kernel(x / scale, z) @ root
 
@@ -113,11 +114,10 @@ def _over_time(s: Situation, h: float) -> Shapes:
 
 
 def _wandering(s: Situation) -> Shapes:
-    """A random walk in time: hat functions' steps at evenly spaced moments."""
-    low, high = float(s.t_s.min()), float(s.t_s.max())
-    edges = np.linspace(low, high, 21)
-    width = edges[1] - edges[0] or 1.0
-    return lambda s: np.clip((s.t_s[:, None] - edges[:-1]) / width, 0.0, 1.0) / np.sqrt(20.0)
+    """A random walk in time, by the largest waves of its expansion after Karhunen and Loeve."""
+    low, span = float(s.t_s.min()), float(np.ptp(s.t_s)) or 1.0
+    rate = (np.arange(MOST_SHAPES) + 0.5) * np.pi
+    return lambda s: np.sqrt(2.0) * np.sin(rate * ((s.t_s - low) / span)[:, None]) / rate
 
 
 def _over_place(h: float, count: tuple[int, int]) -> Shapes:
@@ -188,7 +188,16 @@ def _patch(kind: str, depends_on: str, by: int | None, weight: float) -> Family:
             spot = spot * (s.slider[:, 0] if by == 2 else s.approach[:, by])
         return [Action("reading", spot[:, :, None])]
 
-    return unnamed(kind, depends_on, weight, sizes(0.003, 1.0), hidden, actions)
+    def neighbours(h: Hidden, share: float) -> list[Hidden]:
+        moved = [
+            {"u": h["u"] + a * 0.2 * share, "v": h["v"] + b * 0.5 * share, "radius": h["radius"]}
+            for a, b in ((-1, 0), (1, 0), (0, -1), (0, 1))
+        ]
+        return [*moved, *({**h, "radius": h["radius"] * factor} for factor in (0.5**share, 2.0**share))]
+
+    return replace(
+        unnamed(kind, depends_on, weight, sizes(0.003, 1.0), hidden, actions), neighbours=neighbours
+    )
 
 
 def _bump(s: Situation) -> Family:
@@ -204,4 +213,11 @@ def _bump(s: Situation) -> Family:
         at = np.array([[h["at_mm"], h["width_mm"]] for h in hidden])
         return [Action("reading", np.exp(-0.5 * ((s.travel - at[:, :1]) / at[:, 1:]) ** 2)[:, :, None])]
 
-    return unnamed("bump", "reading", 0.4, sizes(0.003, 1.0), hidden, actions)
+    def neighbours(h: Hidden, share: float) -> list[Hidden]:
+        at, width = h["at_mm"], h["width_mm"]
+        moved = [{**h, "at_mm": at + sign * width * share} for sign in (-1.0, 1.0)]
+        return [*moved, *({**h, "width_mm": width * factor} for factor in (0.5**share, 2.0**share))]
+
+    return replace(
+        unnamed("bump", "reading", 0.4, sizes(0.003, 1.0), hidden, actions), neighbours=neighbours
+    )

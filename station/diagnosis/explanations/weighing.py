@@ -72,6 +72,7 @@ def weigh(
         bank = Bank(at, families, noise)
         search = Search(bank)
         found = search.run([out.best.choices] if out is not None and out.best.choices else ())
+        families = tuple(bank.families)
         out = _weighed(mechanism, families, bank, found, base, reference)
         best = out.best
         if best.bend < ANEW or not best.choices:
@@ -83,7 +84,7 @@ def weigh(
 
 def _weighed(
     mechanism: FiveBar,
-    families: tuple[Family, ...],
+    families: Sequence[Family],
     bank: Bank,
     found: Sequence[Candidate],
     base: Settled,
@@ -111,7 +112,7 @@ def _weighed(
     order = sorted(settled, key=lambda key: -posterior[key])
     return Weighing(
         mechanism,
-        families,
+        tuple(families),
         at,
         bank,
         {c.key: c for c in found},
