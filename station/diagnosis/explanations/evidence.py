@@ -123,6 +123,12 @@ class Bank:
         member = group.X[group.first[k] + choice.member]
         return member[np.any(member != 0.0, axis=1)].T
 
+    def members(self, family: int) -> Real:
+        """(V, q, K) whitened columns of a family."""
+        g, k = self._where[family]
+        group = self._groups[g]
+        return group.X[group.first[k] : group.first[k + 1], : self.families[family].width]
+
     def known(self, choices: Sequence[Choice]) -> Known:
         """What these errors take up together."""
         K = len(self.frame.row_sd)

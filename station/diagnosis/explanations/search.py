@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -44,11 +45,11 @@ class Candidate:
     """Averaged over members and sizes, over the base model's."""
     log_prior: float
 
-    @property
+    @cached_property
     def key(self) -> Key:
         return tuple(sorted(c.family for c in self.choices))
 
-    @property
+    @cached_property
     def log_posterior(self) -> float:
         """Up to a constant that all share."""
         return self.log_evidence + self.log_prior
@@ -160,15 +161,16 @@ class Search:
 
     def _polish(self) -> None:
         """Settle the best sets."""
+        best = sorted(self.found.values(), key=lambda c: -c.log_posterior)[: 2 * MOST_POLISHED]
         for _ in range(MOST_POLISHED):
-            open_ = [c for c in self.found.values() if len(c.choices) > 1 and c.key not in self._polished_keys]
-            if not open_:
+            best.sort(key=lambda c: -c.log_posterior)
+            limit = best[0].log_posterior - POLISHED_WITHIN
+            for k, c in enumerate(best):
+                if len(c.choices) > 1 and c.key not in self._polished_keys and c.log_posterior > limit:
+                    best[k] = self._settled(c)
+                    break
+            else:
                 return
-            top = max(c.log_posterior for c in self.found.values())
-            best = max(open_, key=lambda c: c.log_posterior)
-            if best.log_posterior < top - POLISHED_WITHIN:
-                return
-            self._settled(best)
 
     def _settled(self, candidate: Candidate) -> Candidate:
         """Members and sizes of a set, each given the others, and their prices."""

@@ -41,6 +41,7 @@ class Weighing:
     """What the readings say of all explanations."""
 
     mechanism: FiveBar
+    reference: Reference
     families: tuple[Family, ...]
     frame: Frame
     bank: Bank
@@ -50,10 +51,18 @@ class Weighing:
     """Absolute, up to a constant of the readings; of settled explanations as settled."""
     settled: tuple[Weighed, ...]
     """Most probable first; probabilities among themselves."""
+    by_key: dict[Key, Settled]
 
     @property
     def best(self) -> Settled:
         return self.settled[0].settled
+
+    def settle(self, key: Key) -> Settled:
+        """One explanation by its families, settled now where it was not yet."""
+        if key not in self.by_key:
+            choices = self.candidates[key].choices
+            self.by_key[key] = settle(self.frame, self.families, choices, self.bank.noise, self.reference)
+        return self.by_key[key]
 
 
 def weigh(
@@ -112,12 +121,14 @@ def _weighed(
     order = sorted(settled, key=lambda key: -posterior[key])
     return Weighing(
         mechanism,
+        reference,
         tuple(families),
         at,
         bank,
         {c.key: c for c in found},
         posterior,
         tuple(Weighed(settled[key], posterior[key], shares[key] / known) for key in order),
+        settled,
     )
 
 
