@@ -3,9 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
-
-import numpy as np
 
 from station.diagnosis.explanations.family import Family
 from station.diagnosis.explanations.rough_families import rough_families
@@ -16,18 +13,10 @@ from station.diagnosis.explanations.structured_families import structured_famili
 
 
 def catalogue(s: Situation, lengths: Mapping[str, float], *, thermometer: bool) -> tuple[Family, ...]:
-    """For the readings of `s`; `lengths` nominal by name, mm; `thermometer` whether a temperature was recorded.
-
-    Families that cannot show in these readings (the approach was not recorded) are left out.
-    """
-    families = (
+    """For the readings of `s`; `lengths` nominal by name, mm; `thermometer` whether a temperature was recorded."""
+    return (
         *rough_families(s, lengths, thermometer=thermometer),
         *smooth_families(s),
         *structured_families(),
         *processes(s),
-    )
-    return tuple(
-        replace(f, width=f.columns(s, 0).shape[2])
-        for f in families
-        if f.hidden and np.ptp(f.columns(s, 0), axis=1).any()
     )

@@ -19,6 +19,7 @@ from station.diagnosis.explanations.frame import Frame
 from station.diagnosis.explanations.noise_level import NoiseLevel
 from station.kinematics import Real
 
+HOPELESS = 1e6
 WIDTHS = (1, 2, 4, 8, 16)
 """Families are kept by the number of their amplitudes, filled up with empty columns to these."""
 SHARES = (0.5, 0.25, 0.12)
@@ -92,6 +93,7 @@ class Bank:
         by_width: dict[int, list[tuple[int, Real]]] = {}
         for index, family in enumerate(self.families):
             columns = self.frame.signature(family)
+            self.families[index] = replace(family, width=columns.shape[2])
             width = next(w for w in WIDTHS if w >= columns.shape[2])
             by_width.setdefault(width, []).append((index, columns))
         out = []
@@ -175,11 +177,12 @@ class Bank:
             edges = group.first[wanted[0] : wanted[-1] + 2] - low
             peak = np.maximum.reduceat(value.max(axis=1), edges[:-1])
             counts = np.diff(edges)
+            peak = np.where(np.isfinite(peak), peak, -HOPELESS)
             relative = np.exp(value - np.repeat(peak, counts)[:, None]).sum(axis=1)
             mean = np.add.reduceat(relative, edges[:-1]) / (counts * value.shape[1])
             for k, family in enumerate(group.families[wanted[0] : wanted[-1] + 1]):
                 own = value[edges[k] : edges[k + 1]]
-                total[family], at_best[family] = peak[k] + np.log(mean[k]), peak[k]
+                total[family], at_best[family] = peak[k] + np.log(mean[k] + 1e-300), peak[k]
                 best[family] = Choice(family, *divmod(int(own.argmax()), own.shape[1]))
         return Scan(total, tuple(best), at_best)
 
@@ -222,6 +225,7 @@ class Bank:
     ) -> Real:
         """(V, T) log evidence of whitened columns X (V, q, K) over the base model's."""
         gram, along = ready if ready is not None else (X @ X.transpose(0, 2, 1), X @ self.frame.white)
+        shows = gram[:, 0, 0] > 0.0
         if len(known.share):
             Y = (X.reshape(-1, X.shape[2]) @ known.directions).reshape(*X.shape[:2], -1)
             gram = gram - (Y * known.share) @ Y.transpose(0, 2, 1)
@@ -232,6 +236,7 @@ class Bank:
         if signed.any():
             b, S = along[signed, 0][:, None], gram[signed, 0, 0][:, None]
             out[signed] += log_ndtr(b / np.sqrt(S + precision[signed])) + LOG2
+        out[~shows] = -np.inf
         return np.asarray(out + known.sign)
 
 

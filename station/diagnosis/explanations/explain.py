@@ -7,23 +7,26 @@ from functools import cached_property
 
 import numpy as np
 
-from station import noise
 from station.conditions import Reference, reference_of
-from station.diagnosis.explanations.cleaning import FAR_OFF, WELL_PREDICTED, Mask, judged, solved, suspects
+from station.diagnosis.explanations.cleaning import FAR_OFF, WELL_PREDICTED, judged, solved, suspects
 from station.diagnosis.explanations.family import Part
+from station.diagnosis.explanations.frame import frame
 from station.diagnosis.explanations.mixture import Mixture, PositionError, mixture
-from station.diagnosis.explanations.noise_level import specified
+from station.diagnosis.explanations.noise_level import NoiseLevel, specified
 from station.diagnosis.explanations.search import Key
+from station.diagnosis.explanations.settle import settle
 from station.diagnosis.explanations.statements import Statements, statements
 from station.diagnosis.explanations.validation import Validation, together, validate
 from station.diagnosis.explanations.verdict import Decision, Finding, decide, findings
 from station.diagnosis.explanations.weighing import Weighing, weigh
-from station.five_bar import FiveBar
+from station.five_bar import SCALE_SD_MM, FiveBar
 from station.kinematics import Complex, Real
 from station.measurements import Measurements
 from station.records import Quantity
 
 SHOWN = 0.01
+MOSTLY_BASE = 0.5
+"""Probability of the base model from which on it alone is validated."""
 MOST_LATE = 0.05
 """Share of readings that may be left out after weighing."""
 
@@ -116,28 +119,36 @@ def explain(mechanism: FiveBar, fresh: Measurements | None = None) -> Explanatio
     :raises NotConvergedError: the base model cannot be fitted, even without glitches.
     :raises InputRefused: fresh readings of a mount that the others do not have.
     """
-    reference = reference_of(mechanism.measurements)
-    out = suspects(mechanism, reference)
-    first = mechanism.of(mechanism.measurements.take(~out))
-    both = first if fresh is None else mechanism.of(together(first.measurements, fresh))
-    weighing, late = _weighed(both, reference)
-    lost = [i for i, off in zip(mechanism.measurements.ids, out, strict=True) if off]
-    lost += [i for i, off in zip(both.measurements.ids, late, strict=True) if off]
+    measurements = mechanism.measurements
+    reference = reference_of(measurements)
+    both = mechanism if fresh is None else mechanism.of(together(measurements, fresh))
+    weighing = _weighed(both, reference)
     said = statements(weighing)
-    validation = None if fresh is None else _validated(first, reference, fresh, weighing)
+    validation = None
+    if fresh is not None:
+        plain = said.base >= MOSTLY_BASE
+        validation = _validated(both, reference, len(measurements), weighing, plain)
     named = findings(said)
+    held = set(weighing.mechanism.measurements.ids)
     return ExplanationSet(
-        weighing.mechanism, weighing, said, validation, named, decide(said, named, validation), tuple(lost)
-    )
+        weighing.mechanism, weighing, said, validation, named, decide(said, named, validation),
+        tuple(i for i in both.measurements.ids if i not in held),
+    )  # fmt: skip
 
 
-def _weighed(mechanism: FiveBar, reference: Reference) -> tuple[Weighing, Mask]:
-    """Explanations of readings, once more without those that are far off the best one."""
-    weighing = _once(mechanism, reference)
-    off = judged(mechanism, reference, weighing.best, weighing.frame.row_sd) > FAR_OFF
-    if not off.any() or off.sum() > MOST_LATE * len(off):
-        return weighing, np.zeros(len(off), dtype=bool)
-    return _once(mechanism.of(mechanism.measurements.take(~off)), reference), off
+def _weighed(mechanism: FiveBar, reference: Reference) -> Weighing:
+    """Explanations of readings without glitches: what disagrees with everything else, or with the best of them.
+
+    What looked like a glitch and is predicted well by what was found is taken back.
+    """
+    measurements = mechanism.measurements
+    out = suspects(mechanism, reference)
+    weighing = _once(mechanism.of(measurements.take(~out)) if out.any() else mechanism, reference)
+    off = judged(mechanism, reference, weighing.best, specified_as(weighing, mechanism))
+    again = np.where(out, off > WELL_PREDICTED, off > FAR_OFF)
+    if (again == out).all() or again.sum() > out.sum() + MOST_LATE * len(out):
+        return weighing
+    return _once(mechanism.of(measurements.take(~again)), reference)
 
 
 def _once(mechanism: FiveBar, reference: Reference) -> Weighing:
@@ -146,22 +157,33 @@ def _once(mechanism: FiveBar, reference: Reference) -> Weighing:
     return weigh(mechanism, start.x, reference, row_sd)
 
 
-def _validated(first: FiveBar, reference: Reference, fresh: Measurements, weighing: Weighing) -> Validation:
-    """Fresh readings against what the earlier ones alone say.
+def _validated(both: FiveBar, reference: Reference, earlier: int, weighing: Weighing, plain: bool) -> Validation:
+    """The fresh readings, which come after so many `earlier` ones, against what those alone say.
 
-    The base model needs no search; anything else is searched for without the fresh readings.
+    Where the base model is adequate (`plain`) it is fitted to them; it needs no search.  Anything else is searched
+    for anew without the fresh readings, linearised about the best explanation of all.
     """
-    earlier = _once(first, reference)
-    weighed = [(w.settled, w.probability) for w in earlier.settled if w.probability >= SHOWN]
-    fresh = together(first.measurements, fresh).take(np.arange(len(first.measurements), len(first.measurements) + len(fresh)))
-    later = first.of(fresh)
-    row_sd = _fresh_sd(earlier, later)
-    return validate(first, reference, weighed, fresh, row_sd)
+    rows = np.isin(np.array(both.measurements.ids, dtype=object), weighing.mechanism.measurements.ids)
+    order = np.arange(len(rows))
+    first = both.of(both.measurements.take(order[rows & (order < earlier)]))
+    fresh = both.measurements.take(order >= earlier)
+    row_sd = specified_as(weighing, both)
+    best = weighing.best
+    p = best.x[: best.size]
+    if plain:
+        base = frame(first, p, reference, row_sd[: earlier][rows[:earlier]])
+        noise_level = NoiseLevel(len(first.measurements), base.parameters_taken)
+        weighed = [(settle(base, (), (), noise_level, reference), 1.0)]
+    else:
+        found = weigh(
+            first, p, reference, row_sd[:earlier][rows[:earlier]], weighing.families, best.present
+        )
+        weighed = [(w.settled, w.probability) for w in found.settled if w.probability >= SHOWN]
+    return validate(first, reference, weighed, fresh, row_sd[earlier:])
 
 
-def _fresh_sd(earlier: Weighing, later: FiveBar) -> Real:
-    """(F,) specified noise of fresh readings, of the kind that the earlier ones have."""
-    kind = earlier.mechanism.row_sd
-    if np.array_equal(earlier.frame.row_sd, kind):
-        return later.row_sd
-    return specified(later, np.zeros(len(later.measurements)))
+def specified_as(weighing: Weighing, mechanism: FiveBar) -> Real:
+    """(K,) specified noise of other readings, of the kind that those weighed have, mm."""
+    if np.array_equal(weighing.frame.row_sd, weighing.mechanism.row_sd):
+        return mechanism.row_sd
+    return np.asarray(SCALE_SD_MM / np.sqrt(mechanism.measurements.samples))

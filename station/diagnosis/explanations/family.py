@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -62,7 +63,7 @@ class Family:
     """Whether the machine can have it more than once, with other hidden parameters."""
 
     width: int = 0
-    """Number q of amplitudes; counted by `catalogue`."""
+    """Number q of amplitudes; counted by `Bank`."""
 
     @property
     def named(self) -> bool:
@@ -87,9 +88,12 @@ class Family:
         return self.hidden if member is None else self.hidden[member : member + 1]
 
 
-def sizes(low: float, high: float, nodes: int = NODES) -> Real:
+@cache
+def sizes(low: float, high: float) -> Real:
     """(T,) from `low` to `high`, evenly in the logarithm."""
-    return np.geomspace(low, high, nodes)
+    out = np.geomspace(low, high, NODES)
+    out.setflags(write=False)
+    return out
 
 
 def alone(basis: Real) -> Real:

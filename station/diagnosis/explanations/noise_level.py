@@ -5,17 +5,27 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
-from scipy.special import logsumexp
 
 from station import noise
 from station.five_bar import SCALE_SD_MM, FiveBar
 from station.kinematics import Real
 
-LEVELS = np.geomspace(0.6, 12.0, 60)
+LEVELS = np.geomspace(0.6, 12.0, 48)
 """Noise over the specification."""
 USUAL_SD, POOR_SD = 0.07, 0.5
 """Of the logarithm of the level: of most stations, and of those whose head is worse than specified."""
 POOR_SHARE, POOR_LEVEL = 0.1, 1.2
+
+
+def _log_prior() -> Real:
+    at = np.log(LEVELS)
+    usual = np.exp(-0.5 * (at / USUAL_SD) ** 2) / USUAL_SD
+    poor = np.exp(-0.5 * ((at - np.log(POOR_LEVEL)) / POOR_SD) ** 2) / POOR_SD
+    prior = (1.0 - POOR_SHARE) * usual + POOR_SHARE * poor
+    return np.asarray(np.log(prior / prior.sum()))
+
+
+LOG_PRIOR = _log_prior()
 LOUD = 1.6
 """Repeats that scatter so many times more than the head show that feedback leaves something open."""
 WANDERING = 1.5
@@ -37,20 +47,19 @@ class NoiseLevel:
     def level(self, q: float) -> float:
         """Posterior mean level at q."""
         weight = self._logs(np.array([q]))[0]
-        return float(np.sum(np.exp(weight - logsumexp(weight)) * LEVELS))
+        weight = np.exp(weight - weight.max())
+        return float(weight @ LEVELS / weight.sum())
 
     @cached_property
     def _table(self) -> tuple[Real, Real]:
-        grid = np.concatenate([[0.0], np.geomspace(0.05 * self._dof, 1e9, 2500)])
-        return grid, logsumexp(self._logs(grid), axis=1)
+        grid = np.concatenate([[0.0], np.geomspace(0.05 * self._dof, 1e9, 1500)])
+        logs = self._logs(grid)
+        peak = logs.max(axis=1)
+        return grid, peak + np.log(np.exp(logs - peak[:, None]).sum(axis=1))
 
     def _logs(self, q: Real) -> Real:
         """(Q, levels)"""
-        at = np.log(LEVELS)
-        usual = np.exp(-0.5 * (at / USUAL_SD) ** 2) / USUAL_SD
-        poor = np.exp(-0.5 * ((at - np.log(POOR_LEVEL)) / POOR_SD) ** 2) / POOR_SD
-        prior = (1.0 - POOR_SHARE) * usual + POOR_SHARE * poor
-        return np.asarray(np.log(prior / prior.sum()) - self._dof * at - 0.5 * q[:, None] / LEVELS**2)
+        return np.asarray(LOG_PRIOR - self._dof * np.log(LEVELS) - 0.5 * q[:, None] / LEVELS**2)
 
 
 def specified(mechanism: FiveBar, residual_mm: Real) -> Real:

@@ -25,11 +25,17 @@ WITHIN = 25.0
 """Log of probability below the best beyond which a set is not looked beside,"""
 POLISHED_WITHIN = 7.0
 """and within which its evidence is settled."""
-REFINED_WITHIN = 12.0
-"""Log of evidence below the best of a scan within which continuous hidden parameters are refined."""
+REFINED = 4
+"""Of a scan, the most families whose continuous hidden parameters are refined,"""
+REFINED_WITHIN = 10.0
+"""and the log of probability below the best within which they are."""
 MOST_POLISHED = 24
 NOTHING_FOUND = 6.0
 """Log of odds by which the best single error must beat the base model before pairs are looked for."""
+ALONE_WITHIN = 20.0
+"""Log of probability below a single error that leaves noise only, within which others are looked beside."""
+NOISY = 1.25
+"""Noise over the specification that is no more than noise."""
 EXCHANGES = 4
 SWEEPS = 2
 
@@ -71,10 +77,12 @@ class Search:
         """Most probable first; `seeds` are sets to look beside as well."""
         self._look(Candidate((), 0.0, 0.0))
         singles = self._best(1, FIRST)
+        alone = bool(singles) and self._leaves_noise(singles[0])
         worth = bool(singles) and singles[0].log_posterior > self.found[()].log_posterior + np.log(0.02)
         if worth and singles[0].log_evidence > NOTHING_FOUND:
-            for single in singles:
-                self._look(single)
+            for k, single in enumerate(singles):
+                if k == 0 or not alone or single.log_posterior > singles[0].log_posterior - ALONE_WITHIN:
+                    self._look(single)
             for seed in seeds:
                 self._look(self._polished(Candidate(seed, 0.0, 0.0)))
             for pair in self._best(2, SECOND):
@@ -82,6 +90,11 @@ class Search:
             self._exchange()
         self._polish()
         return sorted(self.found.values(), key=lambda c: -c.log_posterior)
+
+    def _leaves_noise(self, single: Candidate) -> bool:
+        """Whether one error leaves about as much as the noise, so that only what rivals it is looked beside."""
+        bank = self.bank
+        return bank.noise.level(bank.square - 2.0 * bank.known(single.choices).gain) < NOISY
 
     def _best(self, count: int, most: int) -> list[Candidate]:
         sets = sorted((c for c in self.found.values() if len(c.choices) == count), key=lambda c: -c.log_posterior)
@@ -117,9 +130,11 @@ class Search:
         if top < NOTHING_FOUND:
             return scan
         best, total, at_best = list(scan.best), scan.total.copy(), scan.at_best.copy()
-        for family, choice in enumerate(scan.best):
+        weighed = scan.total + self._log_weight
+        for family in np.argsort(-weighed)[:REFINED]:
+            choice = scan.best[family]
             searched = self.families[family].neighbours is not None
-            if not searched or choice is None or total[family] < top - REFINED_WITHIN:
+            if not searched or choice is None or weighed[family] < weighed.max() - REFINED_WITHIN:
                 continue
             self.bank.refined(choice, beside)
             again = self.bank.scan(beside, only=family)

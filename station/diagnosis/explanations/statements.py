@@ -18,7 +18,7 @@ from station.diagnosis.explanations.evidence import Choice
 from station.diagnosis.explanations.search import Key
 from station.diagnosis.explanations.weighing import Weighing
 
-SUPPORTED = 1.5
+SUPPORTED = 3.0
 """Log of the evidence that an error must add before it is spoken of."""
 NEGLIGIBLE = 1e-5
 PartKey = tuple[str, int | None, str | None]

@@ -113,7 +113,10 @@ def findings(statements: Statements) -> tuple[Finding, ...]:
     ):
         if not family.named:
             continue
-        alike = statements.aliases(settled.choices, index)
+        own_keys = family.keys
+        alike = tuple(
+            k for k in statements.aliases(settled.choices, index) if not own_keys <= weighing.families[k].keys
+        )
         alias_keys = tuple(sorted(set().union(*(weighing.families[k].keys for k in alike)), key=str))
         covariance = settled.covariance[where, where]
         for part in family.parts:

@@ -12,15 +12,15 @@ from station.conditions import Reference
 from station.diagnosis.explanations.catalogue import catalogue
 from station.diagnosis.explanations.evidence import Bank
 from station.diagnosis.explanations.family import Family
-from station.diagnosis.explanations.frame import Frame, frame
+from station.diagnosis.explanations.frame import Frame, Present, frame
 from station.diagnosis.explanations.noise_level import NoiseLevel
 from station.diagnosis.explanations.search import Candidate, Key, Search
 from station.diagnosis.explanations.settle import Settled, settle
 from station.five_bar import FiveBar, lengths
 from station.kinematics import Real
 
-MOST_SETTLED = 16
-SETTLED_WITHIN = 6.0
+MOST_SETTLED = 12
+SETTLED_WITHIN = 4.5
 """Log of probability below the best within which an explanation is settled."""
 ANEW = 1.0
 """Standard deviations by which the best explanation may differ from its tangent before all is linearised anew."""
@@ -66,16 +66,26 @@ class Weighing:
 
 
 def weigh(
-    mechanism: FiveBar, p: Real, reference: Reference, row_sd: Real, families: Sequence[Family] | None = None
+    mechanism: FiveBar,
+    p: Real,
+    reference: Reference,
+    row_sd: Real,
+    families: Sequence[Family] = (),
+    present: Sequence[Present] = (),
 ) -> Weighing:
-    """Explanations of the readings of `mechanism`, linearised at base parameters p (P,) first."""
+    """Explanations of the readings of `mechanism`, linearised at base parameters p (P,) first.
+
+    With `present` errors the first tangent is taken there, at p as well.
+    """
     at = frame(mechanism, p, reference, row_sd)
-    if families is None:
+    if not families:
         recorded = mechanism.measurements.temperature_c is not None
         families = catalogue(at.situation, lengths(mechanism.robot), thermometer=recorded)
     families = tuple(families)
     noise = NoiseLevel(len(row_sd), at.parameters_taken)
     base = settle(at, families, (), noise, reference)
+    if present:
+        at = frame(mechanism, p, reference, row_sd, present)
     out: Weighing | None = None
     for _ in range(ROUNDS):
         bank = Bank(at, families, noise)
