@@ -170,13 +170,14 @@ def _validated(both: FiveBar, reference: Reference, earlier: int, weighing: Weig
     row_sd = specified_as(weighing, both)
     best = weighing.best
     p = best.x[: best.size]
+    present = () if weighing.wanders else best.present
     if plain:
         base = frame(first, p, reference, row_sd[: earlier][rows[:earlier]])
         noise_level = NoiseLevel(len(first.measurements), base.parameters_taken)
         weighed = [(settle(base, (), (), noise_level, reference), 1.0)]
     else:
         found = weigh(
-            first, p, reference, row_sd[:earlier][rows[:earlier]], weighing.families, best.present
+            first, p, reference, row_sd[:earlier][rows[:earlier]], weighing.bank.families, present
         )
         weighed = [(w.settled, w.probability) for w in found.settled if w.probability >= SHOWN]
     return validate(first, reference, weighed, fresh, row_sd[earlier:])

@@ -25,10 +25,8 @@ WITHIN = 25.0
 """Log of probability below the best beyond which a set is not looked beside,"""
 POLISHED_WITHIN = 7.0
 """and within which its evidence is settled."""
-REFINED = 4
-"""Of a scan, the most families whose continuous hidden parameters are refined,"""
-REFINED_WITHIN = 10.0
-"""and the log of probability below the best within which they are."""
+REFINED_WITHIN = 6.0
+"""Log of probability below the best of a scan within which continuous hidden parameters are refined."""
 MOST_POLISHED = 24
 NOTHING_FOUND = 6.0
 """Log of odds by which the best single error must beat the base model before pairs are looked for."""
@@ -70,6 +68,7 @@ class Search:
         weight = np.array([f.weight for f in bank.families])
         self._log_weight: Real = np.log(weight / weight.sum())
         self.found: dict[Key, Candidate] = {(): Candidate((), 0.0, float(np.log(BY_COUNT[0])))}
+        self._searched = [k for k, f in enumerate(bank.families) if f.neighbours is not None]
         self._looked: set[Key] = set()
         self._polished_keys: set[Key] = set()
 
@@ -131,11 +130,14 @@ class Search:
             return scan
         best, total, at_best = list(scan.best), scan.total.copy(), scan.at_best.copy()
         weighed = scan.total + self._log_weight
-        for family in np.argsort(-weighed)[:REFINED]:
+        searched = [k for k in self._searched if scan.best[k] is not None]
+        searched.sort(key=lambda k: -weighed[k])
+        for rank, family in enumerate(searched):
+            # with little else found, a wave between two steps of the search may be far better than it looks
+            if rank >= (len(searched) if not beside else 1) and weighed[family] < weighed.max() - REFINED_WITHIN:
+                break
             choice = scan.best[family]
-            searched = self.families[family].neighbours is not None
-            if not searched or choice is None or weighed[family] < weighed.max() - REFINED_WITHIN:
-                continue
+            assert choice is not None
             self.bank.refined(choice, beside)
             again = self.bank.scan(beside, only=family)
             best[family] = again.best[family]

@@ -113,13 +113,14 @@ def _solved(
     at: Frame, families: tuple[Family, ...], choices: Sequence[Choice], prior_sd: Real, noise: NoiseLevel
 ) -> Settled:
     A = _tangent(at, families, choices) * prior_sd
-    U, D, Vt = np.linalg.svd(A, full_matrices=False)
-    z = Vt.T @ (D / (1.0 + D**2) * (U.T @ at.observed))
+    U, D, Vt = np.linalg.svd(A, full_matrices=A.shape[1] > len(A))
+    z = Vt[: len(D)].T @ (D / (1.0 + D**2) * (U.T @ at.observed))
     cost = float(np.sum((at.observed - A @ z) ** 2) + z @ z)
     level = noise.level(cost)
     # a noisier head leaves the same minimum nearly, and a wider posterior
-    shrink = D**2 / (level**2 + D**2)
-    covariance = np.eye(len(prior_sd)) - (Vt.T * shrink) @ Vt
+    left = np.ones(len(prior_sd))
+    left[: len(D)] = level**2 / (level**2 + D**2)
+    covariance = (Vt.T * left) @ Vt
     mean = np.concatenate([at.prior_mean, np.zeros(len(prior_sd) - len(at.prior_mean))])
     solved = Settled(
         choices=tuple(choices),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -41,7 +42,10 @@ def smooth_families(s: Situation) -> tuple[Family, ...]:
         *_lengths("l"),
         *(_clearance(i) for i in (1, 2)),
         _reading("scale_gain", lambda s, h: alone(s.travel * 1e-6), ({},), (50.0, 1.5e4), "ppm", 1.0, "ppm"),
-        _reading("scale_bow", _bow, _bow_centres(s), (2e-3, 0.5), "mm_at_100_mm", 1.0, "mm"),
+        replace(
+            _reading("scale_bow", _bow, _bow_centres(s), (2e-3, 0.8), "mm_at_100_mm", 1.0, "mm"),
+            neighbours=_nearby_centres,
+        ),
     )
 
 
@@ -162,8 +166,13 @@ def _reading(
 
 
 def _bow_centres(s: Situation) -> tuple[Hidden, ...]:
-    middle = float(s.travel.min() + s.travel.max()) / 2.0
-    return ({"centre_mm": 0.0}, {"centre_mm": middle})
+    """Across the travel that was visited, and the head's own zero."""
+    low, high = float(s.travel.min()), float(s.travel.max())
+    return ({"centre_mm": 0.0}, *({"centre_mm": float(v)} for v in np.linspace(low, high, 7)))
+
+
+def _nearby_centres(h: Hidden, share: float) -> list[Hidden]:
+    return [{"centre_mm": h["centre_mm"] + sign * 15.0 * share} for sign in (-1.0, 1.0)]
 
 
 def _bow(s: Situation, hidden: Sequence[Hidden]) -> Real:

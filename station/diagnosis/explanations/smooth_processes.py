@@ -120,6 +120,24 @@ def _wandering(s: Situation) -> Shapes:
     return lambda s: np.sqrt(2.0) * np.sin(rate * ((s.t_s - low) / span)[:, None]) / rate
 
 
+def wanderings(s: Situation) -> tuple[Family, ...]:
+    """A step of its own at every reading: where something wanders so fast that no smooth curve follows it.
+
+    As many amplitudes as readings; `weighing` asks for them only where everything else leaves more than noise.
+    """
+    moments = np.sort(s.t_s)[1:]
+
+    def made(target: str, range_: Real) -> Family:
+        def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
+            return [Action(target, (s.t_s[:, None] >= moments).astype(float)[None])]
+
+        kind = "wandering reading" if target == "reading" else "wandering joint"
+        return replace(unnamed(kind, "time", 0.3, range_, ({},), actions), width=len(moments))
+
+    angle = sizes(3e-5 * DEG, 0.01 * DEG)
+    return made("reading", sizes(3e-4, 0.05)), made("joint1", angle), made("joint2", angle)
+
+
 def _over_place(h: float, count: tuple[int, int]) -> Shapes:
     induced = _induced(_lattice(count), np.array([h, 2.0 * h]))
     return lambda s: induced(s.place)

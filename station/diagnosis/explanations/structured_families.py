@@ -157,7 +157,7 @@ def _bearing_load(target: str, weight: float) -> Family:
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
         return [Action(target, _bearing_forms(s, joint, axis, hidden))]
 
-    return unnamed("bearing under load", f"joint{joint}", weight, sizes(0.004, 3.0), _numbered(3), actions)
+    return unnamed("bearing under load", f"joint{joint}", weight, sizes(0.004, 1.0), _numbered(3), actions)
 
 
 def _both_bearings(axis: str, sign: float) -> Family:
@@ -167,7 +167,7 @@ def _both_bearings(axis: str, sign: float) -> Family:
         first = _bearing_forms(s, 1, axis, hidden)
         return [Action(f"e1{axis}", first), Action(f"e2{axis}", sign * _bearing_forms(s, 2, axis, hidden))]
 
-    return unnamed("frame under load", "place", 0.3, sizes(0.004, 3.0), _numbered(3), actions)
+    return unnamed("frame under load", "place", 0.3, sizes(0.004, 1.0), _numbered(3), actions)
 
 
 def _stretch(target: str, weight: float) -> Family:
@@ -177,7 +177,7 @@ def _stretch(target: str, weight: float) -> Family:
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
         return [Action(target, _chosen((s.force[:, i], np.cos(s.theta[:, i])), hidden))]
 
-    return unnamed("link under load", f"joint{i + 1}", weight, sizes(0.004, 1.0), _numbered(2), actions)
+    return unnamed("link under load", f"joint{i + 1}", weight, sizes(0.004, 0.15), _numbered(2), actions)
 
 
 def _both_stretch(kind: str) -> Family:
@@ -186,4 +186,4 @@ def _both_stretch(kind: str) -> Family:
             Action(f"{kind}{i + 1}", _chosen((s.force[:, i], np.cos(s.theta[:, i])), hidden)) for i in (0, 1)
         ]
 
-    return unnamed("link under load", "place", 0.2, sizes(0.004, 1.0), _numbered(2), actions)
+    return unnamed("link under load", "place", 0.2, sizes(0.004, 0.15), _numbered(2), actions)

@@ -10,12 +10,13 @@ from scipy.special import logsumexp
 
 from station.conditions import Reference
 from station.diagnosis.explanations.catalogue import catalogue
-from station.diagnosis.explanations.evidence import Bank
+from station.diagnosis.explanations.evidence import Bank, Choice
 from station.diagnosis.explanations.family import Family
 from station.diagnosis.explanations.frame import Frame, Present, frame
 from station.diagnosis.explanations.noise_level import NoiseLevel
-from station.diagnosis.explanations.search import Candidate, Key, Search
+from station.diagnosis.explanations.search import BY_COUNT, Candidate, Key, Search
 from station.diagnosis.explanations.settle import Settled, settle
+from station.diagnosis.explanations.smooth_processes import wanderings
 from station.five_bar import FiveBar, lengths
 from station.kinematics import Real
 
@@ -24,6 +25,8 @@ SETTLED_WITHIN = 4.5
 """Log of probability below the best within which an explanation is settled."""
 ANEW = 1.0
 """Standard deviations by which the best explanation may differ from its tangent before all is linearised anew."""
+RESTLESS = 1.5
+"""Noise over the specification, left by everything else, from which on wandering by steps is asked for."""
 ROUNDS = 3
 
 
@@ -56,6 +59,11 @@ class Weighing:
     @property
     def best(self) -> Settled:
         return self.settled[0].settled
+
+    @property
+    def wanders(self) -> bool:
+        """Whether the best explanation moves at every reading; it is no member of the search."""
+        return any(c.family >= len(self.bank.families) for c in self.best.choices)
 
     def settle(self, key: Key) -> Settled:
         """One explanation by its families, settled now where it was not yet."""
@@ -94,7 +102,7 @@ def weigh(
         families = tuple(bank.families)
         out = _weighed(mechanism, families, bank, found, base, reference)
         best = out.best
-        if best.bend < ANEW or not best.choices:
+        if best.bend < ANEW or not best.choices or out.wanders:
             break
         at = frame(mechanism, best.x[: best.size], reference, row_sd, best.present)
     assert out is not None
@@ -115,6 +123,7 @@ def _weighed(
     posterior = {c.key: c.log_posterior + level for c in found}
     top = found[0].log_posterior
     settled: dict[Key, Settled] = {}
+    candidates = {c.key: c for c in found}
     for c in found[:MOST_SETTLED]:
         if c.log_posterior < top - SETTLED_WITHIN:
             break
@@ -125,6 +134,12 @@ def _weighed(
     if () not in settled:
         settled[()] = base
         posterior[()] += base.log_evidence - level
+    if settled[max(settled, key=lambda key: posterior[key])].level > RESTLESS:
+        families = (*families, *wanderings(at.situation))
+        for index in range(len(bank.families), len(families)):
+            c, one = _wandering(at, families, index, noise, reference)
+            candidates[c.key], settled[c.key] = c, one
+            posterior[c.key] = c.log_posterior
     total = float(logsumexp(list(posterior.values())))
     shares = {key: float(np.exp(posterior[key] - total)) for key in settled}
     known = sum(shares.values())
@@ -135,11 +150,24 @@ def _weighed(
         tuple(families),
         at,
         bank,
-        {c.key: c for c in found},
+        candidates,
         posterior,
         tuple(Weighed(settled[key], posterior[key], shares[key] / known) for key in order),
         settled,
     )
+
+
+def _wandering(
+    at: Frame, families: Sequence[Family], index: int, noise: NoiseLevel, reference: Reference
+) -> tuple[Candidate, Settled]:
+    """One error that moves at every reading, its size averaged."""
+    choices = [Choice(index, 0, node) for node in range(len(families[index].sizes))]
+    tried = [settle(at, families, (choice,), noise, reference) for choice in choices]
+    evidence = np.array([s.log_evidence for s in tried])
+    mean = float(logsumexp(evidence) - np.log(len(tried)))
+    best = int(evidence.argmax())
+    share = np.log(BY_COUNT[1] * families[index].weight / sum(f.weight for f in families))
+    return Candidate((choices[best],), mean, float(share)), tried[best]
 
 
 def settle_base(bank: Bank) -> float:
