@@ -156,15 +156,13 @@ class Bank:
             at += self.columns(c).shape[1]
         return out
 
-    def log_evidence(self, choices: Sequence[Choice]) -> float:
+    def log_evidence(self, k: Known) -> float:
         """Of errors at fixed members and sizes, over the base model's."""
-        k = self.known(choices)
         q = np.array(self.square - 2.0 * k.gain)
         return -0.5 * k.log_det + float(self.noise(q)) - self.base + k.sign
 
-    def scan(self, choices: Sequence[Choice] = (), only: int | None = None) -> Scan:
-        """Every family (or `only` one) beside errors at fixed members and sizes."""
-        known = self.known(choices)
+    def scan(self, known: Known, only: int | None = None) -> Scan:
+        """Every family (or `only` one) beside known errors."""
         count = len(self.families)
         total, at_best = np.full(count, -np.inf), np.full(count, -np.inf)
         best: list[Choice | None] = [None] * count
@@ -186,15 +184,14 @@ class Bank:
                 best[family] = Choice(family, *divmod(int(own.argmax()), own.shape[1]))
         return Scan(total, tuple(best), at_best)
 
-    def refined(self, choice: Choice, beside: Sequence[Choice]) -> Choice:
-        """The member of a choice moved to where its continuous hidden parameters are best beside others."""
+    def refine(self, choice: Choice, known: Known) -> None:
+        """Move the member of a choice to where its continuous hidden parameters are best beside known errors."""
         family = self.families[choice.family]
         if family.neighbours is None:
-            return choice
+            return
         g, k = self._where[choice.family]
         group = self._groups[g]
         row = int(group.first[k]) + choice.member
-        known = self.known(beside)
         hidden, here = family.hidden[choice.member], group.X[row : row + 1]
         precision, signed = group.precision[row : row + 1], group.signed[row : row + 1]
         value = float(self._values(here, precision, signed, known).max())
@@ -212,8 +209,6 @@ class Bank:
         group.gram[row], group.along[row] = here[0] @ here[0].T, here[0] @ self.frame.white
         moved = (*family.hidden[: choice.member], hidden, *family.hidden[choice.member + 1 :])
         self.families[choice.family] = replace(family, hidden=moved)
-        node = int(self._values(here, precision, signed, known).argmax())
-        return Choice(choice.family, choice.member, node)
 
     def _of_group(self, group: _Group, rows: slice, known: Known) -> Real:
         """(V, T) log evidence of members of a group over the base model's."""

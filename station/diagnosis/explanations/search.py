@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from station.diagnosis.explanations.evidence import Bank, Choice, Scan
+from station.diagnosis.explanations.evidence import Bank, Choice, Known, Scan
 from station.diagnosis.explanations.family import Family
 from station.kinematics import Real
 
@@ -28,6 +28,8 @@ POLISHED_WITHIN = 7.0
 REFINED_WITHIN = 6.0
 """Log of probability below the best of a scan within which continuous hidden parameters are refined."""
 MOST_POLISHED = 24
+STRONG = 20.0
+"""Log of evidence by which a second error must help before it is refined, however far from the best it is."""
 NOTHING_FOUND = 6.0
 """Log of odds by which the best single error must beat the base model before pairs are looked for."""
 ALONE_WITHIN = 20.0
@@ -35,7 +37,7 @@ ALONE_WITHIN = 20.0
 NOISY = 1.25
 """Noise over the specification that is no more than noise."""
 EXCHANGES = 4
-SWEEPS = 2
+SWEEPS = 3
 
 Key = tuple[int, ...]
 
@@ -72,9 +74,14 @@ class Search:
         self._looked: set[Key] = set()
         self._polished_keys: set[Key] = set()
 
+    def first(self) -> Candidate:
+        """The most probable of no error and one."""
+        self._look(Candidate((), 0.0, 0.0))
+        return max(self.found.values(), key=lambda c: c.log_posterior)
+
     def run(self, seeds: Sequence[tuple[Choice, ...]] = ()) -> list[Candidate]:
         """Most probable first; `seeds` are sets to look beside as well."""
-        self._look(Candidate((), 0.0, 0.0))
+        self.first()
         singles = self._best(1, FIRST)
         alone = bool(singles) and self._leaves_noise(singles[0])
         worth = bool(singles) and singles[0].log_posterior > self.found[()].log_posterior + np.log(0.02)
@@ -116,30 +123,36 @@ class Search:
         if key in self._looked or len(key) >= len(BY_COUNT) - 1:
             return
         self._looked.add(key)
-        scan = self.bank.scan(beside.choices)
-        price = beside.log_evidence - self.bank.log_evidence(beside.choices)
-        scan = self._refined(scan, beside.choices)
+        known = self.bank.known(beside.choices)
+        price = beside.log_evidence - self.bank.log_evidence(known)
+        scan = self._refined(self.bank.scan(known), known, key, price)
         for family in range(len(self.families)):
             if self._fits(key, family):
                 self._add(beside.choices, scan, family, price)
 
-    def _refined(self, scan: Scan, beside: tuple[Choice, ...]) -> Scan:
+    def _refined(self, scan: Scan, known: Known, beside: Key, price: float) -> Scan:
         """The promising ones of a scan at the best values of their continuous hidden parameters."""
         top = float(scan.total.max())
         if top < NOTHING_FOUND:
             return scan
         best, total, at_best = list(scan.best), scan.total.copy(), scan.at_best.copy()
-        weighed = scan.total + self._log_weight
+        weighed = scan.total + price + self._log_weight
+        limit = weighed.max() - REFINED_WITHIN
+        if beside:
+            found = max(c.log_posterior for c in self.found.values())
+            limit = max(limit, found - self.log_prior(beside) - REFINED_WITHIN)
         searched = [k for k in self._searched if scan.best[k] is not None]
         searched.sort(key=lambda k: -weighed[k])
+        strong = STRONG + self.bank.log_evidence(known) + price
         for rank, family in enumerate(searched):
-            # with little else found, a wave between two steps of the search may be far better than it looks
-            if rank >= (len(searched) if not beside else 1) and weighed[family] < weighed.max() - REFINED_WITHIN:
+            # with nothing else found, a wave between two steps of the search may be far better than it looks
+            free = not beside or (len(beside) == 1 and rank == 0 and scan.total[family] + price > strong)
+            if not free and weighed[family] < limit:
                 break
             choice = scan.best[family]
             assert choice is not None
-            self.bank.refined(choice, beside)
-            again = self.bank.scan(beside, only=family)
+            self.bank.refine(choice, known)
+            again = self.bank.scan(known, only=family)
             best[family] = again.best[family]
             total[family], at_best[family] = again.total[family], again.at_best[family]
         return Scan(total, tuple(best), at_best)
@@ -203,19 +216,21 @@ class Search:
             prices, moved = 0.0, False
             for k, old in enumerate(choices):
                 rest = [c for j, c in enumerate(choices) if j != k]
-                scan = self.bank.scan(rest, only=old.family)
+                known = self.bank.known(rest)
+                scan = self.bank.scan(known, only=old.family)
                 new = scan.best[old.family]
                 if new is None:
                     continue
                 moved |= new != old
-                new = self.bank.refined(new, rest)
-                scan = self.bank.scan(rest, only=old.family)
-                new = scan.best[old.family] or new
+                if self.families[old.family].neighbours is not None:
+                    self.bank.refine(new, known)
+                    scan = self.bank.scan(known, only=old.family)
+                    new = scan.best[old.family] or new
                 choices[k] = new
                 prices += float(scan.total[old.family] - scan.at_best[old.family])
             if not moved:
                 break
-        value = self.bank.log_evidence(choices) + prices
+        value = self.bank.log_evidence(self.bank.known(choices)) + prices
         return replace(candidate, choices=tuple(choices), log_evidence=value)
 
 

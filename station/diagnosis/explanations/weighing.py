@@ -98,6 +98,15 @@ def weigh(
     for _ in range(ROUNDS):
         bank = Bank(at, families, noise)
         search = Search(bank)
+        if out is None and not at.present:
+            start = search.first()
+            if start.choices:
+                single = settle(at, bank.families, start.choices, noise, reference)
+                if ANEW < single.bend < np.inf:
+                    families = tuple(bank.families)
+                    at = frame(mechanism, single.x[: single.size], reference, row_sd, single.present)
+                    bank = Bank(at, families, noise)
+                    search = Search(bank)
         found = search.run([out.best.choices] if out is not None and out.best.choices else ())
         families = tuple(bank.families)
         out = _weighed(mechanism, families, bank, found, base, reference)
@@ -128,8 +137,8 @@ def _weighed(
         if c.log_posterior < top - SETTLED_WITHIN:
             break
         one = base if not c.choices else settle(at, families, c.choices, noise, reference)
-        linear = bank.log_evidence(c.choices) + level if c.choices else level
-        posterior[c.key] += one.log_evidence - linear + _signs(bank, c)
+        known = bank.known(c.choices)
+        posterior[c.key] += one.log_evidence + known.sign - bank.log_evidence(known) - level
         settled[c.key] = one
     if () not in settled:
         settled[()] = base
@@ -174,8 +183,3 @@ def settle_base(bank: Bank) -> float:
     """Absolute log evidence of the base model as the frame's tangent has it."""
     D = np.linalg.svd(bank.frame.jacobian * bank.frame.prior_sd, compute_uv=False)
     return bank.base - 0.5 * float(np.sum(np.log1p(D**2)))
-
-
-def _signs(bank: Bank, c: Candidate) -> float:
-    """The bound on signs, which settling does not know."""
-    return bank.known(c.choices).sign
