@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station import outliers
-from station.diagnosis.explanations.frame import added
-from station.diagnosis.explanations.settle import Settled
+from station.diagnosis.explanations.frame import added, frame
+from station.diagnosis.explanations.noise_level import NoiseLevel
+from station.diagnosis.explanations.settle import Settled, settle
 from station.diagnosis.explanations.situation import at_readings, predicted
 from station.conditions import Reference
 from station.diagnosis.model import Model, fit
@@ -18,6 +19,8 @@ from station.kinematics import Real
 from station.least_squares import NotConvergedError, Solution
 
 LARGEST_SHARE = 0.1
+APPROACH_STEPS = 3
+"""Rounds of steps where the base model has no minimum to speak of."""
 RUN = 3
 """So many in a row are no glitches but something that happened."""
 FAR_OFF, WELL_PREDICTED = 5.5, 4.0
@@ -28,6 +31,23 @@ Mask = NDArray[np.bool_]
 def solved(mechanism: FiveBar, reference: Reference, row_sd: Real) -> Solution:
     """The base model fitted to readings.  :raises NotConvergedError:"""
     return fit(Model(mechanism, reference), tolerance_prior(mechanism), row_sd).solution
+
+
+def start(mechanism: FiveBar, reference: Reference) -> tuple[Real, Real]:
+    """(P,) base parameters near the minimum, and what they leave of each reading (K,), mm.
+
+    Where an error is so large that no minimum is found, a few steps towards it serve as well.
+    """
+    row_sd = mechanism.row_sd
+    try:
+        solution = solved(mechanism, reference, row_sd)
+    except NotConvergedError:
+        p = mechanism.start
+        for _ in range(APPROACH_STEPS):
+            at = frame(mechanism, p, reference, row_sd)
+            p = settle(at, (), (), NoiseLevel(len(row_sd), at.parameters_taken), reference).x
+        return p, mechanism.measured - predicted(mechanism, p)
+    return solution.x, -solution.residual * row_sd
 
 
 def suspects(mechanism: FiveBar, reference: Reference) -> Mask:

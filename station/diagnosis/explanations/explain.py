@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from station.conditions import Reference, reference_of
-from station.diagnosis.explanations.cleaning import FAR_OFF, WELL_PREDICTED, judged, solved, suspects
+from station.diagnosis.explanations.cleaning import FAR_OFF, WELL_PREDICTED, judged, start, suspects
 from station.diagnosis.explanations.family import Part
 from station.diagnosis.explanations.frame import frame
 from station.diagnosis.explanations.mixture import Mixture, PositionError, mixture
@@ -152,9 +152,8 @@ def _weighed(mechanism: FiveBar, reference: Reference) -> Weighing:
 
 
 def _once(mechanism: FiveBar, reference: Reference) -> Weighing:
-    start = solved(mechanism, reference, mechanism.row_sd)
-    row_sd = specified(mechanism, -start.residual * mechanism.row_sd)
-    return weigh(mechanism, start.x, reference, row_sd)
+    p, residual_mm = start(mechanism, reference)
+    return weigh(mechanism, p, reference, specified(mechanism, residual_mm))
 
 
 def _validated(both: FiveBar, reference: Reference, earlier: int, weighing: Weighing, plain: bool) -> Validation:

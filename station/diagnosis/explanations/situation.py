@@ -61,6 +61,8 @@ class Situation:
     """(K, 2) x and y, -1 to 1 over the workspace."""
     phi: Real
     """(K, 2) angle of the distal links, rad."""
+    direction: Real
+    """(K, 2) unit vector from O_1 to O_2."""
     force: Real
     """(K, 2) axial force of the distal links for a unit weight at P, positive in tension."""
 
@@ -107,6 +109,7 @@ def at_readings(
         mount=m.mount.astype(float),
         place=_normalised(mechanism, at.r),
         phi=np.angle(at.w),
+        direction=np.column_stack([at.direction.real, at.direction.imag]),
         force=_force(at),
     )
 
@@ -156,6 +159,7 @@ def at_commands(mechanism: FiveBar, p: Real, last: Situation, theta: Real, appro
         mount=np.full(count, last.mount[now]),
         place=_normalised(mechanism, at.r),
         phi=np.angle(at.w),
+        direction=np.column_stack([at.direction.real, at.direction.imag]),
         force=_force(at),
     )
     return Commanded(situation, at.r)

@@ -28,13 +28,19 @@ def structured_families() -> tuple[Family, ...]:
         *(_harmonic(i, angle) for i in (1, 2)),
         _both_harmonics(angle),
         *(_centre(i, centre) for i in (1, 2)),
+        *(_path(i, centre) for i in (1, 2)),
         _both_centres(centre),
         *(_elbow(i, length) for i in (1, 2)),
-        _shift("platform by place", ("shift_x",), _place_factor, PLACE_FACTORS, 0.7),
-        _shift("platform by place", ("shift_y",), _place_factor, PLACE_FACTORS, 0.7),
-        _tilt(),
-        _shift("platform by load", ("shift_x",), _load, LOADS, 0.3),
-        _shift("platform by load", ("shift_y",), _load, LOADS, 0.3),
+        *(
+            family
+            for axis in "xy"
+            for moves in (True, False)
+            for family in (
+                _shift("platform by place", axis, _place_factor, PLACE_FACTORS, 0.4, moves=moves),
+                _shift("platform by load", axis, _load, LOADS, 0.2, moves=moves),
+            )
+        ),
+        *(_tilt(moves=moves) for moves in (True, False)),
         *(_bearing_load(f"e{i}{axis}", 0.2) for i in (1, 2) for axis in "xy"),
         *(_both_bearings(axis, sign) for axis in "xy" for sign in (1.0, -1.0)),
         *(_stretch(f"{kind}{i}", 0.15) for kind in "Ll" for i in (1, 2)),
@@ -83,7 +89,33 @@ def _centre(joint: int, range_: Real) -> Family:
         turning = wave(s.theta[:, joint - 1], _turns(hidden))
         return side_by_side((f"e{joint}x", f"e{joint}y"), (turning, turning))
 
-    return unnamed("bearing centre", f"joint{joint}", 0.5, range_, TURNS, actions)
+    return unnamed("bearing centre", f"joint{joint}", 0.2, range_, TURNS, actions)
+
+
+def _path(joint: int, range_: Real) -> Family:
+    """The same on a line (across, up, along the arm, square to it) or on a circle, with or against the turning."""
+    hidden = tuple({**turns, "form": float(form)} for turns in TURNS for form in range(6))
+
+    def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
+        theta = s.theta[:, joint - 1]
+        along, up = np.cos(theta)[:, None], np.sin(theta)[:, None]
+        x, y = [], []
+        for h, turning in zip(hidden, wave(theta, _turns(hidden)), strict=True):
+            square = np.stack([-turning[:, 1], turning[:, 0]], axis=1)
+            none = np.zeros_like(turning)
+            dx, dy = (
+                (turning, none),
+                (none, turning),
+                (turning * along, turning * up),
+                (-turning * up, turning * along),
+                (turning, -square),
+                (turning, square),
+            )[int(h["form"])]
+            x.append(dx)
+            y.append(dy)
+        return [Action(f"e{joint}x", np.stack(x)), Action(f"e{joint}y", np.stack(y))]
+
+    return unnamed("bearing centre", f"joint{joint}", 0.5, range_, hidden, actions)
 
 
 def _both_centres(range_: Real) -> Family:
@@ -127,21 +159,33 @@ def _load(s: Situation, hidden: Sequence[Hidden]) -> Real:
     )
 
 
-def _shift(kind: str, targets: tuple[str, ...], field: Field, count: int, weight: float) -> Family:
+def _shift(kind: str, axis: str, field: Field, count: int, weight: float, *, moves: bool) -> Family:
+    """P moves with the shift, or only the point of the platform (or of the base) that the mechanism is at.
+
+    No reading can tell which.
+    """
+
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
-        return [Action(target, field(s, hidden)) for target in targets]
+        shapes = field(s, hidden)
+        if moves:
+            return [Action(f"shift_{axis}", shapes)]
+        return [Action("reading", shapes * s.direction[:, "xy".index(axis), None])]
 
-    return unnamed(kind, "place", weight, sizes(0.004, 3.0), _numbered(count), actions)
+    name = kind if moves else kind.replace("platform", "mechanism")
+    return unnamed(name, "place", weight, sizes(0.004, 3.0), _numbered(count), actions)
 
 
-def _tilt() -> Family:
+def _tilt(*, moves: bool) -> Family:
     """Sideways and down at once, each in proportion to x and y: frame or platform turn as they go."""
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
         shapes = s.place[None]
-        return side_by_side(("shift_x", "shift_y"), (shapes, shapes))
+        if moves:
+            return side_by_side(("shift_x", "shift_y"), (shapes, shapes))
+        return [Action("reading", np.hstack([s.place * s.direction[:, [k]] for k in (0, 1)])[None])]
 
-    return unnamed("platform by place", "place", 0.4, sizes(0.004, 3.0), ({},), actions)
+    name = "platform by place" if moves else "mechanism by place"
+    return unnamed(name, "place", 0.2, sizes(0.004, 3.0), ({},), actions)
 
 
 def _bearing_forms(s: Situation, joint: int, axis: str, hidden: Sequence[Hidden]) -> Real:
