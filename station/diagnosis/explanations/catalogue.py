@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from station.diagnosis.explanations.family import Family
+from station.diagnosis.explanations.motion_families import motion_families
 from station.diagnosis.explanations.rough_families import rough_families
 from station.diagnosis.explanations.situation import Situation
 from station.diagnosis.explanations.smooth_families import smooth_families
@@ -18,5 +19,6 @@ def catalogue(s: Situation, lengths: Mapping[str, float], *, thermometer: bool) 
         *rough_families(s, lengths, thermometer=thermometer),
         *smooth_families(s),
         *structured_families(),
+        *motion_families(),
         *processes(s),
     )

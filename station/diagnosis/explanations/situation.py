@@ -13,7 +13,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from station.conditions import Reference
+from station.conditions import Reference, before
 from station.error_model import Pose, distance_by_joint, distance_jacobian, position_jacobian
 from station.five_bar import FiveBar
 from station.kinematics import Complex, Geometry, Real
@@ -61,6 +61,10 @@ class Situation:
     """(K, 2) x and y, -1 to 1 over the workspace."""
     phi: Real
     """(K, 2) angle of the distal links, rad."""
+    way: Real
+    """(K, 2) rad, what each joint has turned since the reading before; 0 unknown."""
+    drawn: Real
+    """(K,) mm, by what the slider has moved since the reading before; 0 unknown."""
     direction: Real
     """(K, 2) unit vector from O_1 to O_2."""
     force: Real
@@ -92,6 +96,7 @@ def at_readings(
     at, geometry = posed(mechanism, p, added)
     jacobian = distance_jacobian(geometry, at)
     m = mechanism.measurements
+    came_from = before(m, None if first else reference)
     targets = np.column_stack(
         [jacobian[:, :10], at.direction.real, at.direction.imag, np.ones(len(at.rho))]
     )
@@ -109,6 +114,8 @@ def at_readings(
         mount=m.mount.astype(float),
         place=_normalised(mechanism, at.r),
         phi=np.angle(at.w),
+        way=np.nan_to_num(m.theta - came_from[:, :-1]),
+        drawn=np.nan_to_num(m.distance - came_from[:, -1]),
         direction=np.column_stack([at.direction.real, at.direction.imag]),
         force=_force(at),
     )
@@ -159,6 +166,8 @@ def at_commands(mechanism: FiveBar, p: Real, last: Situation, theta: Real, appro
         mount=np.full(count, last.mount[now]),
         place=_normalised(mechanism, at.r),
         phi=np.angle(at.w),
+        way=np.zeros((count, 2)),
+        drawn=np.zeros(count),
         direction=np.column_stack([at.direction.real, at.direction.imag]),
         force=_force(at),
     )

@@ -20,6 +20,8 @@ from station.diagnosis.explanations.weighing import Weighing
 
 SUPPORTED = 3.0
 """Log of the evidence that an error must add before it is spoken of."""
+BESIDE_UNNAMED = 0.4
+"""Share of named effects that are there when found beside an unnamed one; by machines outside the catalogue."""
 NEGLIGIBLE = 1e-5
 PartKey = tuple[str, int | None, str | None]
 
@@ -44,6 +46,13 @@ class Statements:
     def named(self, key: Key) -> bool:
         return all(self.weighing.families[k].named for k in key)
 
+    def _trust(self, key: Key) -> float:
+        """How far the names of a core are believed.
+
+        Beside an error without a name a named one may only fill what the shape of the other does not hold.
+        """
+        return 1.0 if self.named(key) else BESIDE_UNNAMED
+
     def parts(self, key: Key) -> set[PartKey]:
         """What a core holds."""
         return set().union(*(self.weighing.families[k].keys for k in key)) if key else set()
@@ -51,7 +60,9 @@ class Statements:
     def probability(self, part: PartKey, also: Iterable[int] = ()) -> float:
         """That an effect, or one of the families of its alias set, is there."""
         others = set(also)
-        return sum(p for key, p in self.cores if part in self.parts(key) or others & set(key))
+        return sum(
+            p * self._trust(key) for key, p in self.cores if part in self.parts(key) or others & set(key)
+        )
 
     @cached_property
     def marginals(self) -> dict[PartKey, float]:
@@ -60,7 +71,7 @@ class Statements:
         for key, p in self.cores:
             for part in self.parts(key):
                 if part[0] != "unnamed":
-                    out[part] = out.get(part, 0.0) + p
+                    out[part] = out.get(part, 0.0) + p * self._trust(key)
         return out
 
     def aliases(self, choices: tuple[Choice, ...], index: int) -> tuple[int, ...]:

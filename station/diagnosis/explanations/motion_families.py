@@ -1,0 +1,92 @@
+"""Unnamed errors that depend on the motion before a reading, or on how the guide lies: what a play is mistaken for."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from station.diagnosis.explanations.family import Family, Hidden, sizes
+from station.diagnosis.explanations.rough_families import DEG
+from station.diagnosis.explanations.situation import Action, Situation
+from station.diagnosis.explanations.structured_families import unnamed
+from station.kinematics import Real
+
+WAYS_DEG = (1.5, 4.0, 10.0, 25.0)
+TRAVEL_MM = 100.0
+
+
+def motion_families() -> tuple[Family, ...]:
+    """Of both joints, the reading and the guide."""
+    return (
+        *(_by_way(i) for i in (1, 2)),
+        *(_loose(i) for i in (1, 2)),
+        _lagging(),
+        _guide(),
+        *(_uneven_sag(joints) for joints in ((1,), (2,), (1, 2))),
+    )
+
+
+def _by_way(joint: int) -> Family:
+    """A joint that comes to rest short of its place, by how far or how fast it came."""
+    hidden = tuple({"way_deg": w, "fades": f} for w in WAYS_DEG for f in (0.0, 1.0))
+
+    def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
+        way, sense = np.abs(s.way[:, joint - 1]), s.approach[:, joint - 1]
+        fading = np.stack([np.exp(-way / (h["way_deg"] * DEG)) for h in hidden])
+        late = np.array([h["fades"] for h in hidden])[:, None]
+        return [Action(f"joint{joint}", (sense * (late + (1.0 - 2.0 * late) * fading))[:, :, None])]
+
+    return unnamed("rest by way", "approach", 0.3, sizes(3e-4 * DEG, 0.1 * DEG), hidden, actions)
+
+
+def _loose(joint: int) -> Family:
+    """Play in the passive bearing of a chain, taken up by the sense of its own joint or of the other."""
+    hidden = ({"of": 0.0}, {"of": 1.0})
+
+    def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
+        own = [int(h["of"]) for h in hidden]
+        sense = s.approach[:, [joint - 1, 2 - joint]].T[own]
+        return [Action(f"l{joint}", sense[:, :, None])]
+
+    return unnamed("passive play", "approach", 0.3, sizes(0.001, 0.3), hidden, actions)
+
+
+def _lagging() -> Family:
+    """A reading that follows late, or a base that still swings: by what was travelled just before."""
+    hidden = tuple({"form": float(k)} for k in range(6))
+
+    def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
+        drawn, way = s.drawn / TRAVEL_MM, s.way
+        shapes = (drawn, np.abs(drawn), way[:, 0], way[:, 1], np.abs(way[:, 0]), np.abs(way[:, 1]))
+        return [Action("reading", np.stack([shapes[int(h["form"])] for h in hidden])[:, :, None])]
+
+    return unnamed("lagging reading", "approach", 0.5, sizes(0.001, 0.5), hidden, actions)
+
+
+def _guide() -> Family:
+    """Slider and guide sag by how they lie and how far they are drawn."""
+    hidden = tuple({"form": float(k)} for k in range(6))
+
+    def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
+        across, travel = s.direction[:, 0], s.travel / TRAVEL_MM
+        shapes = (across**2, across**2 * travel, across, across * travel, across**4, travel**3)
+        return [Action("reading", np.stack([shapes[int(h["form"])] for h in hidden])[:, :, None])]
+
+    return unnamed("guide by attitude", "reading", 0.5, sizes(0.003, 2.0), hidden, actions)
+
+
+def _uneven_sag(joints: tuple[int, ...]) -> Family:
+    """A sag that is not in proportion to the load: stiffer, or softer, the more it is turned."""
+    hidden = tuple({"form": float(k)} for k in range(3))
+
+    def shapes(s: Situation, joint: int, hidden: Sequence[Hidden]) -> Real:
+        load = np.cos(s.theta[:, joint - 1])
+        forms = (-(load**3), -load * np.abs(load), -load / (1.0 + np.abs(load)))
+        return np.stack([forms[int(h["form"])] for h in hidden])[:, :, None]
+
+    def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
+        return [Action(f"joint{i}", shapes(s, i, hidden)) for i in joints]
+
+    where = f"joint{joints[0]}" if len(joints) == 1 else "place"
+    return unnamed("uneven sag", where, 0.2, sizes(0.002 * DEG, 0.5 * DEG), hidden, actions)
