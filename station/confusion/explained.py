@@ -1,6 +1,6 @@
-"""The explanation engine against random machines of the emulator: kind by kind, what is said and whether it is true.
+"""The explanation engine against random machines of the emulator: what is said, and whether it is true.
 
-    python -m station.confusion.explained 20 [kind ...]
+python -m station.confusion.explained 20 [kind ...]
 """
 
 from __future__ import annotations
@@ -102,7 +102,11 @@ def machine(kind: str, seed: int) -> tuple[Drawn, set[Cause]]:
     effects, truth = natural(kind, rng)
     places, labels = walk_of(robot, rng)
     p = np.concatenate(
-        [rng.uniform(-0.035, 0.035, 2), rng.normal(0.0, 0.025, 8), [rng.normal(1, 0.06), rng.normal(0.5, 0.04)]]
+        [
+            rng.uniform(-0.035, 0.035, 2),
+            rng.normal(0.0, 0.025, 8),
+            [rng.normal(1, 0.06), rng.normal(0.5, 0.04)],
+        ]
     )
     made = SimulatedMachine(robot, p, "whole pulses", seed, effects)
     everything = made.visit(np.degrees(inverse(robot.geometry, places)), labels)
@@ -147,14 +151,15 @@ def table(outcomes: Sequence[Outcome]) -> str:
     by_kind: dict[str, list[Outcome]] = defaultdict(list)
     for o in outcomes:
         by_kind[o.kind].append(o)
-    head = "kind | first | clear: named | wrong | >2 sd | >3 sd | in 95 % | sd deg | before after max mm | beyond bound | ms"
+    head = "kind | first | clear: named | wrong | >2 sd | >3 sd | in 95 % | sd deg | mm | beyond | ms"
     lines = [head]
     for kind, some in [*by_kind.items(), ("all", list(outcomes))]:
         n, clear = len(some), [o for o in some if o.clear]
         positions = np.median([o.position_mm for o in some], axis=0)
         lines.append(
             f"{kind} | {sum(o.first for o in some)}/{n} | {sum(o.named for o in clear)}/{len(clear)} "
-            f"| {sum(o.wrong for o in some)} | {sum(o.off_sd > 2 for o in some)} | {sum(o.off_sd > 3 for o in some)} "
+            f"| {sum(o.wrong for o in some)} | {sum(o.off_sd > 2 for o in some)} "
+            f"| {sum(o.off_sd > 3 for o in some)} "
             f"| {sum(o.inside_95 for o in some) / (2 * n):.3f} | {np.median([o.sd_deg for o in some]):.3f} "
             f"| {positions[0]:.2f} {positions[1]:.2f} {positions[2]:.2f} "
             f"| {sum(o.position_mm[2] > o.position_mm[3] for o in some)} "

@@ -14,7 +14,7 @@ from station.diagnosis.explanations.structured_families import structured_famili
 
 
 def catalogue(s: Situation, lengths: Mapping[str, float], *, thermometer: bool) -> tuple[Family, ...]:
-    """For the readings of `s`; `lengths` nominal by name, mm; `thermometer` whether a temperature was recorded."""
+    """For the readings of `s`, nominal lengths by name (mm), and whether a temperature was recorded."""
     return (
         *rough_families(s, lengths, thermometer=thermometer),
         *smooth_families(s),

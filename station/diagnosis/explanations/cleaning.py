@@ -6,11 +6,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station import outliers
+from station.conditions import Reference
 from station.diagnosis.explanations.frame import added, frame
 from station.diagnosis.explanations.noise_level import NoiseLevel
 from station.diagnosis.explanations.settle import Settled, settle
 from station.diagnosis.explanations.situation import at_readings, predicted
-from station.conditions import Reference
 from station.diagnosis.model import Model, fit
 from station.errors import InputRefused
 from station.five_bar import FiveBar
@@ -51,7 +51,7 @@ def start(mechanism: FiveBar, reference: Reference) -> tuple[Real, Real]:
 
 
 def suspects(mechanism: FiveBar, reference: Reference) -> Mask:
-    """(K,) readings that disagree with the rest and with their own place, as long as they are few and single."""
+    """(K,) readings that disagree with the rest and with their own place, if they are few and single."""
     m = mechanism.measurements
     none = np.zeros(len(m), dtype=bool)
     try:

@@ -1,7 +1,8 @@
 """Evidence of linear-Gaussian errors in closed form, for all members and sizes of all families at once.
 
 With whitened columns B (K, q) of an error and amplitudes ~ N(0, size^2), the evidence over that of the base
-model is |1 + size^2 B'B|^-1/2 exp(gain), gain = b' (size^-2 + B'B)^-1 b / 2, b = B'e.  What errors that are known
+model is |1 + size^2 B'B|^-1/2 exp(gain), gain = b' (size^-2 + B'B)^-1 b / 2, b = B'e.  What errors that are
+known
 already take up is projected out by an update of rank r.  The noise level is averaged (`noise_level`).
 """
 
@@ -16,8 +17,10 @@ from scipy.special import log_ndtr
 
 from station.diagnosis.explanations.family import Family
 from station.diagnosis.explanations.frame import Frame
+from station.diagnosis.explanations.gains import gain_and_log_det
 from station.diagnosis.explanations.noise_level import NoiseLevel
 from station.kinematics import Real
+from station.measurements import Index
 
 HOPELESS = 1e6
 WIDTHS = (1, 2, 4, 8, 16)
@@ -64,7 +67,7 @@ class Scan(NamedTuple):
 @dataclass(frozen=True)
 class _Group:
     families: tuple[int, ...]
-    first: Real
+    first: Index
     """(families + 1) where each begins among the members."""
     X: Real
     """(V, q, K) whitened columns."""
@@ -99,7 +102,7 @@ class Bank:
         out = []
         for width, members in sorted(by_width.items()):
             count = sum(len(columns) for _, columns in members)
-            X = np.zeros((count, width, len(self.frame.row_sd)))
+            X: Real = np.zeros((count, width, len(self.frame.row_sd)))
             first = np.cumsum([0, *(len(columns) for _, columns in members)])
             for (_, columns), at in zip(members, first, strict=False):
                 X[at : at + len(columns), : columns.shape[2]] = columns.transpose(0, 2, 1)
@@ -123,13 +126,13 @@ class Bank:
         g, k = self._where[choice.family]
         group = self._groups[g]
         member = group.X[group.first[k] + choice.member]
-        return member[np.any(member != 0.0, axis=1)].T
+        return np.asarray(member[np.any(member != 0.0, axis=1)].T)
 
     def members(self, family: int) -> Real:
         """(V, q, K) whitened columns of a family."""
         g, k = self._where[family]
         group = self._groups[g]
-        return group.X[group.first[k] : group.first[k + 1], : self.families[family].width]
+        return np.asarray(group.X[group.first[k] : group.first[k + 1], : self.families[family].width])
 
     def known(self, choices: Sequence[Choice]) -> Known:
         """What these errors take up together."""
@@ -185,7 +188,7 @@ class Bank:
         return Scan(total, tuple(best), at_best)
 
     def refine(self, choice: Choice, known: Known) -> None:
-        """Move the member of a choice to where its continuous hidden parameters are best beside known errors."""
+        """Move a member to where its continuous hidden parameters are best beside known errors."""
         family = self.families[choice.family]
         if family.neighbours is None:
             return
@@ -201,7 +204,9 @@ class Bank:
             X = np.zeros((columns.shape[1], *group.X.shape[1:]))
             X[:, : columns.shape[2]] = columns.transpose(1, 2, 0)
             count = len(X)
-            values = self._values(X, np.repeat(precision, count, 0), np.repeat(signed, count), known).max(axis=1)
+            values = self._values(X, np.repeat(precision, count, 0), np.repeat(signed, count), known).max(
+                axis=1
+            )
             if values.max() > value:
                 at = int(values.argmax())
                 value, hidden, here = float(values[at]), near.hidden[at], X[at : at + 1]
@@ -225,30 +230,13 @@ class Bank:
             Y = (X.reshape(-1, X.shape[2]) @ known.directions).reshape(*X.shape[:2], -1)
             gram = gram - (Y * known.share) @ Y.transpose(0, 2, 1)
             along = along - Y @ (known.share * known.along)
-        gain, log_det = _gain(gram, along, precision)
-        out = self.noise(self.square - 2.0 * (known.gain + gain)) - self.base - 0.5 * (known.log_det + log_det)
+        gain, log_det = gain_and_log_det(gram, along, precision)
+        out = (
+            self.noise(self.square - 2.0 * (known.gain + gain)) - self.base - 0.5 * (known.log_det + log_det)
+        )
         signed = signed & (X.shape[1] == 1)
         if signed.any():
             b, S = along[signed, 0][:, None], gram[signed, 0, 0][:, None]
             out[signed] += log_ndtr(b / np.sqrt(S + precision[signed])) + LOG2
         out[~shows] = -np.inf
         return np.asarray(out + known.sign)
-
-
-def _gain(gram: Real, along: Real, precision: Real) -> tuple[Real, Real]:
-    """Gain and log determinant (V, T) for Gram matrices (V, q, q), b (V, q) and size^-2 (V, T)."""
-    width = gram.shape[1]
-    if width == 1:
-        S = np.maximum(gram[:, :, 0], 0.0)
-        return 0.5 * along**2 / (S + precision), np.log1p(S / precision)
-    if width == 2:
-        a, c = gram[:, 0, 0, None] + precision, gram[:, 1, 1, None] + precision
-        b = gram[:, 0, 1, None]
-        det = a * c - b * b
-        x, y = along[:, :1], along[:, 1:]
-        return 0.5 * (c * x * x - 2.0 * b * x * y + a * y * y) / det, np.log(det) - 2.0 * np.log(precision)
-    values, vectors = np.linalg.eigh(gram)
-    values = np.maximum(values, 0.0)[:, :, None]
-    turned = np.einsum("vij,vi->vj", vectors, along)[:, :, None]
-    k = precision[:, None, :]
-    return 0.5 * np.sum(turned**2 / (values + k), axis=1), np.sum(np.log1p(values / k), axis=1)

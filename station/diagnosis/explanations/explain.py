@@ -1,4 +1,4 @@
-"""The explanations of one set of readings: what may be wrong with the robot, how probable, and what follows."""
+"""The explanations of one set of readings: what may be wrong, how probable, and what follows."""
 
 from __future__ import annotations
 
@@ -137,7 +137,8 @@ def explain(mechanism: FiveBar, fresh: Measurements | None = None) -> Explanatio
 
 
 def _weighed(mechanism: FiveBar, reference: Reference) -> Weighing:
-    """Explanations of readings without glitches: what disagrees with everything else, or with the best of them.
+    """Explanations of readings without glitches, which disagree with everything else or with the best of
+    them.
 
     What looked like a glitch and is predicted well by what was found is taken back.
     """
@@ -156,10 +157,13 @@ def _once(mechanism: FiveBar, reference: Reference) -> Weighing:
     return weigh(mechanism, p, reference, specified(mechanism, residual_mm))
 
 
-def _validated(both: FiveBar, reference: Reference, earlier: int, weighing: Weighing, plain: bool) -> Validation:
+def _validated(
+    both: FiveBar, reference: Reference, earlier: int, weighing: Weighing, plain: bool
+) -> Validation:
     """The fresh readings, which come after so many `earlier` ones, against what those alone say.
 
-    Where the base model is adequate (`plain`) it is fitted to them; it needs no search.  Anything else is searched
+    Where the base model is adequate (`plain`) it is fitted to them; it needs no search.  Anything else is
+    searched
     for anew without the fresh readings, linearised about the best explanation of all.
     """
     rows = np.isin(np.array(both.measurements.ids, dtype=object), weighing.mechanism.measurements.ids)
@@ -171,13 +175,11 @@ def _validated(both: FiveBar, reference: Reference, earlier: int, weighing: Weig
     p = best.x[: best.size]
     present = () if weighing.wanders else best.present
     if plain:
-        base = frame(first, p, reference, row_sd[: earlier][rows[:earlier]])
+        base = frame(first, p, reference, row_sd[:earlier][rows[:earlier]])
         noise_level = NoiseLevel(len(first.measurements), base.parameters_taken)
         weighed = [(settle(base, (), (), noise_level, reference), 1.0)]
     else:
-        found = weigh(
-            first, p, reference, row_sd[:earlier][rows[:earlier]], weighing.bank.families, present
-        )
+        found = weigh(first, p, reference, row_sd[:earlier][rows[:earlier]], weighing.bank.families, present)
         weighed = [(w.settled, w.probability) for w in found.settled if w.probability >= SHOWN]
     return validate(first, reference, weighed, fresh, row_sd[earlier:])
 

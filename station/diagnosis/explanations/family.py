@@ -1,4 +1,4 @@
-"""A family: one error that may be in the machine, with members that are searched and sizes that are averaged."""
+"""A family: one error that may be in the machine; its members are searched, its sizes averaged."""
 
 from __future__ import annotations
 

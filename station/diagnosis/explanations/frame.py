@@ -53,7 +53,7 @@ class Frame:
 
     @cached_property
     def _taken(self) -> tuple[Real, Real]:
-        """Directions (K, P) that the base parameters move, and the share of each that whitening takes away."""
+        """Directions (K, P) that the base parameters move, and the share that whitening takes of each."""
         U, D, _ = np.linalg.svd(self.jacobian * self.prior_sd, full_matrices=False)
         return U, 1.0 - 1.0 / np.sqrt(1.0 + D**2)
 
@@ -103,6 +103,4 @@ def frame(
     e = mechanism.measured - predicted(mechanism, p, more) + jacobian @ (p - mean)
     for family, member, amplitudes in present:
         e = e + family.columns(s, member)[0] @ amplitudes
-    return Frame(
-        mechanism, p, tuple(present), s, row_sd, mean, sd, e / row_sd, jacobian / row_sd[:, None]
-    )
+    return Frame(mechanism, p, tuple(present), s, row_sd, mean, sd, e / row_sd, jacobian / row_sd[:, None])

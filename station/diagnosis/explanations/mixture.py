@@ -1,4 +1,4 @@
-"""Numbers of the whole set: every value is a mean over all explanations, every variance covers their differences."""
+"""Numbers of the whole set: means over all explanations, variances that cover their differences."""
 
 from __future__ import annotations
 
@@ -51,7 +51,9 @@ class Mixture:
         """(P, P): mean of the covariances and covariance of the means."""
         size = self.settled[0].size
         return spread(
-            [s.x[:size] for s in self.settled], [s.covariance[:size, :size] for s in self.settled], self.weight
+            [s.x[:size] for s in self.settled],
+            [s.covariance[:size, :size] for s in self.settled],
+            self.weight,
         )
 
     def commands(self, place: Complex, approach: Real | None = None) -> Real:
@@ -66,7 +68,10 @@ class Mixture:
             mean = sum(w * r for w, (r, _) in zip(self.weight, arrived, strict=True))
             by_joint = arrived[0][1].situation.by_target[:, :, :2]
             error = place - mean
-            theta = theta + np.linalg.solve(by_joint, np.stack([error.real, error.imag], axis=1)[:, :, None])[:, :, 0]
+            theta = (
+                theta
+                + np.linalg.solve(by_joint, np.stack([error.real, error.imag], axis=1)[:, :, None])[:, :, 0]
+            )
         return np.asarray(theta)
 
     def position_error(self, theta: Real, place: Complex) -> PositionError:
@@ -113,9 +118,7 @@ class Mixture:
         return np.concatenate([at.situation.by_parameter, *columns], axis=2)
 
 
-def mixture(
-    mechanism: FiveBar, situation: Situation, settled: Sequence[tuple[Settled, float]]
-) -> Mixture:
+def mixture(mechanism: FiveBar, situation: Situation, settled: Sequence[tuple[Settled, float]]) -> Mixture:
     """Of explanations with probabilities, those worth a number."""
     kept = [(s, w) for s, w in settled if w >= SHARE] or [settled[0]]
     weight = np.array([w for _, w in kept])

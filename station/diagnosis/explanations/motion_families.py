@@ -1,4 +1,4 @@
-"""Unnamed errors that depend on the motion before a reading, or on how the guide lies: what a play is mistaken for."""
+"""Unnamed errors by the motion before a reading or the attitude of the guide: often mistaken for a play."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How noisy the readings are: the specification's shape, its level not known exactly and therefore averaged."""
+"""How noisy the readings are: the shape is specified, the level is not known exactly and averaged."""
 
 from __future__ import annotations
 

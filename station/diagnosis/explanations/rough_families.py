@@ -1,4 +1,4 @@
-"""Named errors that follow direction, tooth, period, moment or temperature: hardly anything else looks like them."""
+"""Named errors that follow direction, tooth, period or moment: hardly anything else looks like them."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from station.diagnosis.explanations.family import (
     sizes,
 )
 from station.diagnosis.explanations.situation import Action, Situation
+from station.diagnosis.explanations.thermal_families import thermal_families
 from station.effects.base import amplitude_and_phase
 from station.kinematics import Real
 from station.records import Quantity
@@ -34,10 +35,8 @@ HEALING = (4, 8, 16, 32)
 """Lengths of a step that heals, in readings."""
 
 
-def rough_families(
-    s: Situation, lengths: Mapping[str, float], *, thermometer: bool
-) -> tuple[Family, ...]:
-    """For the readings of `s` and nominal lengths, mm; with a thermometer that shows no warming nothing has grown."""
+def rough_families(s: Situation, lengths: Mapping[str, float], *, thermometer: bool) -> tuple[Family, ...]:
+    """For the readings of `s`, nominal lengths by name (mm), and whether a temperature was recorded."""
     return (
         *(_backlash(i) for i in (1, 2)),
         _both_backlash(),
@@ -50,7 +49,7 @@ def rough_families(
         _scale_cyclic(s),
         _hysteresis(s),
         _drift(),
-        *_thermal(s, lengths, thermometer=thermometer),
+        *thermal_families(s, lengths, thermometer=thermometer),
     )
 
 
@@ -68,9 +67,7 @@ def _both_backlash() -> Family:
             ("joint1", "joint2"), [alone(-0.5 * s.approach[:, 0]), alone(-0.5 * s.approach[:, 1])]
         )
 
-    parts = tuple(
-        Part("backlash", i, None, (i - 1,), scaled("width_deg", 1.0 / DEG, "deg")) for i in (1, 2)
-    )
+    parts = tuple(Part("backlash", i, None, (i - 1,), scaled("width_deg", 1.0 / DEG, "deg")) for i in (1, 2))
     return Family("backlash", parts, 0.2, sizes(3e-4 * DEG, 0.1 * DEG), ({},), actions)
 
 
@@ -230,46 +227,3 @@ def _drift() -> Family:
 
     part = Part("drift", None, None, (0,), scaled("mm_per_hour", 1.0, "mm/h"))
     return Family("drift", (part,), 1.0, sizes(0.03, 20.0), ({},), actions)
-
-
-def _thermal(s: Situation, lengths: Mapping[str, float], *, thermometer: bool) -> tuple[Family, ...]:
-    """Links and scale grow when warm, by the expansion of a material; the mounting may move either way."""
-    if thermometer and s.rise is None:
-        return ()
-    if s.rise is None:
-        span = float(np.ptp(s.t_s)) or 1.0
-        hidden: tuple[Hidden, ...] = tuple({"tau_s": float(v)} for v in span * np.geomspace(0.05, 3.0, 10))
-    else:
-        hidden = ({},)
-
-    def course(s: Situation, hidden: Sequence[Hidden]) -> Real:
-        """(V, K, 1) rise in temperature, K; unrecorded it is one of ten kelvin in the end."""
-        out = [
-            10.0 * (1.0 - np.exp(-s.t_s / h["tau_s"])) if "tau_s" in h else s.rise for h in hidden
-        ]
-        return np.stack([np.zeros(len(s)) if v is None else v for v in out])[:, :, None]
-
-    def links(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
-        rise = course(s, hidden) * 1e-6
-        return [Action(link, rise * mm) for link, mm in lengths.items()]
-
-    def scale(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
-        return [Action("reading", course(s, hidden) * -1e-6 * s.travel[:, None])]
-
-    def mounting(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
-        return [Action("reading", course(s, hidden) * 1e-3)]
-
-    share = 1.0 if s.rise is not None else 0.3
-
-    def made(part: str, actions: Callable[[Situation, Sequence[Hidden]], list[Action]], unit: str) -> Family:
-        signed = part != "mounting"
-        name = f"{part}_{unit.replace('/', '_per_')}"
-        range_ = sizes(2.0, 25.0) if signed else sizes(0.1, 50.0)
-        own = Part("thermal_growth", None, part, (0,), scaled(name, 1.0, unit))
-        return Family("warming", (own,), share, range_, hidden, actions, signed=signed)
-
-    return (
-        made("links", links, "um/m/K"),
-        made("scale", scale, "um/m/K"),
-        made("mounting", mounting, "um/K"),
-    )

@@ -1,7 +1,8 @@
 """Which sets of up to three errors account for the readings: searched over the set, not from one winner on.
 
 Every family alone; beside each of the most probable ones every other; beside the most probable pairs every
-third.  Then what is best is revisited: each of its errors is exchanged for every other until nothing better is
+third.  Then what is best is revisited: each of its errors is exchanged for every other until nothing better
+is
 found.  The evidence of a set is that of its best members, times the price paid for each search.
 """
 
@@ -98,12 +99,14 @@ class Search:
         return sorted(self.found.values(), key=lambda c: -c.log_posterior)
 
     def _leaves_noise(self, single: Candidate) -> bool:
-        """Whether one error leaves about as much as the noise, so that only what rivals it is looked beside."""
+        """Whether one error leaves no more than noise, so that only its rivals need a second error."""
         bank = self.bank
         return bank.noise.level(bank.square - 2.0 * bank.known(single.choices).gain) < NOISY
 
     def _best(self, count: int, most: int) -> list[Candidate]:
-        sets = sorted((c for c in self.found.values() if len(c.choices) == count), key=lambda c: -c.log_posterior)
+        sets = sorted(
+            (c for c in self.found.values() if len(c.choices) == count), key=lambda c: -c.log_posterior
+        )
         if not sets:
             return []
         top = max(c.log_posterior for c in self.found.values())

@@ -1,7 +1,9 @@
-"""One explanation settled: its most probable parameters by the nonlinear model, their covariance, its evidence.
+"""One explanation settled by the nonlinear model: parameters, covariance and evidence.
 
-About the point that the search was linearised at, a large error (a link 5 mm too long, a ratio 1 % wrong) leaves
-tens of micrometres of curvature.  Each probable explanation is therefore fitted anew with Gauss-Newton steps and
+About the point that the search was linearised at, a large error (a link 5 mm too long, a ratio 1 % wrong)
+leaves
+tens of micrometres of curvature.  Each probable explanation is therefore fitted anew with Gauss-Newton
+steps and
 its evidence taken at its own minimum (Laplace).
 """
 

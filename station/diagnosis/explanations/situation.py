@@ -97,9 +97,7 @@ def at_readings(
     jacobian = distance_jacobian(geometry, at)
     m = mechanism.measurements
     came_from = before(m, None if first else reference)
-    targets = np.column_stack(
-        [jacobian[:, :10], at.direction.real, at.direction.imag, np.ones(len(at.rho))]
-    )
+    targets = np.column_stack([jacobian[:, :10], at.direction.real, at.direction.imag, np.ones(len(at.rho))])
     return Situation(
         by_parameter=mechanism.by_parameter(jacobian)[:, None, :],
         by_target=targets[:, None, :],

@@ -1,4 +1,4 @@
-"""Named errors that are smooth over the workspace, and the natural pairs: what the geometry nearly takes up."""
+"""Named errors that are smooth over the workspace, alone and as natural pairs."""
 
 from __future__ import annotations
 
@@ -100,9 +100,7 @@ def _at_joints(
         return side_by_side(("joint1", "joint2"), [shape(s, i, hidden) for i in (1, 2)])
 
     alike = tuple(Part(effect, i, None, own, quantities) for i in (1, 2))
-    each = tuple(
-        Part(effect, i, None, tuple(k + width * (i - 1) for k in own), quantities) for i in (1, 2)
-    )
+    each = tuple(Part(effect, i, None, tuple(k + width * (i - 1) for k in own), quantities) for i in (1, 2))
     pair = Family(effect, each, OWN if width == 1 else SAME, sizes(*range_), hidden, both)
     if width > 1:
         return (single(1), single(2), pair)

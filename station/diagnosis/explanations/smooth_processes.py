@@ -1,6 +1,7 @@
-"""Unnamed errors without structure: low-rank Gaussian processes over angle, travel, place, time and approach x place.
+"""Unnamed errors without structure: Gaussian processes over angle, travel, place, time, approach x place.
 
-A process over x with length scale h is a weighted sum of shapes k(x, z) K^-1/2 at inducing points z (Nystrom):
+A process over x with length scale h is a weighted sum of shapes k(x, z) K^-1/2 at inducing points z
+(Nystrom):
 independent amplitudes of unit variance then have its covariance.
 """
 
@@ -30,7 +31,9 @@ def processes(s: Situation) -> tuple[Family, ...]:
     return (
         *(_stiff(s, joint) for joint in (1, 2)),
         *(
-            _process(f"joint{joint}", "smooth angle", f"joint{joint}", weight, angle, _over_angle(s, joint, h))
+            _process(
+                f"joint{joint}", "smooth angle", f"joint{joint}", weight, angle, _over_angle(s, joint, h)
+            )
             for joint in (1, 2)
             for h, weight in ((1.0, 0.25), (0.5, 0.25), (0.25, 0.15), (0.12, 0.1))
         ),
@@ -52,9 +55,7 @@ def processes(s: Situation) -> tuple[Family, ...]:
             for joint in (1, 2)
         ),
         *(
-            _process(
-                f"joint{joint}", "approach by place", "approach", 0.4, angle, _approach_by_place(joint)
-            )
+            _process(f"joint{joint}", "approach by place", "approach", 0.4, angle, _approach_by_place(joint))
             for joint in (1, 2)
         ),
         _process("reading", "slider by place", "approach", 0.3, mm, _slider_by_place()),
@@ -66,9 +67,7 @@ def processes(s: Situation) -> tuple[Family, ...]:
     )
 
 
-def _process(
-    target: str, kind: str, depends_on: str, weight: float, range_: Real, shapes: Shapes
-) -> Family:
+def _process(target: str, kind: str, depends_on: str, weight: float, range_: Real, shapes: Shapes) -> Family:
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
         return [Action(target, shapes(s)[None])]
 
@@ -123,7 +122,8 @@ def _wandering(s: Situation) -> Shapes:
 def wanderings(s: Situation) -> tuple[Family, ...]:
     """A step of its own at every reading: where something wanders so fast that no smooth curve follows it.
 
-    As many amplitudes as readings; `weighing` asks for them only where everything else leaves more than noise.
+    As many amplitudes as readings; `weighing` asks for them only where everything else leaves more than
+    noise.
     """
     moments = np.sort(s.t_s)[1:]
 
@@ -179,7 +179,9 @@ def _stiff(s: Situation, joint: int) -> Family:
             return np.asarray(x ** int(h["power"]))
         if "from_zero" in h:
             turned = s.drive_angle[:, joint - 1]
-            return np.asarray(np.sign(turned) ** (int(h["from_zero"]) + 1) * np.abs(turned / half) ** h["from_zero"])
+            return np.asarray(
+                np.sign(turned) ** (int(h["from_zero"]) + 1) * np.abs(turned / half) ** h["from_zero"]
+            )
         return np.asarray(np.exp(h["rate"] * x - abs(h["rate"])))
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
@@ -189,7 +191,7 @@ def _stiff(s: Situation, joint: int) -> Family:
 
 
 def _patch(kind: str, depends_on: str, by: int | None, weight: float) -> Family:
-    """A spot of the workspace; by the sense of joint 1 (0), joint 2 (1) or the slider (2) where one is given."""
+    """A spot of the workspace, by the sense of joint 1 (0), joint 2 (1), the slider (2) or none."""
     hidden = tuple(
         {"u": float(u), "v": float(v), "radius": radius}
         for radius in (0.12, 0.22)
@@ -236,6 +238,4 @@ def _bump(s: Situation) -> Family:
         moved = [{**h, "at_mm": at + sign * width * share} for sign in (-1.0, 1.0)]
         return [*moved, *({**h, "width_mm": width * factor} for factor in (0.5**share, 2.0**share))]
 
-    return replace(
-        unnamed("bump", "reading", 0.4, sizes(0.003, 1.0), hidden, actions), neighbours=neighbours
-    )
+    return replace(unnamed("bump", "reading", 0.4, sizes(0.003, 1.0), hidden, actions), neighbours=neighbours)

@@ -1,6 +1,7 @@
-"""Unnamed errors with the structure of mechanics: turning parts two or three times a turn, shifts by place or load.
+"""Unnamed errors with mechanical structure: low harmonics of turning parts, shifts by place or load.
 
-They have no entry in the catalogue, but the truth is often among them; general smooth curves alone do not hold it.
+They have no entry in the catalogue, but the truth is often among them; general smooth curves alone do not
+hold it.
 """
 
 from __future__ import annotations
@@ -93,7 +94,7 @@ def _centre(joint: int, range_: Real) -> Family:
 
 
 def _path(joint: int, range_: Real) -> Family:
-    """The same on a line (across, up, along the arm, square to it) or on a circle, with or against the turning."""
+    """The same on a line (x, y, along the arm, square to it) or a circle, with or against the turning."""
     hidden = tuple({**turns, "form": float(form)} for turns in TURNS for form in range(6))
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
@@ -155,7 +156,8 @@ def _load(s: Situation, hidden: Sequence[Hidden]) -> Real:
     own = np.cos(s.theta)
     pull = s.force
     return _chosen(
-        (own[:, 0] - own[:, 1], own[:, 0] + own[:, 1], pull[:, 0] - pull[:, 1], pull[:, 0] + pull[:, 1]), hidden
+        (own[:, 0] - own[:, 1], own[:, 0] + own[:, 1], pull[:, 0] - pull[:, 1], pull[:, 0] + pull[:, 1]),
+        hidden,
     )
 
 

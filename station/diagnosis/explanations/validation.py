@@ -97,9 +97,7 @@ def validate(
     )
 
 
-def _prediction(
-    later: FiveBar, reference: Reference, settled: Settled, row_sd: Real
-) -> tuple[Real, Real]:
+def _prediction(later: FiveBar, reference: Reference, settled: Settled, row_sd: Real) -> tuple[Real, Real]:
     """(F,) measured less predicted and its covariance (F, F), mm."""
     p = settled.x[: settled.size]
     plain = at_readings(later, p, reference, first=False)
@@ -131,13 +129,19 @@ def together(first: Measurements, fresh: Measurements) -> Measurements:
     """
     unknown = [name for name in fresh.mounts if name not in first.mounts]
     if unknown:
-        raise InputRefused(f"The fresh readings are of mount {unknown[0]!r}, which the earlier ones do not have.")
+        raise InputRefused(
+            f"The fresh readings are of mount {unknown[0]!r}, which the earlier ones do not have."
+        )
     mount = np.array([first.mounts.index(name) for name in fresh.mounts])[fresh.mount]
     came_from = np.array(fresh.came_from)
     came_from[np.isnan(came_from).any(axis=1)] = [*first.theta[-1], first.distance[-1]]
 
     # a clock that was set back runs on from the last reading
-    back = max(0.0, float(first.t_s.max() - fresh.t_s.min()) + 1.0) if fresh.t_s.min() <= first.t_s.max() else 0.0
+    back = (
+        max(0.0, float(first.t_s.max() - fresh.t_s.min()) + 1.0)
+        if fresh.t_s.min() <= first.t_s.max()
+        else 0.0
+    )
 
     def both(a: Real | None, b: Real | None) -> Real | None:
         return None if a is None or b is None else np.concatenate([a, b])

@@ -1,4 +1,4 @@
-"""The decision: what is the verdict, what is confirmed, and which effects are named (contract.md, second form)."""
+"""The decision: the verdict, what is confirmed, and which effects are named (contract.md, second form)."""
 
 from __future__ import annotations
 
@@ -68,9 +68,7 @@ def accounts(weighed: Settled, statements: Statements) -> bool:
     return float(fdtrc(lack_dof, dof, lack / (pure / dof))) > MISFIT_P
 
 
-def decide(
-    statements: Statements, findings: tuple[Finding, ...], validation: Validation | None
-) -> Decision:
+def decide(statements: Statements, findings: tuple[Finding, ...], validation: Validation | None) -> Decision:
     """Verdict by the probabilities; nothing is confirmed without fresh readings that are independent."""
     best = statements.weighing.best
     accounted = accounts(best, statements)
@@ -103,7 +101,9 @@ def decide(
 def findings(statements: Statements) -> tuple[Finding, ...]:
     """The named effects of the most probable core that holds any."""
     weighing = statements.weighing
-    core = next((key for key, _ in statements.cores if key and any(weighing.families[k].named for k in key)), None)
+    core = next(
+        (key for key, _ in statements.cores if key and any(weighing.families[k].named for k in key)), None
+    )
     if core is None or statements.base >= MOSTLY:
         return ()
     settled = weighing.settle(core)
@@ -124,7 +124,9 @@ def findings(statements: Statements) -> tuple[Finding, ...]:
             out.append(
                 Finding(
                     part,
-                    part.quantities(family.hidden[choice.member], amplitudes[own], covariance[np.ix_(own, own)]),
+                    part.quantities(
+                        family.hidden[choice.member], amplitudes[own], covariance[np.ix_(own, own)]
+                    ),
                     statements.probability(part.key, alike),
                     tuple(key for key in alias_keys if key not in family.keys),
                 )

@@ -1,4 +1,4 @@
-"""All explanations of one set of readings with their probabilities: search, settle, linearise anew where needed."""
+"""All explanations of one set of readings with their probabilities: search, settle, linearise anew."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ MOST_SETTLED = 12
 SETTLED_WITHIN = 4.5
 """Log of probability below the best within which an explanation is settled."""
 ANEW = 1.0
-"""Standard deviations by which the best explanation may differ from its tangent before all is linearised anew."""
+"""Standard deviations between model and tangent from which on all is linearised anew."""
 RESTLESS = 1.5
 """Noise over the specification, left by everything else, from which on wandering by steps is asked for."""
 ROUNDS = 3
@@ -137,8 +137,8 @@ def _weighed(
         if c.log_posterior < top - SETTLED_WITHIN:
             break
         one = base if not c.choices else settle(at, families, c.choices, noise, reference)
-        known = bank.known(c.choices)
-        posterior[c.key] += one.log_evidence + known.sign - bank.log_evidence(known) - level
+        taken = bank.known(c.choices)
+        posterior[c.key] += one.log_evidence + taken.sign - bank.log_evidence(taken) - level
         settled[c.key] = one
     if () not in settled:
         settled[()] = base
