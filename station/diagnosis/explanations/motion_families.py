@@ -10,7 +10,6 @@ from station.diagnosis.explanations.family import Family, Hidden, sizes
 from station.diagnosis.explanations.rough_families import DEG
 from station.diagnosis.explanations.situation import Action, Situation
 from station.diagnosis.explanations.structured_families import unnamed
-from station.kinematics import Real
 
 WAYS_DEG = (1.5, 4.0, 10.0, 25.0)
 TRAVEL_MM = 100.0
@@ -23,7 +22,6 @@ def motion_families() -> tuple[Family, ...]:
         *(_loose(i) for i in (1, 2)),
         _lagging(),
         _guide(),
-        *(_uneven_sag(joints) for joints in ((1,), (2,), (1, 2))),
     )
 
 
@@ -49,7 +47,7 @@ def _loose(joint: int) -> Family:
         sense = s.approach[:, [joint - 1, 2 - joint]].T[own]
         return [Action(f"l{joint}", sense[:, :, None])]
 
-    return unnamed("passive play", "approach", 0.3, sizes(0.001, 0.3), hidden, actions)
+    return unnamed("passive play", "approach", 0.1, sizes(0.001, 0.3), hidden, actions)
 
 
 def _lagging() -> Family:
@@ -74,19 +72,3 @@ def _guide() -> Family:
         return [Action("reading", np.stack([shapes[int(h["form"])] for h in hidden])[:, :, None])]
 
     return unnamed("guide by attitude", "reading", 0.5, sizes(0.003, 2.0), hidden, actions)
-
-
-def _uneven_sag(joints: tuple[int, ...]) -> Family:
-    """A sag that is not in proportion to the load: stiffer, or softer, the more it is turned."""
-    hidden = tuple({"form": float(k)} for k in range(3))
-
-    def shapes(s: Situation, joint: int, hidden: Sequence[Hidden]) -> Real:
-        load = np.cos(s.theta[:, joint - 1])
-        forms = (-(load**3), -load * np.abs(load), -load / (1.0 + np.abs(load)))
-        return np.stack([forms[int(h["form"])] for h in hidden])[:, :, None]
-
-    def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
-        return [Action(f"joint{i}", shapes(s, i, hidden)) for i in joints]
-
-    where = f"joint{joints[0]}" if len(joints) == 1 else "place"
-    return unnamed("uneven sag", where, 0.2, sizes(0.002 * DEG, 0.5 * DEG), hidden, actions)

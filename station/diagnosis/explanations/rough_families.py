@@ -26,7 +26,7 @@ from station.records import Quantity
 DEG = np.pi / 180.0
 LOWEST_RIPPLE, HIGHEST_RIPPLE = 4.0, 80.0
 SHORTEST_PERIOD_MM = 0.4
-OVERSAMPLING = 3.0
+OVERSAMPLING = 2.0
 """Search steps per independent frequency."""
 EDGE = 2
 """Readings on either side of a step, at least."""

@@ -24,17 +24,21 @@ FIRST, SECOND = 14, 6
 """Most sets of one and of two errors beside which others are looked for."""
 WITHIN = 25.0
 """Log of probability below the best beyond which a set is not looked beside,"""
-POLISHED_WITHIN = 7.0
+POLISHED_WITHIN = 5.0
 """and within which its evidence is settled."""
 REFINED_WITHIN = 6.0
 """Log of probability below the best of a scan within which continuous hidden parameters are refined."""
-MOST_POLISHED = 24
+REFINED = 4
+"""Of the first scan, so many are refined in any case."""
+MOST_POLISHED = 12
 STRONG = 20.0
 """Log of evidence by which a second error must help before it is refined, however far from the best it is."""
 NOTHING_FOUND = 6.0
 """Log of odds by which the best single error must beat the base model before pairs are looked for."""
 ALONE_WITHIN = 20.0
 """Log of probability below a single error that leaves noise only, within which others are looked beside."""
+NEARLY = 2.0
+"""Log of probability below a single error that leaves noise only, within which a pair may need a third."""
 NOISY = 1.25
 """Noise over the specification that is no more than noise."""
 EXCHANGES = 4
@@ -92,8 +96,10 @@ class Search:
                     self._look(single)
             for seed in seeds:
                 self._look(self._polished(Candidate(seed, 0.0, 0.0)))
-            for pair in self._best(2, SECOND):
-                self._look(self._settled(pair))
+            pairs = self._best(2, SECOND)
+            if not alone or (pairs and pairs[0].log_posterior > singles[0].log_posterior - NEARLY):
+                for pair in pairs:
+                    self._look(self._settled(pair))
             self._exchange()
         self._polish()
         return sorted(self.found.values(), key=lambda c: -c.log_posterior)
@@ -149,7 +155,9 @@ class Search:
         strong = STRONG + self.bank.log_evidence(known) + price
         for rank, family in enumerate(searched):
             # with nothing else found, a wave between two steps of the search may be far better than it looks
-            free = not beside or (len(beside) == 1 and rank == 0 and scan.total[family] + price > strong)
+            free = (not beside and rank < REFINED) or (
+                len(beside) == 1 and rank == 0 and scan.total[family] + price > strong
+            )
             if not free and weighed[family] < limit:
                 break
             choice = scan.best[family]

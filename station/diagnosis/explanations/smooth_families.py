@@ -23,7 +23,8 @@ from station.effects.base import amplitude_and_phase
 from station.kinematics import Real
 from station.records import Quantity
 
-SAME, OWN = 0.3, 0.2
+SAGS = 5
+SAME, OWN = 1.0, 0.3
 """Prior weight of a natural pair with one size for both sides, and with a size of its own for each."""
 Shape = Callable[[Situation, int, Sequence[Hidden]], Real]
 """Joint 1 or 2 -> (V, K, q)."""
@@ -31,7 +32,7 @@ Shape = Callable[[Situation, int, Sequence[Hidden]], Real]
 
 def smooth_families(s: Situation) -> tuple[Family, ...]:
     """For the readings of `s`."""
-    sag = ({"of": 0.0}, {"of": 1.0})
+    sag = tuple({"of": float(form)} for form in range(SAGS))
     gain = scaled("ppm", 1e6, "ppm")
     sags = scaled("deg_at_horizontal", 1.0 / DEG, "deg")
     return (
@@ -63,11 +64,15 @@ def _gain(s: Situation, joint: int, hidden: Sequence[Hidden]) -> Real:
 
 
 def _sag(s: Situation, joint: int, hidden: Sequence[Hidden]) -> Real:
-    """Wind-up under the arm's own weight, or under the platform's, held through the distal links."""
+    """Wind-up under the arm's own weight, or under the platform's, held through the distal links.
+
+    The last three are of a drive train that becomes stiffer or softer the more it is loaded.
+    """
     i = joint - 1
-    own = -np.cos(s.theta[:, i])
+    load = np.cos(s.theta[:, i])
     platform = s.force[:, i] * np.sin(s.phi[:, i] - s.theta[:, i])
-    shapes = np.stack([own, platform])[[int(h["of"]) for h in hidden]][:, :, None]
+    uneven = (-(load**3), -load * np.abs(load), -2.0 * load / (1.0 + np.abs(load)))
+    shapes = np.stack([-load, platform, *uneven])[[int(h["of"]) for h in hidden]][:, :, None]
     if s.payload_kg is not None:
         shapes = shapes * (1.0 + s.payload_kg[:, None])
     return np.asarray(shapes)
