@@ -106,7 +106,7 @@ class Bank:
             first = np.cumsum([0, *(len(columns) for _, columns in members)])
             for (_, columns), at in zip(members, first, strict=False):
                 X[at : at + len(columns), : columns.shape[2]] = columns.transpose(0, 2, 1)
-            X = self.frame.whiten(X.reshape(-1, X.shape[2]).T).T.reshape(X.shape)
+            X = self.frame.whiten(X)
             sizes = np.vstack(
                 [np.tile(self.families[index].sizes, (len(columns), 1)) for index, columns in members]
             )
@@ -200,9 +200,10 @@ class Bank:
         value = float(self._values(here, precision, signed, known).max())
         for share in SHARES:
             near = replace(family, hidden=tuple(family.neighbours(hidden, share)))
-            columns = self.frame.whiten(self.frame.signature(near).transpose(1, 0, 2))
-            X = np.zeros((columns.shape[1], *group.X.shape[1:]))
-            X[:, : columns.shape[2]] = columns.transpose(1, 2, 0)
+            columns = self.frame.signature(near)
+            X = np.zeros((len(columns), *group.X.shape[1:]))
+            X[:, : columns.shape[2]] = columns.transpose(0, 2, 1)
+            X = self.frame.whiten(X)
             count = len(X)
             values = self._values(X, np.repeat(precision, count, 0), np.repeat(signed, count), known).max(
                 axis=1

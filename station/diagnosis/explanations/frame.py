@@ -62,12 +62,12 @@ class Frame:
         """How many base parameters the readings determine."""
         return float(np.sum(1.0 - (1.0 - self._taken[1]) ** 2))
 
-    def whiten(self, columns: Real) -> Real:
-        """Columns (K, ...) in mm over row_sd, whitened."""
+    def whiten(self, rows: Real) -> Real:
+        """Rows (..., K) over the readings, in mm over row_sd, whitened."""
         U, share = self._taken
-        flat = columns.reshape(len(columns), -1)
-        flat = flat - U @ (share[:, None] * (U.T @ flat))
-        return flat.reshape(columns.shape)
+        flat = rows.reshape(-1, rows.shape[-1])
+        flat = flat - ((flat @ U) * share) @ U.T
+        return flat.reshape(rows.shape)
 
     @cached_property
     def white(self) -> Real:

@@ -23,7 +23,8 @@ from station.effects.base import amplitude_and_phase
 from station.kinematics import Real
 from station.records import Quantity
 
-SAGS = 5
+EVEN, UNEVEN, SELDOM = (0, 1), (2, 3, 4), 0.1
+"""Forms of a sag in proportion to the load and of others, and the prior weight of the latter."""
 SAME, OWN = 1.0, 0.3
 """Prior weight of a natural pair with one size for both sides, and with a size of its own for each."""
 Shape = Callable[[Situation, int, Sequence[Hidden]], Real]
@@ -32,13 +33,18 @@ Shape = Callable[[Situation, int, Sequence[Hidden]], Real]
 
 def smooth_families(s: Situation) -> tuple[Family, ...]:
     """For the readings of `s`."""
-    sag = tuple({"of": float(form)} for form in range(SAGS))
+    sag, uneven = (tuple({"of": float(form)} for form in forms) for forms in (EVEN, UNEVEN))
+    turned = (0.002 * DEG, 0.4 * DEG)
     gain = scaled("ppm", 1e6, "ppm")
     sags = scaled("deg_at_horizontal", 1.0 / DEG, "deg")
     return (
         *_at_joints("encoder_eccentricity", _once, ({},), (0.003 * DEG, 0.5 * DEG), eccentric, (0, 1)),
         *_at_joints("transmission_gain", _gain, ({},), (5e-5, 1.5e-2), gain, (0,)),
-        *_at_joints("compliance", _sag, sag, (0.002 * DEG, 0.4 * DEG), sags, (0,), signed=True),
+        *_at_joints("compliance", _sag, sag, turned, sags, (0,), signed=True),
+        *(
+            replace(family, kind="uneven compliance", weight=family.weight * SELDOM)
+            for family in _at_joints("compliance", _sag, uneven, turned, sags, (0,), signed=True)[:3]
+        ),
         *_lengths("L"),
         *_lengths("l"),
         *(_clearance(i) for i in (1, 2)),
