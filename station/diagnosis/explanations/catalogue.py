@@ -19,6 +19,6 @@ def catalogue(s: Situation, lengths: Mapping[str, float], *, thermometer: bool) 
         *rough_families(s, lengths, thermometer=thermometer),
         *smooth_families(s),
         *structured_families(),
-        *motion_families(),
+        *motion_families(s),
         *processes(s),
     )

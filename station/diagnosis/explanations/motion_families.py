@@ -15,13 +15,13 @@ WAYS_DEG = (1.5, 4.0, 10.0, 25.0)
 TRAVEL_MM = 100.0
 
 
-def motion_families() -> tuple[Family, ...]:
-    """Of both joints, the reading and the guide."""
+def motion_families(s: Situation) -> tuple[Family, ...]:
+    """For the readings of `s`: of both joints, the reading and the guide."""
     return (
         *(_by_way(i) for i in (1, 2)),
         *(_loose(i) for i in (1, 2)),
         _lagging(),
-        _guide(),
+        _guide(s),
     )
 
 
@@ -62,13 +62,14 @@ def _lagging() -> Family:
     return unnamed("lagging reading", "approach", 0.5, sizes(0.001, 0.5), hidden, actions)
 
 
-def _guide() -> Family:
-    """Slider and guide sag by how they lie and how far they are drawn."""
-    hidden = tuple({"form": float(k)} for k in range(6))
+def _guide(s: Situation) -> Family:
+    """Slider and guide bend under their weight: by how they lie and how far they are drawn."""
+    low, span = float(s.travel.min()), float(np.ptp(s.travel)) or 1.0
+    hidden = tuple({"across": a, "drawn": d} for a in (1.0, 2.0, 4.0) for d in (0.0, 1.0, 2.0, 3.0))
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
-        across, travel = s.direction[:, 0], s.travel / TRAVEL_MM
-        shapes = (across**2, across**2 * travel, across, across * travel, across**4, travel**3)
-        return [Action("reading", np.stack([shapes[int(h["form"])] for h in hidden])[:, :, None])]
+        across, drawn = s.direction[:, 0], (s.travel - low) / span
+        shapes = [across ** int(h["across"]) * np.sign(drawn) * np.abs(drawn) ** h["drawn"] for h in hidden]
+        return [Action("reading", np.stack(shapes)[:, :, None])]
 
-    return unnamed("guide by attitude", "reading", 0.5, sizes(0.003, 2.0), hidden, actions)
+    return unnamed("guide by attitude", "reading", 0.8, sizes(0.003, 2.0), hidden, actions)
