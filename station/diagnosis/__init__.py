@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from station.diagnosis.closed_loop import Diagnosis, diagnose
 from station.diagnosis.decision import Decision, StageFigures, decide
+from station.diagnosis.explanations import ExplanationSet, explain
 from station.diagnosis.learned import (
     Transfer,
     commands_csv,
@@ -38,6 +39,7 @@ __all__ = [
     "Decision",
     "Diagnosis",
     "Experiment",
+    "ExplanationSet",
     "Findings",
     "Mistake",
     "Scan",
@@ -49,6 +51,7 @@ __all__ = [
     "decide",
     "diagnose",
     "experiment",
+    "explain",
     "find_mistake",
     "fit_readings",
     "kept_fresh",

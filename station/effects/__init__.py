@@ -5,7 +5,16 @@ A new effect is one new file and one line in the catalogue of each machine that 
 
 from __future__ import annotations
 
-from station.effects.base import Acts, Effect, JointEffect, Variants, doubtful, signature, weight
+from station.effects.base import (
+    Acts,
+    Effect,
+    JointEffect,
+    Variants,
+    amplitude_and_phase,
+    doubtful,
+    signature,
+    weight,
+)
 from station.effects.catalogue import arm_catalogue, five_bar_catalogue
 from station.effects.cyclic import OVERSAMPLING, waves
 from station.effects.gear_curve import GearCurve, curve_basis, fast_basis
@@ -17,6 +26,7 @@ __all__ = [
     "GearCurve",
     "JointEffect",
     "Variants",
+    "amplitude_and_phase",
     "arm_catalogue",
     "curve_basis",
     "doubtful",

@@ -101,7 +101,7 @@ class FiveBar:
     def row_sd(self) -> Real:
         """(K,) head noise (eq. 34) and the half pulse that feedback cannot tell, through d rho / d theta."""
         joint_sd = np.radians(self.robot.joint_sd_deg)
-        by_joint = distance_by_joint(pose(self._geometry(self.start), self.theta))
+        by_joint = distance_by_joint(pose(self.geometry_at(self.start), self.theta))
         head_variance = SCALE_SD_MM**2 / self.measurements.samples
         return np.asarray(np.sqrt(head_variance + joint_sd**2 * np.sum(by_joint**2, axis=1)))
 
@@ -110,7 +110,8 @@ class FiveBar:
         """(P,) the prior mean."""
         return np.array([p.prior_mean for p in self.parameters])
 
-    def _geometry(self, p: Real) -> Geometry:
+    def geometry_at(self, p: Real) -> Geometry:
+        """The geometry at parameters p (P,); with several mounts c + d is (K,), one a reading."""
         geometry = perturbed(self.nominal, p[:SIZE])
         if not self._extra:
             return geometry
@@ -120,18 +121,24 @@ class FiveBar:
 
     def observe(self, p: Real, theta: Real) -> Observation:
         """(K,) head readings with derivatives; NaN where the linkage does not close."""
-        geometry = self._geometry(p)
+        geometry = self.geometry_at(p)
         at = pose(geometry, theta + p[:2])
         jacobian = distance_jacobian(geometry, at)
-        rho0 = p[SIZE + 2 * self._extra :]
+        return Observation(at.rho - self.offset(p), self.by_parameter(jacobian), jacobian[:, :2])
+
+    def offset(self, p: Real) -> Real:
+        """(K,) rho_0 of each reading's mount at parameters p (P,), mm."""
+        return np.asarray(p[SIZE + 2 * self._extra :][self._mount])
+
+    def by_parameter(self, jacobian: Real) -> Real:
+        """(K, P) d s / d p from d rho / d p (K, 12) of each reading's own geometry."""
         if not self._extra:
-            full = np.empty((len(at.rho), SIZE + 1))
+            full = np.empty((len(jacobian), SIZE + 1))
             full[:, :SIZE] = jacobian
             full[:, SIZE] = -1.0
-            return Observation(at.rho - rho0, full, jacobian[:, :2])
+            return full
         drm, offset = self._by_mount(jacobian[:, 10:12])
-        full = np.hstack([jacobian[:, :10], drm, offset])
-        return Observation(at.rho - rho0[self._mount], full, jacobian[:, :2])
+        return np.hstack([jacobian[:, :10], drm, offset])
 
     def _by_mount(self, by_drm: Real) -> tuple[Real, Real]:
         """Spread d rho / d dr_M and d s / d rho_0 over the columns of each reading's own mount."""

@@ -1,0 +1,24 @@
+"""All families that compete for one set of readings."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from station.diagnosis.explanations.family import Family
+from station.diagnosis.explanations.motion_families import motion_families
+from station.diagnosis.explanations.rough_families import rough_families
+from station.diagnosis.explanations.situation import Situation
+from station.diagnosis.explanations.smooth_families import smooth_families
+from station.diagnosis.explanations.smooth_processes import processes
+from station.diagnosis.explanations.structured_families import structured_families
+
+
+def catalogue(s: Situation, lengths: Mapping[str, float], *, thermometer: bool) -> tuple[Family, ...]:
+    """For the readings of `s`, nominal lengths by name (mm), and whether a temperature was recorded."""
+    return (
+        *rough_families(s, lengths, thermometer=thermometer),
+        *smooth_families(s),
+        *structured_families(),
+        *motion_families(s),
+        *processes(s),
+    )

@@ -1,0 +1,127 @@
+"""A family: one error that may be in the machine; its members are searched, its sizes averaged."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+
+from station.diagnosis.explanations.situation import TARGETS, Action, Situation
+from station.records import Quantity, Real
+
+Hidden = Mapping[str, float]
+Quantities = Callable[[Hidden, Real, Real], tuple[Quantity, ...]]
+"""Hidden parameters, amplitudes (q,) and their covariance (q, q) in the units of the catalogue."""
+NODES = 6
+"""Sizes of a family, evenly in the logarithm."""
+
+
+@dataclass(frozen=True)
+class Part:
+    """One effect of a family, where it acts, and which amplitudes are its own."""
+
+    effect: str
+    """Identifier of the catalogue, or "unnamed"."""
+    joint: int | None
+    part: str | None
+    """Where it acts on a part: "L1", "links", "scale", ...; None where the joint says it all."""
+    own: tuple[int, ...]
+    """Indices into the family's amplitudes."""
+    quantities: Quantities
+
+    @property
+    def key(self) -> tuple[str, int | None, str | None]:
+        """What two explanations must share to hold the same effect."""
+        return self.effect, self.joint, self.part
+
+
+@dataclass(frozen=True)
+class Family:
+    """An error with V members of q amplitudes, each ~ N(0, size^2), size averaged over `sizes`."""
+
+    kind: str
+    """The mechanical cause in one word; unnamed families differ in it."""
+    parts: tuple[Part, ...]
+    weight: float
+    """Share of the prior probability, relative to other families."""
+    sizes: Real
+    """(T,) prior standard deviations of the amplitudes, mm or rad a unit of the basis."""
+    hidden: tuple[Hidden, ...]
+    """(V) what distinguishes the members."""
+    actions: Callable[[Situation, Sequence[Hidden]], list[Action]]
+    """What members with these hidden parameters add, for a unit of every amplitude."""
+    depends_on: str | None = None
+    """Of an unnamed error: "joint1", "joint2", "reading", "place", "time" or "approach"."""
+    signed: bool = False
+    """Whether its only amplitude cannot be negative."""
+    neighbours: Callable[[Hidden, float], list[Hidden]] | None = None
+    """Where hidden parameters are continuous: those about given ones, at a share of the search step."""
+    repeats: bool = False
+    """Whether the machine can have it more than once, with other hidden parameters."""
+
+    width: int = 0
+    """Number q of amplitudes; counted by `Bank`."""
+
+    @property
+    def named(self) -> bool:
+        return self.depends_on is None
+
+    @property
+    def keys(self) -> frozenset[tuple[str, int | None, str | None]]:
+        return frozenset(part.key for part in self.parts)
+
+    def columns(self, s: Situation, member: int | None = None) -> Real:
+        """(V, K * m, q) mm a unit of amplitude; of one member only, (1, K * m, q)."""
+        return s.columns(self.actions(s, self._chosen(member)))
+
+    def added(self, s: Situation, member: int, amplitudes: Real) -> Real:
+        """(K, 13) what one member with amplitudes (q,) adds to the targets."""
+        out = np.zeros((len(s), len(TARGETS)))
+        for target, basis in self.actions(s, self._chosen(member)):
+            out[:, TARGETS.index(target)] += basis[0] @ amplitudes
+        return out
+
+    def _chosen(self, member: int | None) -> Sequence[Hidden]:
+        return self.hidden if member is None else self.hidden[member : member + 1]
+
+
+@cache
+def sizes(low: float, high: float) -> Real:
+    """(T,) from `low` to `high`, evenly in the logarithm."""
+    out = np.geomspace(low, high, NODES)
+    out.setflags(write=False)
+    return out
+
+
+def alone(basis: Real) -> Real:
+    """(1, K, q) one member from its shapes (K,) or (K, q)."""
+    return (basis[:, None] if basis.ndim == 1 else basis)[None]
+
+
+def side_by_side(targets: Sequence[str], bases: Sequence[Real]) -> list[Action]:
+    """Shapes with independent amplitudes on several targets: member by member, amplitudes in order."""
+    total = sum(basis.shape[2] for basis in bases)
+    out, first = [], 0
+    for target, basis in zip(targets, bases, strict=True):
+        wide = np.zeros((*basis.shape[:2], total))
+        wide[:, :, first : first + basis.shape[2]] = basis
+        first += basis.shape[2]
+        out.append(Action(target, wide))
+    return out
+
+
+def scaled(name: str, factor: float, unit: str) -> Quantities:
+    """One amplitude, times `factor` in `unit`."""
+
+    def quantities(hidden: Hidden, amplitudes: Real, covariance: Real) -> tuple[Quantity, ...]:
+        sd = float(np.sqrt(covariance[0, 0])) * abs(factor)
+        return (Quantity(name, float(amplitudes[0]) * factor, sd, unit),)
+
+    return quantities
+
+
+def nothing(hidden: Hidden, amplitudes: Real, covariance: Real) -> tuple[Quantity, ...]:
+    """An unnamed error has no parameters of its own; its size is its RMS in the readings."""
+    return ()

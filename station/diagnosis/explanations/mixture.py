@@ -1,0 +1,143 @@
+"""Numbers of the whole set: means over all explanations, variances that cover their differences."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from station.diagnosis.explanations.settle import Settled
+from station.diagnosis.explanations.situation import Commanded, Situation, at_commands
+from station.five_bar import GRID, FiveBar, inverse
+from station.records import Complex, Real
+
+SHARE = 0.004
+"""Explanations with a smaller probability take no part in the numbers."""
+DRAWS = 400
+STEPS = 3
+"""Newton steps to the commands; the second is exact to a micrometre."""
+
+
+@dataclass(frozen=True)
+class PositionError:
+    """Over the workspace, mm."""
+
+    rms: float
+    max: float
+    bound_95: float
+    """95 % of the machines that the set describes have no larger error anywhere."""
+
+
+@dataclass(frozen=True)
+class Mixture:
+    """Explanations with their probabilities, as one distribution."""
+
+    mechanism: FiveBar
+    situation: Situation
+    """Of the readings."""
+    settled: tuple[Settled, ...]
+    weight: Real
+    """(E,) sums to one."""
+
+    @property
+    def mean(self) -> Real:
+        """(P,) base parameters, mm and rad."""
+        size = self.settled[0].size
+        return np.asarray(sum(w * s.x[:size] for w, s in zip(self.weight, self.settled, strict=True)))
+
+    @property
+    def covariance(self) -> Real:
+        """(P, P): mean of the covariances and covariance of the means."""
+        size = self.settled[0].size
+        return spread(
+            [s.x[:size] for s in self.settled],
+            [s.covariance[:size, :size] for s in self.settled],
+            self.weight,
+        )
+
+    def commands(self, place: Complex, approach: Real | None = None) -> Real:
+        """(G, 2) joint commands, rad, that bring P to places (G,), mm, on average over the set.
+
+        `approach` (G, 2) is the side from which each joint will come, 0 unknown.
+        """
+        theta = inverse(self.mechanism.nominal, place)
+        side = np.zeros((len(place), 2)) if approach is None else approach
+        for _ in range(STEPS):
+            arrived = [self._arrived(s, theta, side) for s in self.settled]
+            mean = sum(w * r for w, (r, _) in zip(self.weight, arrived, strict=True))
+            by_joint = arrived[0][1].situation.by_target[:, :, :2]
+            error = place - mean
+            theta = (
+                theta
+                + np.linalg.solve(by_joint, np.stack([error.real, error.imag], axis=1)[:, :, None])[:, :, 0]
+            )
+        return np.asarray(theta)
+
+    def position_error(self, theta: Real, place: Complex) -> PositionError:
+        """Of joint commands theta (G, 2) meant for places (G,), what the set expects."""
+        rng = np.random.default_rng(0)
+        drawn, square = [], np.zeros(len(place))
+        counts = np.floor(self.weight * DRAWS + rng.random()).astype(int)
+        counts[0] += DRAWS - counts.sum()
+        for s, w, count in zip(self.settled, self.weight, counts, strict=True):
+            r, at = self._arrived(s, theta, np.zeros((len(place), 2)))
+            mean = np.stack([(r - place).real, (r - place).imag], axis=1)
+            root = self._moved(s, at) @ _root(s.covariance)
+            square += w * (np.sum(mean**2, axis=1) + np.sum(root**2, axis=(1, 2)))
+            if count > 0:
+                error = mean[:, :, None] + root @ rng.standard_normal((root.shape[2], count))
+                drawn.append(np.sqrt(np.sum(error**2, axis=1)).max(axis=0))
+        largest = np.concatenate(drawn)
+        size = np.sqrt(square)
+        return PositionError(
+            float(np.sqrt(np.mean(square))), float(size.max()), float(np.quantile(largest, 0.95))
+        )
+
+    def before_and_after(self) -> tuple[PositionError, PositionError]:
+        """Over the workspace: commanded with the nominal geometry, and with the commands of the set."""
+        place = self.mechanism.robot.workspace_grid(*GRID)
+        nominal = inverse(self.mechanism.nominal, place)
+        return self.position_error(nominal, place), self.position_error(self.commands(place), place)
+
+    def _arrived(self, s: Settled, theta: Real, approach: Real) -> tuple[Complex, Commanded]:
+        """(G,) where P stands under one explanation."""
+        at = at_commands(self.mechanism, s.x[: s.size], self.situation, theta, approach)
+        r = at.r
+        for family, member, amplitudes in s.present:
+            moved = (family.columns(at.situation, member)[0] @ amplitudes).reshape(-1, 2)
+            r = r + moved[:, 0] + 1j * moved[:, 1]
+        return r, at
+
+    def _moved(self, s: Settled, at: Commanded) -> Real:
+        """(G, 2, P + q) derivative of the position by all unknowns of one explanation."""
+        columns = [
+            f.columns(at.situation, c.member)[0].reshape(len(at.r), 2, -1)
+            for f, c in zip(s.families, s.choices, strict=True)
+        ]
+        return np.concatenate([at.situation.by_parameter, *columns], axis=2)
+
+
+def mixture(mechanism: FiveBar, situation: Situation, settled: Sequence[tuple[Settled, float]]) -> Mixture:
+    """Of explanations with probabilities, those worth a number."""
+    kept = [(s, w) for s, w in settled if w >= SHARE] or [settled[0]]
+    weight = np.array([w for _, w in kept])
+    return Mixture(mechanism, situation, tuple(s for s, _ in kept), weight / weight.sum())
+
+
+def spread(means: Sequence[Real], covariances: Sequence[Real], weight: Real) -> Real:
+    """(P, P) covariance of a mixture: law of total variance."""
+    middle = sum(w * m for w, m in zip(weight, means, strict=True))
+    return np.asarray(
+        sum(
+            w * (C + np.outer(m - middle, m - middle))
+            for w, m, C in zip(weight, means, covariances, strict=True)
+        )
+    )
+
+
+def _root(covariance: Real) -> Real:
+    """(X, X) whose square is a covariance; variances may differ by many orders."""
+    sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
+    values, vectors = np.linalg.eigh(covariance / np.outer(sd, sd))
+    return np.asarray(sd[:, None] * vectors * np.sqrt(np.maximum(values, 0.0)))

@@ -1,0 +1,250 @@
+"""Which sets of up to three errors account for the readings: searched over the set, not from one winner on.
+
+Every family alone; beside each of the most probable ones every other; beside the most probable pairs every
+third.  Then what is best is revisited: each of its errors is exchanged for every other until nothing better
+is
+found.  The evidence of a set is that of its best members, times the price paid for each search.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from station.diagnosis.explanations.evidence import Bank, Choice, Known, Scan
+from station.diagnosis.explanations.family import Family
+from station.records import Real
+
+BY_COUNT = (0.35, 0.45, 0.15, 0.05)
+"""Prior probability of so many errors; a natural pair is one."""
+FIRST, SECOND = 14, 6
+"""Most sets of one and of two errors beside which others are looked for."""
+WITHIN = 25.0
+"""Log of probability below the best beyond which a set is not looked beside,"""
+POLISHED_WITHIN = 5.0
+"""and within which its evidence is settled."""
+REFINED_WITHIN = 6.0
+"""Log of probability below the best of a scan within which continuous hidden parameters are refined."""
+REFINED = 4
+"""Of the first scan, so many are refined in any case."""
+MOST_POLISHED = 12
+STRONG = 20.0
+"""Log of evidence by which a second error must help before it is refined, however far from the best it is."""
+NOTHING_FOUND = 6.0
+"""Log of odds by which the best single error must beat the base model before pairs are looked for."""
+ALONE_WITHIN = 20.0
+"""Log of probability below a single error that leaves noise only, within which others are looked beside."""
+NEARLY = 2.0
+"""Log of probability below a single error that leaves noise only, within which a pair may need a third."""
+NOISY = 1.25
+"""Noise over the specification that is no more than noise."""
+EXCHANGES = 4
+SWEEPS = 3
+
+Key = tuple[int, ...]
+
+
+@dataclass(frozen=True)
+class Candidate:
+    """A set of errors at their best members and sizes."""
+
+    choices: tuple[Choice, ...]
+    log_evidence: float
+    """Averaged over members and sizes, over the base model's."""
+    log_prior: float
+
+    @cached_property
+    def key(self) -> Key:
+        return tuple(sorted(c.family for c in self.choices))
+
+    @cached_property
+    def log_posterior(self) -> float:
+        """Up to a constant that all share."""
+        return self.log_evidence + self.log_prior
+
+
+class Search:
+    """All sets found in one frame."""
+
+    def __init__(self, bank: Bank) -> None:
+        self.bank = bank
+        self.families = bank.families
+        weight = np.array([f.weight for f in bank.families])
+        self._log_weight: Real = np.log(weight / weight.sum())
+        self.found: dict[Key, Candidate] = {(): Candidate((), 0.0, float(np.log(BY_COUNT[0])))}
+        self._searched = [k for k, f in enumerate(bank.families) if f.neighbours is not None]
+        self._looked: set[Key] = set()
+        self._polished_keys: set[Key] = set()
+
+    def first(self) -> Candidate:
+        """The most probable of no error and one."""
+        self._look(Candidate((), 0.0, 0.0))
+        return max(self.found.values(), key=lambda c: c.log_posterior)
+
+    def run(self, seeds: Sequence[tuple[Choice, ...]] = ()) -> list[Candidate]:
+        """Most probable first; `seeds` are sets to look beside as well."""
+        self.first()
+        singles = self._best(1, FIRST)
+        alone = bool(singles) and self._leaves_noise(singles[0])
+        worth = bool(singles) and singles[0].log_posterior > self.found[()].log_posterior + np.log(0.02)
+        if worth and singles[0].log_evidence > NOTHING_FOUND:
+            for k, single in enumerate(singles):
+                if k == 0 or not alone or single.log_posterior > singles[0].log_posterior - ALONE_WITHIN:
+                    self._look(single)
+            for seed in seeds:
+                self._look(self._polished(Candidate(seed, 0.0, 0.0)))
+            pairs = self._best(2, SECOND)
+            if not alone or (pairs and pairs[0].log_posterior > singles[0].log_posterior - NEARLY):
+                for pair in pairs:
+                    self._look(self._settled(pair))
+            self._exchange()
+        self._polish()
+        return sorted(self.found.values(), key=lambda c: -c.log_posterior)
+
+    def _leaves_noise(self, single: Candidate) -> bool:
+        """Whether one error leaves no more than noise, so that only its rivals need a second error."""
+        bank = self.bank
+        return bank.noise.level(bank.square - 2.0 * bank.known(single.choices).gain) < NOISY
+
+    def _best(self, count: int, most: int) -> list[Candidate]:
+        sets = sorted(
+            (c for c in self.found.values() if len(c.choices) == count), key=lambda c: -c.log_posterior
+        )
+        if not sets:
+            return []
+        top = max(c.log_posterior for c in self.found.values())
+        # a set far below may still be half of the best pair
+        limit = min(top, sets[0].log_posterior) - (WITHIN if count > 1 else np.inf)
+        return [c for c in sets[:most] if c.log_posterior > limit]
+
+    def log_prior(self, key: Key) -> float:
+        """Of a set of families in any order."""
+        count = len(key)
+        orders = float(np.log([1.0, 1.0, 2.0, 6.0][count]))
+        return float(np.log(BY_COUNT[count]) + orders + sum(self._log_weight[k] for k in key))
+
+    def _look(self, beside: Candidate) -> None:
+        """Every family beside a set."""
+        key = beside.key
+        if key in self._looked or len(key) >= len(BY_COUNT) - 1:
+            return
+        self._looked.add(key)
+        known = self.bank.known(beside.choices)
+        price = beside.log_evidence - self.bank.log_evidence(known)
+        scan = self._refined(self.bank.scan(known), known, key, price)
+        for family in range(len(self.families)):
+            if self._fits(key, family):
+                self._add(beside.choices, scan, family, price)
+
+    def _refined(self, scan: Scan, known: Known, beside: Key, price: float) -> Scan:
+        """The promising ones of a scan at the best values of their continuous hidden parameters."""
+        top = float(scan.total.max())
+        if top < NOTHING_FOUND:
+            return scan
+        best, total, at_best = list(scan.best), scan.total.copy(), scan.at_best.copy()
+        weighed = scan.total + price + self._log_weight
+        limit = weighed.max() - REFINED_WITHIN
+        if beside:
+            found = max(c.log_posterior for c in self.found.values())
+            limit = max(limit, found - self.log_prior(beside) - REFINED_WITHIN)
+        searched = [k for k in self._searched if scan.best[k] is not None]
+        searched.sort(key=lambda k: -weighed[k])
+        strong = STRONG + self.bank.log_evidence(known) + price
+        for rank, family in enumerate(searched):
+            # with nothing else found, a wave between two steps of the search may be far better than it looks
+            free = (not beside and rank < REFINED) or (
+                len(beside) == 1 and rank == 0 and scan.total[family] + price > strong
+            )
+            if not free and weighed[family] < limit:
+                break
+            choice = scan.best[family]
+            assert choice is not None
+            self.bank.refine(choice, known)
+            again = self.bank.scan(known, only=family)
+            best[family] = again.best[family]
+            total[family], at_best[family] = again.total[family], again.at_best[family]
+        return Scan(total, tuple(best), at_best)
+
+    def _add(self, beside: tuple[Choice, ...], scan: Scan, family: int, price: float) -> None:
+        choice = scan.best[family]
+        if choice is None:
+            return
+        value = float(scan.total[family]) + price
+        choices = (*beside, choice)
+        key = tuple(sorted(c.family for c in choices))
+        before = self.found.get(key)
+        if before is None or value > before.log_evidence:
+            self.found[key] = Candidate(choices, value, self.log_prior(key))
+
+    def _fits(self, key: Key, family: int) -> bool:
+        """The same effect twice only where the machine can have it more than once."""
+        added = self.families[family]
+        if family in key:
+            return added.repeats
+        return not any(compete(self.families[k], added) for k in key)
+
+    def _exchange(self) -> None:
+        for _ in range(EXCHANGES):
+            best = max(self.found.values(), key=lambda c: c.log_posterior)
+            looked = len(self._looked)
+            best = self._settled(best)
+            for left_out in range(len(best.choices)):
+                rest = tuple(c for k, c in enumerate(best.choices) if k != left_out)
+                known = self.found.get(tuple(sorted(c.family for c in rest)))
+                if known is not None:
+                    self._look(replace(known, choices=rest) if len(rest) == 1 else known)
+            self._look(best)
+            if len(self._looked) == looked:
+                return
+
+    def _polish(self) -> None:
+        """Settle the best sets."""
+        best = sorted(self.found.values(), key=lambda c: -c.log_posterior)[: 2 * MOST_POLISHED]
+        for _ in range(MOST_POLISHED):
+            best.sort(key=lambda c: -c.log_posterior)
+            limit = best[0].log_posterior - POLISHED_WITHIN
+            for k, c in enumerate(best):
+                if len(c.choices) > 1 and c.key not in self._polished_keys and c.log_posterior > limit:
+                    best[k] = self._settled(c)
+                    break
+            else:
+                return
+
+    def _settled(self, candidate: Candidate) -> Candidate:
+        """Members and sizes of a set, each given the others, and their prices."""
+        if len(candidate.choices) < 2 or candidate.key in self._polished_keys:
+            return self.found[candidate.key]
+        self._polished_keys.add(candidate.key)
+        self.found[candidate.key] = self._polished(candidate)
+        return self.found[candidate.key]
+
+    def _polished(self, candidate: Candidate) -> Candidate:
+        choices = list(candidate.choices)
+        for _ in range(SWEEPS):
+            prices, moved = 0.0, False
+            for k, old in enumerate(choices):
+                rest = [c for j, c in enumerate(choices) if j != k]
+                known = self.bank.known(rest)
+                scan = self.bank.scan(known, only=old.family)
+                new = scan.best[old.family]
+                if new is None:
+                    continue
+                moved |= new != old
+                if self.families[old.family].neighbours is not None:
+                    self.bank.refine(new, known)
+                    scan = self.bank.scan(known, only=old.family)
+                    new = scan.best[old.family] or new
+                choices[k] = new
+                prices += float(scan.total[old.family] - scan.at_best[old.family])
+            if not moved:
+                break
+        value = self.bank.log_evidence(self.bank.known(choices)) + prices
+        return replace(candidate, choices=tuple(choices), log_evidence=value)
+
+
+def compete(a: Family, b: Family) -> bool:
+    """Whether two families hold the same effect, which is then one or the other."""
+    return a is not b and a.named and b.named and bool(a.keys & b.keys)

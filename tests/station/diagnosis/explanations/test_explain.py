@@ -1,0 +1,142 @@
+"""What is said of emulated machines: clean, roughly disturbed, a natural pair, and outside the catalogue."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from station.diagnosis.explanations import ExplanationSet, explain
+from station.diagnosis.explanations.validation import together
+from station.five_bar.mechanism import FiveBar
+from tests.station.diagnosis.explanations.problems import ROBOT, TRUTH, effect, walked
+
+
+def explained(seed: int, *effects: tuple[tuple[str, object], ...]) -> ExplanationSet:
+    walk, fresh = walked(seed, *effects)
+    return explain(FiveBar(ROBOT, walk), fresh)
+
+
+def within(found: ExplanationSet, sds: float) -> bool:
+    """Whether both zero offsets are right."""
+    return all(
+        abs(q.value - np.degrees(true)) < sds * q.sd
+        for q, true in zip(found.parameters[:2], TRUTH[:2], strict=True)
+    )
+
+
+def test_nothing_is_blamed_on_a_clean_machine() -> None:
+    found = explained(1)
+    assert found.decision.verdict == "adequate"
+    assert found.decision.confirmed is True
+    assert found.findings == ()
+    assert found.statements.base > 0.9
+    assert within(found, 3.0)
+    assert max(q.sd for q in found.parameters[:2]) < 0.045
+
+
+def test_probabilities_sum_to_one() -> None:
+    found = explained(1, effect(kind="drift", mm_per_hour=1.0))
+    assert sum(p for _, p in found.statements.cores) == pytest.approx(1.0)
+    assert sum(w.probability for w in found.weighing.settled) == pytest.approx(1.0)
+    assert found.mixture.weight.sum() == pytest.approx(1.0)
+
+
+def test_a_clear_play_is_named_and_confirmed() -> None:
+    found = explained(2, effect(kind="backlash", joint=1, width_deg=0.01))
+    assert found.decision.verdict == "explained"
+    assert found.decision.confirmed is True
+    (finding,) = found.findings
+    assert (finding.part.effect, finding.part.joint) == ("backlash", 1)
+    assert finding.probability > 0.99
+    assert finding.parameters[0].value == pytest.approx(0.01, abs=0.001)
+    assert within(found, 3.0)
+
+
+def test_one_wrong_ratio_is_the_gain_of_both_joints() -> None:
+    gain = {"kind": "transmission_gain", "ppm": 1e4}
+    found = explained(3, effect(**gain, joint=1), effect(**gain, joint=2))
+    assert {(f.part.effect, f.part.joint) for f in found.findings} == {
+        ("transmission_gain", 1),
+        ("transmission_gain", 2),
+    }
+    assert all(f.parameters[0].value == pytest.approx(1e4, rel=0.05) for f in found.findings)
+    assert within(found, 3.0)
+
+
+def test_a_long_distal_link_is_found_through_its_curvature() -> None:
+    found = explained(4, effect(kind="link_length", joint=1, link="l", mm=5.0))
+    assert found.probability("link_length", 1, "l1") > 0.9
+    assert found.position_error[1].rms < 1.0 < found.position_error[0].rms
+    assert within(found, 3.0)
+
+
+def test_an_error_outside_the_catalogue_is_not_confirmed() -> None:
+    found = explained(5, effect(kind="cable_drag", joint=2, deg_at_end=0.02))
+    assert found.decision.confirmed is False
+    assert found.statements.unnamed > 0.5
+    assert any(held.depends_on == "approach" for held in found.explanations[0].errors)
+    assert within(found, 3.0)
+
+
+def test_wandering_keeps_its_zero_offsets_wide() -> None:
+    found = explained(6, effect(kind="random_walk", mm_per_stop=0.004))
+    assert found.decision.confirmed is False
+    assert within(found, 4.0)
+
+
+def test_readings_that_were_learned_on_confirm_nothing() -> None:
+    walk, _ = walked(1)
+    found = explain(FiveBar(ROBOT, walk), walk)
+    assert found.validation is not None
+    assert not found.validation.new
+    assert found.decision.confirmed is False
+
+
+def test_fresh_readings_of_one_corner_confirm_nothing() -> None:
+    walk, fresh = walked(1)
+    mechanism = FiveBar(ROBOT, walk)
+    corner = mechanism.of(fresh).places(mechanism.start)[:, 0] < -60.0
+    found = explain(mechanism, fresh.take(corner))
+    assert found.validation is not None
+    assert found.validation.coverage[0] < 0.6
+    assert found.decision.confirmed is False
+
+
+def test_a_joint_homed_anew_before_the_fresh_readings_is_seen() -> None:
+    walk, fresh = walked(1)
+    shifted = fresh.theta + np.array([0.005, 0.0])
+    moved = type(fresh)(**{**{f: getattr(fresh, f) for f in fresh.__dataclass_fields__}, "theta": shifted})
+    found = explain(FiveBar(ROBOT, walk), moved)
+    assert found.validation is not None
+    assert not found.validation.agrees
+    assert found.decision.confirmed is False
+    assert found.probability("count_slip", 1) > 0.9
+
+
+def test_glitches_are_left_out_by_name() -> None:
+    walk, fresh = walked(1)
+    distance = walk.distance.copy()
+    distance[[10, 40, 77]] += [0.3, -0.2, 0.4]
+    spoiled = type(walk)(**{**{f: getattr(walk, f) for f in walk.__dataclass_fields__}, "distance": distance})
+    found = explain(FiveBar(ROBOT, spoiled), fresh)
+    assert set(found.outliers) == {walk.ids[k] for k in (10, 40, 77)}
+    assert found.decision.verdict == "adequate"
+
+
+def test_together_keeps_fresh_places_apart() -> None:
+    walk, fresh = walked(1)
+    both = together(walk, fresh)
+    assert len(both) == len(walk) + len(fresh)
+    assert not set(both.position[: len(walk)]) & set(both.position[len(walk) :])
+    assert both.t_s[len(walk) :].min() > both.t_s[: len(walk)].max()
+
+
+def test_commands_bring_the_platform_where_the_set_says() -> None:
+    found = explained(2, effect(kind="backlash", joint=1, width_deg=0.01))
+    place = ROBOT.workspace_grid(3, 3)
+    theta = found.commands(place)
+    # zero offsets are taken out of the nominal command to within what geometry adds
+    nominal = found.commands(place, np.zeros((9, 2)))
+    assert np.allclose(theta, nominal)
+    error = found.mixture.position_error(theta, place)
+    assert error.rms < 0.6 < error.bound_95
