@@ -6,7 +6,7 @@ without a name against each other; everything reported is that of the whole set.
 
 from __future__ import annotations
 
-from station.diagnosis.explanations.explain import Explanation, ExplanationSet, Held, explain
+from station.diagnosis.explanations.explanation_set import Explanation, ExplanationSet, Held, explain
 from station.diagnosis.explanations.mixture import Mixture, PositionError
 from station.diagnosis.explanations.validation import Validation
 from station.diagnosis.explanations.verdict import Decision, Finding, Verdict
