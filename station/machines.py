@@ -112,15 +112,19 @@ def mechanism_of(robot: AnyRobot, measurements: Measurements) -> AnyMechanism:
     return kind_of(robot).mechanism(robot, measurements)
 
 
-def read_readings(robot: AnyRobot, path: Path, measured: Measured = "position") -> Measurements:
+def read_readings(
+    robot: AnyRobot, path: Path, measured: Measured = "position", *, in_order: bool = True
+) -> Measurements:
     """A measurement file of this robot; what an arm's log does not record is inferred and marked.
 
     measured: which of the columns count where a file has both.
+    in_order: refuse a five-bar's file whose time runs backwards; else the caller judges the column.
 
     :raises InputRefused: anything malformed, with row, column and what to do.
     """
     kind = kind_of(robot)
-    readings = read_measurements(path, kind.columns(robot))
+    columns = kind.columns(robot)
+    readings = read_measurements(path, columns if in_order else replace(columns, time_ordered=False))
     if not kind.infers_columns:
         return readings
     if measured == "range":

@@ -11,9 +11,12 @@ from rich.table import Table
 
 from station.cli.numerics import check_folders, describe, measured_option, write_json, write_text
 from station.diagnosis import (
+    Context,
     Findings,
+    MistakeRefused,
     commands_csv,
     diagnose,
+    findings_of,
     page,
     range_text,
     read_model,
@@ -24,8 +27,9 @@ from station.diagnosis import (
     transfer,
     without_a_quarter,
 )
-from station.machines import Measured, kind_of, read_readings, read_robot, robot_of
-from station.records import guesses_in_words
+from station.five_bar import Robot
+from station.machines import AnyRobot, Measured, read_readings, read_robot, robot_of
+from station.records import MistakeRecord, RefusedDiagnosis, guesses_in_words, recorded_columns
 
 _file = click.Path(path_type=Path)
 
@@ -61,12 +65,18 @@ def diagnose_command(
         )
     check_folders(json_file, html_file)
     robot = read_robot(robot_file)
-    measurements = read_readings(robot, data, measured)
+    measurements = read_readings(robot, data, measured, in_order=False)
     described = describe(data, len(measurements), measurements.guessed)
-    fresh = read_readings(robot, fresh_file, measured) if fresh_file else None
+    fresh = read_readings(robot, fresh_file, measured, in_order=False) if fresh_file else None
+    recorded = _context(robot, data)
     if hold_out:
         measurements, fresh = without_a_quarter(measurements)
-    findings = Findings(diagnose(robot, measurements, fresh))
+    try:
+        findings = findings_of(diagnose(robot, measurements, fresh, recorded))
+    except MistakeRefused as refusal:
+        if json_file:
+            write_json(json_file, _refused(refusal))
+        raise
     if json_file:
         write_json(json_file, findings.document(described))
     if html_file:
@@ -123,23 +133,43 @@ def transfer_command(data: Path, model_file: Path, measured: Measured, json_file
     console.print(table)
 
 
+def _context(robot: AnyRobot, data: Path) -> Context | None:
+    """What a five-bar's file recorded; an arm's log says so itself."""
+    if not isinstance(robot, Robot):
+        return None
+    recorded = recorded_columns(data.read_bytes())
+    return Context("approach1" in recorded or "approach2" in recorded, "position" in recorded, data.name)
+
+
+def _refused(refusal: MistakeRefused) -> RefusedDiagnosis:
+    mistake = refusal.mistake
+    record = MistakeRecord(kind=mistake.kind, text=mistake.text, rows=mistake.rows)
+    return RefusedDiagnosis(refused=str(refusal), mistake=record)
+
+
 def _print(findings: Findings) -> None:
     console = Console(highlight=False)
     console.print(f"[bold]{findings.sentence}[/bold]")
-    joints = findings.diagnosis.measurements.joints
+    joints = findings.measurements.joints
     for q in findings.parameters[:joints]:
         console.print(f"{q.name} = {shown(q)}")
     for found in findings.effects:
         sizes = ", ".join(f"{q.name} {shown(q)}" for q in found.parameters)
-        console.print(
-            f"[bold]{found.term.effect.label}[/bold]: {sizes}; {100 * found.share:.0f} % of the residual"
-        )
+        console.print(f"[bold]{found.label}[/bold]: {sizes}; {100 * found.share:.0f} % of the residual")
+        if found.probability is not None:
+            console.print(f"  Probability {100 * found.probability:.0f} %.")
         if found.aliases:
-            others = ", ".join(t.effect.label for t in found.aliases)
-            console.print(
-                f"  looks the same here: {others}. To tell them apart: {found.term.effect.experiment}"
-            )
-        console.print(f"  {found.term.effect.remedy}")
+            others = ", ".join(found.alias_labels)
+            console.print(f"  Cannot be distinguished from {others}. To distinguish: {found.experiment}")
+        console.print(f"  {found.remedy}")
+    if findings.decision.verdict not in ("adequate", "explained"):
+        for one in findings.explanations:
+            labels = " and ".join(effect.label for effect in one.effects) or "no effect"
+            console.print(f"Explanation, {100 * one.probability:.0f} %: {labels}")
+    for experiment in findings.experiments:
+        console.print(f"{100 * experiment.decides:.0f} % probable to decide: {experiment.text}")
+    if findings.mistake is not None:
+        console.print(f"Mistake: {findings.mistake.text}")
     table = Table("model", "unknowns", "fit", "left out", "worst", "fresh", "worst", title="errors, µm rms")
     for column in table.columns[1:]:
         column.justify = "right"
@@ -147,9 +177,9 @@ def _print(findings: Findings) -> None:
         sizes_mm = (s.fit_rms_mm, s.holdout_rms_mm, s.holdout_max_mm, s.confirm_rms_mm, s.confirm_max_mm)
         table.add_row(s.model, str(s.unknowns), *("" if v is None else f"{v * 1e3:.2f}" for v in sizes_mm))
     console.print(table)
-    if findings.diagnosis.measurements.guessed:
-        console.print(guesses_in_words(findings.diagnosis.measurements))
-    predicted = f"over {kind_of(findings.fit.model.mechanism).extent}, predicted"
+    if findings.measurements.guessed:
+        console.print(guesses_in_words(findings.measurements))
+    predicted = f"over {findings.extent}, predicted"
     for what, errors in (
         (predicted, findings.position_errors),
         ("against the tracker", findings.true_position_errors),
@@ -160,7 +190,9 @@ def _print(findings: Findings) -> None:
                 f"Position error {what}: {before.rms:.4f} mm rms before, {after.rms:.4f} mm after; "
                 f"largest {before.max:.4f} and {after.max:.4f} mm."
             )
-    for hint in findings.diagnosis.hints:
+            if after.bound_95 is not None:
+                console.print(f"With 95 % probability no error is above {after.bound_95:.4f} mm.")
+    for hint in findings.hints:
         console.print(f"Hint: {hint.text} ({100 * hint.strength:.0f} %)")
-    for outlier in findings.diagnosis.outliers:
+    for outlier in findings.outliers:
         console.print(f"Left out: reading {outlier.reading}, {outlier.reason}.")

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from station.diagnosis.closed_loop import Diagnosis, diagnose
+from station.diagnosis.closed_loop import AnyDiagnosis, diagnose
 from station.diagnosis.decision import Decision, StageFigures, decide
-from station.diagnosis.explanations import ExplanationSet, explain
+from station.diagnosis.explanations import Around, ExplanationSet, explain
 from station.diagnosis.learned import (
     Transfer,
     commands_csv,
@@ -18,12 +18,15 @@ from station.diagnosis.learned import (
     targets_of,
     transfer,
 )
-from station.diagnosis.mistakes import Context, Mistake, find_mistake, fit_readings
+from station.diagnosis.mistakes import Context, Mistake, MistakeRefused, find_mistake, fit_readings
 from station.diagnosis.report import (
     Curve,
     Findings,
+    TracedFindings,
+    WeighedFindings,
     curve_chart,
     curves,
+    findings_of,
     kept_fresh,
     page,
     residuals,
@@ -32,19 +35,27 @@ from station.diagnosis.report import (
 from station.diagnosis.search import Scan
 from station.diagnosis.separating import Experiment, experiment
 from station.diagnosis.tests_of_fit import without_a_quarter
+from station.diagnosis.traced_loop import TracedDiagnosis, traced
+from station.diagnosis.weighed_loop import WeighedDiagnosis, weighed
 
 __all__ = [
+    "AnyDiagnosis",
+    "Around",
     "Context",
     "Curve",
     "Decision",
-    "Diagnosis",
     "Experiment",
     "ExplanationSet",
     "Findings",
     "Mistake",
+    "MistakeRefused",
     "Scan",
     "StageFigures",
+    "TracedDiagnosis",
+    "TracedFindings",
     "Transfer",
+    "WeighedDiagnosis",
+    "WeighedFindings",
     "commands_csv",
     "curve_chart",
     "curves",
@@ -53,6 +64,7 @@ __all__ = [
     "experiment",
     "explain",
     "find_mistake",
+    "findings_of",
     "fit_readings",
     "kept_fresh",
     "learned_model",
@@ -66,6 +78,8 @@ __all__ = [
     "shown",
     "solve_targets",
     "targets_of",
+    "traced",
     "transfer",
+    "weighed",
     "without_a_quarter",
 ]

@@ -36,15 +36,15 @@ class Decision:
 
     verdict: DiagnosisVerdict
     confirmed: bool | None
-    """Whether the last model predicted fresh readings; None without any."""
-    trusted: int
-    """Index of the stage that parameters and commands are taken from."""
-    sd_factor: float
+    """Whether fresh readings confirm what was found; None without any."""
+    trusted: int = 0
+    """Index of the stage that parameters and commands are taken from; a set of explanations has its own."""
+    sd_factor: float = 1.0
     """By which the uncertainty of the trusted stage is multiplied because it does not fit or predict."""
 
     @property
     def passed(self) -> bool:
-        """Whether the last model may be relied on: it fits, and fresh readings do not contradict it."""
+        """Whether what was found may be relied on: it fits, and nothing speaks against it."""
         return self.verdict in ("adequate", "explained") and self.confirmed is not False
 
     @property
@@ -57,9 +57,11 @@ class Decision:
     @property
     def outcome(self) -> Outcome:
         """What the owner of the robot has to do."""
-        if not self.passed:
+        if self.verdict == "ambiguous":
+            return "ambiguous"
+        if self.verdict not in ("adequate", "explained"):
             return "unexplained"
-        if self.confirmed is None:
+        if not self.confirmed:
             return "not_verified"
         return "good" if self.verdict == "adequate" else "repair"
 

@@ -10,6 +10,8 @@ class PositionError(Record):
 
     rms: float
     max: float
+    bound_95: float | None = None
+    """With 95 % probability no error is larger; null where only one model was considered."""
 
 
 class Remedy(Record):

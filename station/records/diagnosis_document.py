@@ -1,4 +1,8 @@
-"""The document of a diagnosis, as `station diagnose --json` writes it (schema station.diagnosis/1)."""
+"""The document of a diagnosis, as `station diagnose --json` writes it.
+
+Schema station.diagnosis/2 is that of a five-bar, with the set of its explanations; station.diagnosis/1 is
+that of an arm, and of a five-bar in earlier versions.
+"""
 
 from __future__ import annotations
 
@@ -13,7 +17,10 @@ from station.records.sections import Sections
 
 MODEL_SCHEMA = "station.model/1"
 
-DiagnosisVerdict = Literal["adequate", "explained", "partly_explained", "unexplained"]
+MIXTURE_SCHEMA = "station.model/2"
+DIAGNOSIS_SCHEMA = "station.diagnosis/2"
+
+DiagnosisVerdict = Literal["adequate", "explained", "ambiguous", "partly_explained", "unexplained"]
 Span = tuple[float, float]
 
 
@@ -41,6 +48,8 @@ class EffectName(Record):
 
     effect: str
     joint: int | None = None
+    part: str | None = None
+    """The part on which it acts: "L1", "links", "scale", "joint1" and so on."""
 
 
 class Finding(EffectName):
@@ -51,6 +60,8 @@ class Finding(EffectName):
     share: float
     """Of the base residual's square that this effect accounts for."""
     p_value: float
+    probability: float | None = None
+    """That the effect or one of its alias set is there; null in schema 1."""
     alias_set: tuple[EffectName, ...]
     """The effect with those that these readings cannot distinguish from it."""
     remedy: str
@@ -106,6 +117,48 @@ class SmallestVisible(EffectName):
     text: str
 
 
+class ExplainedEffect(EffectName):
+    """One error of an explanation."""
+
+    label: str
+    parameters: tuple[Quantity, ...]
+    depends_on: str | None = None
+    """Of an unnamed one: "joint1", "joint2", "reading", "place", "time" or "approach"."""
+
+
+class ExplanationRecord(Record):
+    """A set of errors that would account for the readings; none of them: the base model."""
+
+    effects: tuple[ExplainedEffect, ...]
+    probability: float
+    named: bool
+
+
+class ExperimentRecord(Record):
+    """Something that can be done to distinguish explanations."""
+
+    kind: str
+    text: str
+    decides: float
+    """Probability that it will settle the question."""
+
+
+class MistakeRecord(Record):
+    """A data-entry mistake."""
+
+    kind: str
+    text: str
+    rows: tuple[int | str, ...]
+
+
+class RefusedDiagnosis(Record):
+    """What is written where a file cannot be diagnosed before a mistake in it is put right."""
+
+    schema_: Annotated[Literal["station.diagnosis/2"], Field(alias="schema")] = "station.diagnosis/2"
+    refused: str
+    mistake: MistakeRecord
+
+
 class _Finite(Record):
     """A number that is not finite is refused: commands are computed from these."""
 
@@ -157,10 +210,82 @@ class ModelDocument(_Finite):
     """False: fresh readings refuted it; null: none were taken."""
 
 
+class ReferenceOfReadings(TemperatureReference):
+    """What later readings are counted from."""
+
+    theta_rad: tuple[float, float]
+    travel_mm: float
+
+
+class LearnedReadings(_Finite):
+    """The readings that a set of explanations was weighed on: its errors are laid out over them."""
+
+    t_s: tuple[float, ...]
+    theta_rad: tuple[tuple[float, float], ...]
+    approach: tuple[tuple[int, int], ...]
+    distance_mm: tuple[float, ...]
+    came_from: tuple[tuple[float | None, float | None, float | None], ...]
+    """Joint angles, rad, and distance, mm, of the reading before; null where there is none."""
+    mount: tuple[int, ...]
+    mounts: tuple[str, ...]
+    temperature_c: tuple[float, ...] | None
+    payload_kg: tuple[float, ...] | None
+
+
+class ErrorOfModel(_Finite):
+    """One error of an explanation with everything about it settled."""
+
+    family: int
+    """Its number in the catalogue of explanations."""
+    kind: str
+    labels: tuple[str, ...]
+    joints: tuple[int, ...]
+    """Joints whose angle it changes: it is not known where they have not been."""
+    by_approach: tuple[int, ...]
+    """Joints whose side of approach it depends on."""
+    hidden: dict[str, float]
+    amplitudes: tuple[float, ...]
+
+
+class ExplanationOfModel(_Finite):
+    """One explanation as commands use it."""
+
+    probability: float
+    values: tuple[float, ...]
+    """Base parameters, mm and rad."""
+    errors: tuple[ErrorOfModel, ...]
+
+
+class MixtureDocument(_Finite):
+    """All that commands need of a set of explanations; mm and rad."""
+
+    schema_: Annotated[Literal["station.model/2"], Field(alias="schema")] = "station.model/2"
+    robot: Sections
+    names: tuple[str, ...]
+    values: tuple[float, ...]
+    """Base parameters, mean over the explanations."""
+    covariance: tuple[tuple[float, ...], ...]
+    """Of the base parameters, over the explanations."""
+    explanations: Annotated[tuple[ExplanationOfModel, ...], Field(min_length=1)]
+    start: tuple[float, ...]
+    """Base parameters at which the catalogue of explanations was laid out."""
+    readings: LearnedReadings
+    ranges: LearnedRanges
+    reference: ReferenceOfReadings
+    stage: str | None = None
+    confirmed: bool | None = None
+    """False: nothing confirms it, or fresh readings contradict it; null: none were taken."""
+
+
+AnyModelDocument = Annotated[ModelDocument | MixtureDocument, Field(discriminator="schema_")]
+
+
 class DiagnosisDocument(Record):
     """What was found in one set of readings."""
 
-    schema_: Annotated[Literal["station.diagnosis/1"], Field(alias="schema")] = "station.diagnosis/1"
+    schema_: Annotated[Literal["station.diagnosis/1", "station.diagnosis/2"], Field(alias="schema")] = (
+        "station.diagnosis/1"
+    )
     data: DataSource
     noise: NoiseOfReadings
     verdict: DiagnosisVerdict
@@ -179,4 +304,9 @@ class DiagnosisDocument(Record):
     outliers: tuple[int | str, ...]
     outlier_reasons: tuple[str, ...] = ()
     fresh_outliers: tuple[int | str, ...] = ()
-    model: ModelDocument
+    explanations: tuple[ExplanationRecord, ...] = ()
+    """Every one with a probability of 0.01 or more, most probable first; none in schema 1."""
+    experiments: tuple[ExperimentRecord, ...] = ()
+    """What can distinguish them, best first."""
+    mistake: MistakeRecord | None = None
+    model: AnyModelDocument

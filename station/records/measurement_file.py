@@ -11,7 +11,7 @@ import io
 import logging
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from pathlib import Path
 
@@ -125,17 +125,29 @@ def parse_measurements(
     return _measurements(read_table(content, columns.required, columns.optional, source), columns)
 
 
+def recorded_columns(content: bytes) -> set[str]:
+    """Columns that have something in them, of a measurement file that was read without complaint."""
+    header, *rows = [row for row in csv.reader(io.StringIO(content.decode("utf-8-sig"))) if any(row)]
+    return {name.strip() for i, name in enumerate(header) if any(row[i].strip() for row in rows)}
+
+
 def parse_readings(
-    content: bytes, *, walk: int = 1, after: int = 0, source: str = "measurement file"
+    content: bytes,
+    *,
+    walk: int = 1,
+    after: int = 0,
+    source: str = "measurement file",
+    in_order: bool = True,
 ) -> list[Reading]:
     """The file's rows as records of a walk, as the store keeps them.
 
     Ids that are whole numbers rising from beyond `after` stay; else rows are numbered from there.
 
+    :param in_order: refuse time that runs backwards; else the caller judges the column
     :raises InputRefused: as `parse`.
     """
     table = read_table(content, FIVE_BAR.required, FIVE_BAR.optional, source)
-    m = _measurements(table, FIVE_BAR)
+    m = _measurements(table, replace(FIVE_BAR, time_ordered=in_order))
     own = [i for i in m.ids if isinstance(i, int)]
     rising = len(own) == len(m) and all(a < b for a, b in pairwise((after, *own))) and own[-1] <= LARGEST_ID
     ids = own if rising else range(after + 1, after + len(m) + 1)

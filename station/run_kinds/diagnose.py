@@ -8,11 +8,10 @@ from collections.abc import Generator
 
 import numpy as np
 
-from station.diagnosis import Findings, diagnose
+from station.diagnosis import Context, Findings, diagnose, findings_of
 from station.five_bar import Robot
 from station.plans import diagnostic_fresh_stops, make_plan
 from station.records import (
-    LIMIT_SDS,
     Accuracy,
     CalibrationResult,
     DataSource,
@@ -44,33 +43,36 @@ def judged(robot: Robot, readings: list[Reading]) -> Generator[Walk, list[Readin
     :raises InputRefused: as `diagnose`.
     """
     walk = from_readings(readings)
-    fit = Findings(diagnose(robot, walk)).fit
-    fresh = yield Walk("Confirming at fresh places", 2, diagnostic_fresh_stops(robot, fit.x[:2], _seed(walk)))
+    found = findings_of(diagnose(robot, walk))
+    zeros = np.radians([q.value for q in found.parameters[:2]])
+    fresh = yield Walk("Confirming at fresh places", 2, diagnostic_fresh_stops(robot, zeros, _seed(walk)))
     return result_of(diagnosed(robot, [*readings, *fresh]), readings, _described(readings))
 
 
-def diagnosed(robot: Robot, readings: list[Reading]) -> Findings:
+def diagnosed(robot: Robot, readings: list[Reading], context: Context | None = None) -> Findings:
     """The diagnosis of a run's readings: the first walk is learned from, later ones judge.
 
+    :param context: what their file recorded; None as the readings show
     :raises InputRefused: as `diagnose`.
     """
     learned = [r for r in readings if r.walk == 1]
     fresh = [r for r in readings if r.walk > 1]
-    return Findings(diagnose(robot, from_readings(learned), from_readings(fresh) if fresh else None))
+    later = from_readings(fresh) if fresh else None
+    return findings_of(diagnose(robot, from_readings(learned), later, context))
 
 
 def result_of(findings: Findings, readings: list[Reading], data: DataSource) -> CalibrationResult:
     """What the run ends with; `readings` are those that were learned from, `data` says where from.
 
-    Only what fresh readings confirm is a pass.
+    A pass only where the robot may be used as it is: nothing is missing, and fresh readings confirm it.
     """
     document = findings.document(data)
-    last = findings.diagnosis.last
     by_id = {r.reading: r for r in readings}
-    kept = [by_id[int(number)] for number in findings.diagnosis.measurements.ids]
+    kept = [by_id[int(number)] for number in findings.measurements.ids]
+    outcome, residual = findings.decision.outcome, findings.residual
     return CalibrationResult(
-        verdict="pass" if findings.decision.passed and findings.decision.confirmed else "fail",
-        outcome=findings.decision.outcome,
+        verdict="pass" if outcome == "good" else "fail",
+        outcome=outcome,
         reason=findings.reason,
         method=METHOD,
         zero_offsets=findings.parameters[:2],
@@ -78,7 +80,7 @@ def result_of(findings: Findings, readings: list[Reading], data: DataSource) -> 
         weak_direction=findings.weak_direction,
         before=_errors(document.before),
         after=_errors(document.after),
-        residuals=residual_rows(kept, last.residual_mm, LIMIT_SDS * last.row_sd),
+        residuals=residual_rows(kept, residual.after_mm, residual.limit_mm),
         findings=document.findings,
         diagnosis=document,
     )

@@ -5,8 +5,16 @@ from __future__ import annotations
 import hashlib
 from dataclasses import dataclass, replace
 
+from station.diagnosis import Context
 from station.errors import InputRefused
-from station.records import CalibrationRequest, DataSource, Reading, Submitted, parse_readings
+from station.records import (
+    CalibrationRequest,
+    DataSource,
+    Reading,
+    Submitted,
+    parse_readings,
+    recorded_columns,
+)
 from station.run_kinds.diagnose import diagnosed, result_of
 from station.run_kinds.kind import RunKind, register
 from station.store import Store, request_hash
@@ -53,16 +61,19 @@ def import_dataset(
         if known is not None:
             return Submitted(known, created=False)
     robot = store.robot_or_nominal(request.robot_serial)
-    readings = parse_readings(learned.content, source=learned.name)
+    readings = parse_readings(learned.content, source=learned.name, in_order=False)
     later: list[Reading] = []
     if fresh is not None:
-        later = parse_readings(fresh.content, walk=2, after=readings[-1].reading, source=fresh.name)
+        later = parse_readings(
+            fresh.content, walk=2, after=readings[-1].reading, source=fresh.name, in_order=False
+        )
     if len(readings) + len(later) > MOST_READINGS:
         raise InputRefused(
             f"{learned.name}: {len(readings) + len(later)} readings with the fresh ones; at most "
             f"{MOST_READINGS} are diagnosed at once, so give a part of them."
         )
-    result = result_of(diagnosed(robot, [*readings, *later]), readings, _described(learned, len(readings)))
+    found = diagnosed(robot, [*readings, *later], _context(learned))
+    result = result_of(found, readings, _described(learned, len(readings)))
     created = store.add_run(
         request,
         robot,
@@ -72,6 +83,12 @@ def import_dataset(
         body_hash=body_hash,
     )
     return Submitted(created, created=True)
+
+
+def _context(file: Upload) -> Context:
+    """What the file recorded."""
+    recorded = recorded_columns(file.content)
+    return Context("approach1" in recorded or "approach2" in recorded, "position" in recorded, file.name)
 
 
 def _described(file: Upload, readings: int) -> DataSource:

@@ -12,13 +12,13 @@ import numpy as np
 
 from station.diagnosis import (
     Curve,
-    Findings,
+    TracedFindings,
     Transfer,
     curve_chart,
     curves,
-    diagnose,
     model_document,
     shown,
+    traced,
     transfer,
     without_a_quarter,
 )
@@ -69,7 +69,7 @@ def study(robot: Arm, logs: Sequence[Path]) -> Study:
         found += [_found(robot, path, measured) for measured in kinds]
     first, *others = logs
     if others:
-        whole = diagnose(robot, read_readings(robot, first))
+        whole = traced(robot, read_readings(robot, first))
         part = model_document(whole, whole.last, 1.0, stage="last", confirmed=None)
         transfers = [
             (first.stem, path.stem, transfer(part, robot, read_readings(robot, path), first.stem))
@@ -86,7 +86,7 @@ def _has_range(readings: Measurements) -> bool:
 def _found(robot: Arm, path: Path, measured: Measured) -> Found:
     began = time.perf_counter()
     readings = read_readings(robot, path, measured)
-    findings = Findings(diagnose(robot, *without_a_quarter(readings)))
+    findings = TracedFindings(traced(robot, *without_a_quarter(readings)))
     stages = findings.stages
     seconds = time.perf_counter() - began
     d = findings.diagnosis
@@ -99,7 +99,7 @@ def _found(robot: Arm, path: Path, measured: Measured) -> Found:
         sentence=findings.sentence,
         stages=stages,
         effects=tuple(
-            f"**{e.term.effect.label}**, {100.0 * e.share:.0f} % of the residual's square: "
+            f"**{e.label}**, {100.0 * e.share:.0f} % of the residual's square: "
             + ", ".join(f"{q.name} {shown(q)}" for q in e.parameters)
             for e in findings.effects
         ),

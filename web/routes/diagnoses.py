@@ -36,7 +36,7 @@ router = APIRouter(prefix="/calibrations/{calibration_id}", tags=["diagnosis"])
 
 @router.get("/diagnosis", response_model=DiagnosisDocument, responses=documented(404))
 def read_diagnosis(calibration_id: CalibrationId, runtime: TheRuntime) -> DiagnosisDocument:
-    """The whole document, schema `station.diagnosis/1`, as `station diagnose --json` writes it."""
+    """The whole document, schema `station.diagnosis/2`, as `station diagnose --json` writes it."""
     return runtime.store.diagnosis(calibration_id)
 
 
@@ -73,7 +73,7 @@ def read_separating(calibration_id: CalibrationId, runtime: TheRuntime) -> Separ
 def read_report(calibration_id: CalibrationId, runtime: TheRuntime) -> HTMLResponse:
     """The diagnosis as a page with drawings, computed again from the stored readings."""
     findings, _ = _again(runtime, calibration_id)
-    report = page(findings, f"run {calibration_id}, robot {findings.diagnosis.robot.serial}")
+    report = page(findings, f"run {calibration_id}, robot {findings.robot.serial}")
     return HTMLResponse(report.to_html(), headers={"Content-Security-Policy": REPORT_POLICY})
 
 

@@ -6,20 +6,47 @@ without a name against each other; everything reported is that of the whole set.
 
 from __future__ import annotations
 
-from station.diagnosis.explanations.explanation_set import Explanation, ExplanationSet, Held, explain
+from station.diagnosis.explanations.evidence import Choice
+from station.diagnosis.explanations.explanation_set import (
+    Explanation,
+    ExplanationSet,
+    Held,
+    explain,
+    specified_as,
+)
+from station.diagnosis.explanations.family import Family
 from station.diagnosis.explanations.mixture import Mixture, PositionError
-from station.diagnosis.explanations.validation import Validation
+from station.diagnosis.explanations.restored import KeptError, KeptExplanation, NotInCatalogue, restored
+from station.diagnosis.explanations.settle import Settled
+from station.diagnosis.explanations.situation import Around, Situation, at_readings
+from station.diagnosis.explanations.steps import Step, steps
+from station.diagnosis.explanations.validation import Validation, prediction, together
 from station.diagnosis.explanations.verdict import Decision, Finding, Verdict
 
 __all__ = [
+    "Around",
+    "Choice",
     "Decision",
     "Explanation",
     "ExplanationSet",
+    "Family",
     "Finding",
     "Held",
+    "KeptError",
+    "KeptExplanation",
     "Mixture",
+    "NotInCatalogue",
     "PositionError",
+    "Settled",
+    "Situation",
+    "Step",
     "Validation",
     "Verdict",
+    "at_readings",
     "explain",
+    "prediction",
+    "restored",
+    "specified_as",
+    "steps",
+    "together",
 ]

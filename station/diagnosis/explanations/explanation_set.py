@@ -9,14 +9,15 @@ import numpy as np
 
 from station.diagnosis.explanations.cleaning import FAR_OFF, WELL_PREDICTED, judged, start, suspects
 from station.diagnosis.explanations.family import Part
-from station.diagnosis.explanations.frame import frame
+from station.diagnosis.explanations.frame import added, frame
 from station.diagnosis.explanations.mixture import Mixture, PositionError, mixture
 from station.diagnosis.explanations.noise_level import NoiseLevel, specified
 from station.diagnosis.explanations.search import Key
-from station.diagnosis.explanations.settle import settle
+from station.diagnosis.explanations.settle import Settled, settle
+from station.diagnosis.explanations.situation import Around, at_readings, predicted
 from station.diagnosis.explanations.statements import Statements, statements
 from station.diagnosis.explanations.validation import Validation, together, validate
-from station.diagnosis.explanations.verdict import Decision, Finding, decide, findings
+from station.diagnosis.explanations.verdict import Decision, Finding, decide, findings, told
 from station.diagnosis.explanations.weighing import Weighing, weigh
 from station.five_bar import SCALE_SD_MM, FiveBar
 from station.mechanism import Reference, reference_of
@@ -85,29 +86,50 @@ class ExplanationSet:
 
     @cached_property
     def position_error(self) -> tuple[PositionError, PositionError]:
-        """Predicted over the workspace, before and after, of the mixture."""
-        return self.mixture.before_and_after()
+        """Over the workspace, of the mixture: with the base model's commands, and with its own."""
+        return self.mixture.before_and_after(self.base)
+
+    @property
+    def base(self) -> Settled:
+        """The base model alone."""
+        return self.weighing.by_key[()]
 
     def commands(self, place: Complex, approach: Real | None = None) -> Real:
         """(G, 2) joint commands, rad, for places (G,), mm: best on average over the set."""
-        return self.mixture.commands(place, approach)
+        return self.mixture.commands(place, None if approach is None else Around(approach))
 
     def probability(self, effect: str, joint: int | None, part: str | None = None) -> float:
         """That an effect is there: the sum over all explanations that hold it."""
         return self.statements.probability((effect, joint, part))
 
+    def left_by(self, mechanism: FiveBar) -> tuple[Real, Real]:
+        """(K,) what the best explanation leaves of other readings, and their noise, mm."""
+        best = self.weighing.best
+        p = best.x[: best.size]
+        more = added(at_readings(mechanism, p, self.weighing.reference), best.present)
+        sd = specified_as(self.weighing, mechanism) * best.level
+        return mechanism.measured - predicted(mechanism, p, more), sd
+
+    @cached_property
+    def shown(self) -> Settled:
+        """The explanation that is reported: that of the findings, else the most probable with any error."""
+        return self.weighing.settle(told(self.statements) or self.statements.cores[0][0])
+
+    def held(self, settled: Settled, at: int) -> tuple[Held, ...]:
+        """One error of an explanation by its number, part by part."""
+        family, choice, where = settled.families[at], settled.choices[at], settled.parts[at]
+        amplitudes, covariance = settled.amplitudes[at], settled.covariance[where, where]
+        hidden = family.hidden[choice.member]
+        out = []
+        for part in family.parts:
+            own = list(part.own)
+            quantities = part.quantities(hidden, amplitudes[own], covariance[np.ix_(own, own)])
+            out.append(Held(part, quantities, family.kind, family.depends_on))
+        return tuple(out)
+
     def _explanation(self, key: Key, probability: float) -> Explanation:
         settled = self.weighing.settle(key)
-        held = []
-        for family, choice, amplitudes, where in zip(
-            settled.families, settled.choices, settled.amplitudes, settled.parts, strict=True
-        ):
-            covariance = settled.covariance[where, where]
-            hidden = family.hidden[choice.member]
-            for part in family.parts:
-                own = list(part.own)
-                quantities = part.quantities(hidden, amplitudes[own], covariance[np.ix_(own, own)])
-                held.append(Held(part, quantities, family.kind, family.depends_on))
+        held = [one for k in range(len(settled.families)) for one in self.held(settled, k)]
         return Explanation(tuple(held), probability, self.statements.named(key))
 
 

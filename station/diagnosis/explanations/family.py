@@ -76,6 +76,10 @@ class Family:
         """(V, K * m, q) mm a unit of amplitude; of one member only, (1, K * m, q)."""
         return s.columns(self.actions(s, self._chosen(member)))
 
+    def targets(self, s: Situation) -> frozenset[str]:
+        """What it adds to."""
+        return frozenset(action.target for action in self.actions(s, self.hidden[:1]))
+
     def added(self, s: Situation, member: int, amplitudes: Real) -> Real:
         """(K, 13) what one member with amplitudes (q,) adds to the targets."""
         out = np.zeros((len(s), len(TARGETS)))

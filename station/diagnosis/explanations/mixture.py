@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from station.diagnosis.explanations.settle import Settled
-from station.diagnosis.explanations.situation import Commanded, Situation, at_commands
+from station.diagnosis.explanations.situation import Around, Commanded, Situation, at_commands
 from station.five_bar import GRID, FiveBar, inverse
 from station.records import Complex, Real
 
@@ -56,15 +56,12 @@ class Mixture:
             self.weight,
         )
 
-    def commands(self, place: Complex, approach: Real | None = None) -> Real:
-        """(G, 2) joint commands, rad, that bring P to places (G,), mm, on average over the set.
-
-        `approach` (G, 2) is the side from which each joint will come, 0 unknown.
-        """
+    def commands(self, place: Complex, around: Around | None = None) -> Real:
+        """(G, 2) joint commands, rad, that bring P to places (G,), mm, on average over the set."""
         theta = inverse(self.mechanism.nominal, place)
-        side = np.zeros((len(place), 2)) if approach is None else approach
+        around = around or _plain(len(place))
         for _ in range(STEPS):
-            arrived = [self._arrived(s, theta, side) for s in self.settled]
+            arrived = [self._arrived(s, theta, around) for s in self.settled]
             mean = sum(w * r for w, (r, _) in zip(self.weight, arrived, strict=True))
             by_joint = arrived[0][1].situation.by_target[:, :, :2]
             error = place - mean
@@ -74,6 +71,14 @@ class Mixture:
             )
         return np.asarray(theta)
 
+    def positions(self, theta: Real, around: Around) -> Complex:
+        """(G,) where P stands on average over the set, mm, at joint commands theta (G, 2), rad."""
+        return np.asarray(
+            sum(
+                w * self._arrived(s, theta, around)[0] for w, s in zip(self.weight, self.settled, strict=True)
+            )
+        )
+
     def position_error(self, theta: Real, place: Complex) -> PositionError:
         """Of joint commands theta (G, 2) meant for places (G,), what the set expects."""
         rng = np.random.default_rng(0)
@@ -81,7 +86,7 @@ class Mixture:
         counts = np.floor(self.weight * DRAWS + rng.random()).astype(int)
         counts[0] += DRAWS - counts.sum()
         for s, w, count in zip(self.settled, self.weight, counts, strict=True):
-            r, at = self._arrived(s, theta, np.zeros((len(place), 2)))
+            r, at = self._arrived(s, theta, _plain(len(place)))
             mean = np.stack([(r - place).real, (r - place).imag], axis=1)
             root = self._moved(s, at) @ _root(s.covariance)
             square += w * (np.sum(mean**2, axis=1) + np.sum(root**2, axis=(1, 2)))
@@ -94,15 +99,21 @@ class Mixture:
             float(np.sqrt(np.mean(square))), float(size.max()), float(np.quantile(largest, 0.95))
         )
 
-    def before_and_after(self) -> tuple[PositionError, PositionError]:
-        """Over the workspace: commanded with the nominal geometry, and with the commands of the set."""
+    def before_and_after(self, base: Settled) -> tuple[PositionError, PositionError]:
+        """Over the workspace: with the commands of the base model, and with those of the set."""
         place = self.mechanism.robot.workspace_grid(*GRID)
-        nominal = inverse(self.mechanism.nominal, place)
-        return self.position_error(nominal, place), self.position_error(self.commands(place), place)
+        after = self.position_error(self.commands(place), place)
+        if len(self.settled) == 1 and self.settled[0] is base:
+            return after, after
+        return self.position_error(self.only(base).commands(place), place), after
 
-    def _arrived(self, s: Settled, theta: Real, approach: Real) -> tuple[Complex, Commanded]:
+    def only(self, settled: Settled) -> Mixture:
+        """One explanation alone."""
+        return Mixture(self.mechanism, self.situation, (settled,), np.ones(1))
+
+    def _arrived(self, s: Settled, theta: Real, around: Around) -> tuple[Complex, Commanded]:
         """(G,) where P stands under one explanation."""
-        at = at_commands(self.mechanism, s.x[: s.size], self.situation, theta, approach)
+        at = at_commands(self.mechanism, s.x[: s.size], self.situation, theta, around)
         r = at.r
         for family, member, amplitudes in s.present:
             moved = (family.columns(at.situation, member)[0] @ amplitudes).reshape(-1, 2)
@@ -116,6 +127,10 @@ class Mixture:
             for f, c in zip(s.families, s.choices, strict=True)
         ]
         return np.concatenate([at.situation.by_parameter, *columns], axis=2)
+
+
+def _plain(count: int) -> Around:
+    return Around(np.zeros((count, 2)))
 
 
 def mixture(mechanism: FiveBar, situation: Situation, settled: Sequence[tuple[Settled, float]]) -> Mixture:

@@ -8,14 +8,14 @@ outcome by every target and all quantities that errors depend on.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 from typing import NamedTuple
 
 import numpy as np
 
 from station.five_bar import FiveBar, Geometry, Pose, distance_by_joint, distance_jacobian, position_jacobian
 from station.mechanism import Reference, readings_before
-from station.records import Complex, Real
+from station.records import Complex, Index, Real
 
 TARGETS = (
     "joint1", "joint2", "e1x", "e1y", "e2x", "e2y", "L1", "L2", "l1", "l2", "shift_x", "shift_y", "reading",
@@ -71,6 +71,15 @@ class Situation:
 
     def __len__(self) -> int:
         return len(self.t_s)
+
+    def take(self, rows: Index) -> Situation:
+        """Of these readings only."""
+        taken = {
+            f.name: value[rows]
+            for f in fields(self)
+            if isinstance(value := getattr(self, f.name), np.ndarray)
+        }
+        return replace(self, **taken)
 
     def columns(self, actions: Sequence[Action]) -> Real:
         """(V, K * m, q) what one unit of every amplitude adds to the outcome, mm."""
@@ -134,8 +143,20 @@ class Commanded(NamedTuple):
     """(G,) position of P, mm, without the errors."""
 
 
-def at_commands(mechanism: FiveBar, p: Real, last: Situation, theta: Real, approach: Real) -> Commanded:
-    """Joint commands theta (G, 2), rad, come to from sides (G, 2), after the last reading of `last`."""
+class Around(NamedTuple):
+    """Under what G commands are carried out."""
+
+    approach: Real
+    """(G, 2) side from which each joint comes, 0 unknown."""
+    rise: Real | None = None
+    """(G,) K since the first reading; None as at the last one."""
+    payload_kg: Real | None = None
+    """(G,); None as at the last reading."""
+
+
+def at_commands(mechanism: FiveBar, p: Real, last: Situation, theta: Real, around: Around) -> Commanded:
+    """Joint commands theta (G, 2), rad, carried out after the last reading of `last`."""
+    approach = around.approach
     base = mechanism.geometry_at(p)
     now = int(np.argmax(last.t_s))
     cd = base.cd if np.ndim(base.cd) == 0 else np.asarray(base.cd)[now]
@@ -158,8 +179,8 @@ def at_commands(mechanism: FiveBar, p: Real, last: Situation, theta: Real, appro
         approach=approach,
         travel=at.rho - mechanism.offset(p)[now],
         slider=np.column_stack([moving, moving]),
-        rise=None if last.rise is None else np.full(count, last.rise[now]),
-        payload_kg=None if last.payload_kg is None else np.full(count, last.payload_kg[now]),
+        rise=_given(around.rise, last.rise, now, count),
+        payload_kg=_given(around.payload_kg, last.payload_kg, now, count),
         mount=np.full(count, last.mount[now]),
         place=_normalised(mechanism, at.r),
         phi=np.angle(at.w),
@@ -169,6 +190,13 @@ def at_commands(mechanism: FiveBar, p: Real, last: Situation, theta: Real, appro
         force=_force(at),
     )
     return Commanded(situation, at.r)
+
+
+def _given(wanted: Real | None, learned: Real | None, now: int, count: int) -> Real | None:
+    """(G,) as wanted, else as at the last reading; None where nothing was learned of it."""
+    if learned is None:
+        return None
+    return np.full(count, learned[now]) if wanted is None else wanted
 
 
 def posed(mechanism: FiveBar, p: Real, added: Real | None) -> tuple[Pose, Geometry]:

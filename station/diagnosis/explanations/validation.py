@@ -70,7 +70,7 @@ def validate(
     later = mechanism.of(fresh)
     residuals, sds, p_values, kept_all = [], [], [], np.ones(len(fresh), dtype=bool)
     for settled, _ in explanations:
-        residual, covariance = _prediction(later, reference, settled, row_sd)
+        residual, covariance = prediction(later, reference, settled, row_sd)
         sd = np.sqrt(np.diag(covariance))
         kept = np.abs(residual) < FAR_OFF * sd
         if np.sum(~kept) > max(1, int(FEW_OFF * len(fresh))):
@@ -96,7 +96,7 @@ def validate(
     )
 
 
-def _prediction(later: FiveBar, reference: Reference, settled: Settled, row_sd: Real) -> tuple[Real, Real]:
+def prediction(later: FiveBar, reference: Reference, settled: Settled, row_sd: Real) -> tuple[Real, Real]:
     """(F,) measured less predicted and its covariance (F, F), mm."""
     p = settled.x[: settled.size]
     plain = at_readings(later, p, reference, first=False)

@@ -10,6 +10,7 @@ from scipy.special import fdtrc
 
 from station.diagnosis.explanations.family import Part
 from station.diagnosis.explanations.frame import added
+from station.diagnosis.explanations.search import Key
 from station.diagnosis.explanations.settle import Settled
 from station.diagnosis.explanations.situation import predicted
 from station.diagnosis.explanations.statements import PartKey, Statements
@@ -27,6 +28,8 @@ LOUD = 2.0
 """Noise over the specification from which on it is no noise."""
 FEWEST_REPEATS = 6
 MOSTLY = 0.5
+TOLD = 0.01
+"""Probability below which an explanation is not spoken of."""
 
 
 @dataclass(frozen=True)
@@ -98,13 +101,19 @@ def decide(statements: Statements, findings: tuple[Finding, ...], validation: Va
     return Decision("partly_explained" if partly else "unexplained", confirmed, accounted)
 
 
+def told(statements: Statements) -> Key | None:
+    """The core that is reported: the most probable that holds a named effect, else any error."""
+    families = statements.weighing.families
+    cores = [key for key, _ in statements.cores if key]
+    named = (key for key, p in statements.cores if p >= TOLD and any(families[k].named for k in key))
+    return next(named, cores[0] if cores else None)
+
+
 def findings(statements: Statements) -> tuple[Finding, ...]:
     """The named effects of the most probable core that holds any."""
     weighing = statements.weighing
-    core = next(
-        (key for key, _ in statements.cores if key and any(weighing.families[k].named for k in key)), None
-    )
-    if core is None or statements.base >= MOSTLY:
+    core = told(statements)
+    if core is None or statements.base >= MOSTLY or not any(weighing.families[k].named for k in core):
         return ()
     settled = weighing.settle(core)
     out = []

@@ -45,6 +45,8 @@ class Weighing:
 
     mechanism: FiveBar
     reference: Reference
+    start: Real
+    """(P,) base parameters at which the families were laid out."""
     families: tuple[Family, ...]
     frame: Frame
     bank: Bank
@@ -109,7 +111,7 @@ def weigh(
                     search = Search(bank)
         found = search.run([out.best.choices] if out is not None and out.best.choices else ())
         families = tuple(bank.families)
-        out = _weighed(mechanism, families, bank, found, base, reference)
+        out = _weighed(mechanism, p, families, bank, found, base, reference)
         best = out.best
         if best.bend < ANEW or not best.choices or out.wanders:
             break
@@ -120,6 +122,7 @@ def weigh(
 
 def _weighed(
     mechanism: FiveBar,
+    start: Real,
     families: Sequence[Family],
     bank: Bank,
     found: Sequence[Candidate],
@@ -156,6 +159,7 @@ def _weighed(
     return Weighing(
         mechanism,
         reference,
+        start,
         tuple(families),
         at,
         bank,

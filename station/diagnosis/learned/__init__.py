@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from station.diagnosis.learned.commands import range_text, solve_targets
+from station.diagnosis.learned.mixture_file import mixture_document
 from station.diagnosis.learned.model_file import learned_model, model_document, read_model, read_part
 from station.diagnosis.learned.other_log import Transfer, transfer
 from station.diagnosis.learned.targets import commands_csv, read_targets, targets_of
@@ -11,6 +12,7 @@ __all__ = [
     "Transfer",
     "commands_csv",
     "learned_model",
+    "mixture_document",
     "model_document",
     "range_text",
     "read_model",

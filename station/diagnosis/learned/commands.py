@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from station.diagnosis.learned.acting import Acting
 from station.diagnosis.learned.model_file import LearnedModel
 from station.diagnosis.learned.targets import APPROACH, Targets
 from station.five_bar import Unreachable
-from station.model import NotInvertible, Situation, Term
+from station.model import NotInvertible, Situation
 from station.records import Real
 
 EDGE = 0.05
@@ -22,8 +23,8 @@ def solve_targets(model: LearnedModel, targets: Targets) -> Real:
         the approach, temperature or payload that an effect needs, with row and column.
     """
     machine = model.machine
-    for term in machine.terms:
-        _check_given(term, targets)
+    for effect in model.acting:
+        _check_given(effect, targets)
     count = len(targets)
     rise: Real = np.zeros(count)
     if targets.temperature_c is not None and model.temperature_c is not None:
@@ -40,43 +41,40 @@ def solve_targets(model: LearnedModel, targets: Targets) -> Real:
     return theta
 
 
-def _check_given(term: Term, targets: Targets) -> None:
+def _check_given(effect: Acting, targets: Targets) -> None:
     """An effect that depends on what the file does not say cannot be compensated."""
-    effect = term.effect
-    if "by_payload" in term.hidden and targets.payload_kg is None:
+    if effect.by_payload and targets.payload_kg is None:
         what = f"is missing, but {effect.label} was learned with payloads; give kg."
         raise targets.refuse(0, "payload_kg", what)
-    if effect.by_approach:
-        i = (effect.joint or 1) - 1
-        missing = np.flatnonzero(targets.approach[:, i] == 0)
+    for joint in effect.by_approach:
+        missing = np.flatnonzero(targets.approach[:, joint - 1] == 0)
         if missing.size:
             what = f"is missing or 0, but {effect.label} depends on it; give -1 or 1."
-            raise targets.refuse(int(missing[0]), APPROACH[i], what)
+            raise targets.refuse(int(missing[0]), APPROACH[joint - 1], what)
 
 
 def _check_range(model: LearnedModel, theta: Real, targets: Targets) -> None:
     """Effects of a joint hold where they were learned, no further."""
     degrees = np.degrees(theta)
-    for term in model.machine.terms:
-        i = term.acts.joint
-        if i is None:
-            continue
-        low, high = model.joint_range_deg[i]
-        margin = EDGE * (high - low)
-        outside = np.flatnonzero((degrees[:, i] < low - margin) | (degrees[:, i] > high + margin))
-        if outside.size:
-            k = int(outside[0])
-            what = (
-                f"joint {i + 1} would go to {degrees[k, i]:.2f} deg, but {term.effect.label} was learned "
-                f"from {low:.2f} to {high:.2f} deg only; choose a target inside or repeat the walk wider."
-            )
-            raise targets.refuse(k, "x_mm, y_mm", what)
+    for effect in model.acting:
+        for joint in effect.joints:
+            i = joint - 1
+            low, high = model.joint_range_deg[i]
+            margin = EDGE * (high - low)
+            outside = np.flatnonzero((degrees[:, i] < low - margin) | (degrees[:, i] > high + margin))
+            if outside.size:
+                k = int(outside[0])
+                what = (
+                    f"joint {joint} would go to {degrees[k, i]:.2f} deg, but {effect.label} was learned from "
+                    f"{low:.2f} to {high:.2f} deg only; choose a target inside or measure a wider range."
+                )
+                raise targets.refuse(k, "x_mm, y_mm", what)
 
 
 def range_text(model: LearnedModel) -> str:
     """What the model was learned on, in words."""
     first, second = model.joint_range_deg
-    effects = ", ".join(t.effect.label for t in model.machine.terms) or "no effect"
+    effects = ", ".join(effect.label for effect in model.acting) or "no effect"
     text = (
         f"Learned on joint 1 from {first[0]:.2f} to {first[1]:.2f} deg and joint 2 from {second[0]:.2f} to "
         f"{second[1]:.2f} deg, with {effects}."

@@ -11,15 +11,19 @@ from typing import Any
 import numpy as np
 from pydantic import ValidationError
 
-from station.diagnosis.closed_loop import Diagnosis
+from station.diagnosis.learned.acting import Acting
+from station.diagnosis.learned.mixture_file import MixtureMachine, mixture_machine
+from station.diagnosis.traced_loop import TracedDiagnosis
 from station.effects import Acts, Effect, five_bar_catalogue
 from station.errors import InputRefused
 from station.five_bar import Robot
 from station.machines import robot_of
 from station.model import Fit, IdentifiedMachine, Situation, Term
 from station.records import (
+    MIXTURE_SCHEMA,
     MODEL_SCHEMA,
     LearnedRanges,
+    MixtureDocument,
     ModelDocument,
     Real,
     Span,
@@ -30,13 +34,18 @@ from station.records import (
 )
 
 MANY = 100
+SCHEMAS: dict[str, type[ModelDocument] | type[MixtureDocument]] = {
+    MODEL_SCHEMA: ModelDocument,
+    MIXTURE_SCHEMA: MixtureDocument,
+}
 
 
 @dataclass(frozen=True)
 class LearnedModel:
     """A model read back."""
 
-    machine: IdentifiedMachine
+    machine: IdentifiedMachine | MixtureMachine
+    acting: tuple[Acting, ...]
     joint_range_deg: tuple[Span, ...]
     temperature_c: float | None
     """Where temperatures are counted from; None when nothing warmed up."""
@@ -45,7 +54,7 @@ class LearnedModel:
 
 
 def model_document(
-    diagnosis: Diagnosis, fit: Fit, sd_factor: float, *, stage: str, confirmed: bool | None
+    diagnosis: TracedDiagnosis, fit: Fit, sd_factor: float, *, stage: str, confirmed: bool | None
 ) -> ModelDocument:
     """All that commands and a transfer need; mm and rad, base parameters, then each term's amplitudes."""
     m = diagnosis.measurements
@@ -90,7 +99,7 @@ def read_model(path: Path) -> LearnedModel:
     return learned_model(read_part(path), str(path))
 
 
-def read_part(path: Path) -> ModelDocument:
+def read_part(path: Path) -> ModelDocument | MixtureDocument:
     """The `model` of a diagnosis, of whatever machine.
 
     :raises InputRefused: missing, broken, of another schema, or a value out of place.
@@ -112,28 +121,39 @@ def model_of(content: Any, source: str) -> LearnedModel:
     return learned_model(part_of(content, source), source)
 
 
-def part_of(content: Any, source: str) -> ModelDocument:
+def part_of(content: Any, source: str) -> ModelDocument | MixtureDocument:
     """:raises InputRefused: as `read_part`."""
     part = content.get("model") if isinstance(content, dict) else None
     if not isinstance(part, dict):
         raise InputRefused(
             f"Model {source} has no section `model`; give the file of `station diagnose --json`."
         )
-    if part.get("schema") != MODEL_SCHEMA:
+    kind = SCHEMAS.get(str(part.get("schema")))
+    if kind is None:
         raise InputRefused(
-            f"Model {source} is of schema {part.get('schema')!r}; this station reads {MODEL_SCHEMA}: "
-            "diagnose again."
+            f"Model {source} is of schema {part.get('schema')!r}; this station reads "
+            f"{' and '.join(SCHEMAS)}: diagnose again."
         )
     try:
-        return ModelDocument.model_validate(part)
+        return kind.model_validate(part)
     except ValidationError as error:
         first = error.errors()[0]
         where = ".".join(str(step) for step in first["loc"])
         raise InputRefused(f"Model {source}: [model.{where}] {first['msg']}.") from error
 
 
-def learned_model(part: ModelDocument, source: str) -> LearnedModel:
+def learned_model(part: ModelDocument | MixtureDocument, source: str) -> LearnedModel:
     """A five-bar that can be commanded.  :raises InputRefused: values that do not belong together."""
+    machine: IdentifiedMachine | MixtureMachine
+    if isinstance(part, MixtureDocument):
+        machine, acting = mixture_machine(part, source)
+    else:
+        machine, acting = _single(part, source)
+    return LearnedModel(machine, acting, part.ranges.joints_deg, part.reference.temperature_c, part.confirmed)
+
+
+def _single(part: ModelDocument, source: str) -> tuple[IdentifiedMachine, tuple[Acting, ...]]:
+    """One model with its effects."""
     robot = robot_of(part.robot, source=f"{source}: [model.robot]")
     if not isinstance(robot, Robot):
         raise InputRefused(
@@ -157,7 +177,17 @@ def learned_model(part: ModelDocument, source: str) -> LearnedModel:
         machine.commands(centre, Situation.plain(1))
     except (ValueError, KeyError, IndexError, ArithmeticError) as error:
         raise InputRefused(f"Model {source}: it cannot be evaluated ({error}).") from error
-    return LearnedModel(machine, part.ranges.joints_deg, part.reference.temperature_c, part.confirmed)
+    return machine, tuple(_acting(term) for term in terms)
+
+
+def _acting(term: Term) -> Acting:
+    i = term.acts.joint
+    return Acting(
+        term.effect.label,
+        joints=() if i is None else (i + 1,),
+        by_approach=(term.effect.joint or 1,) if term.effect.by_approach else (),
+        by_payload="by_payload" in term.hidden,
+    )
 
 
 def terms_of(part: ModelDocument, effects: Sequence[Effect], source: str) -> tuple[Term, ...]:

@@ -28,7 +28,7 @@ from station.fitting import (
 from station.machines import AnyMechanism, AnyRobot, effects_of, mechanism_of
 from station.mechanism import Reference, by_reading
 from station.model import Model, Term
-from station.records import Measurements, ModelDocument, Real, inside_visited
+from station.records import Measurements, MixtureDocument, ModelDocument, Real, inside_visited
 
 FEWEST_AN_UNKNOWN = 4
 
@@ -60,11 +60,18 @@ class Transfer:
     """The same pair within the outer limits of the learned range, gaps included; None when there are none."""
 
 
-def transfer(part: ModelDocument, robot: AnyRobot, readings: Measurements, source: str) -> Transfer:
+def transfer(
+    part: ModelDocument | MixtureDocument, robot: AnyRobot, readings: Measurements, source: str
+) -> Transfer:
     """Apply the effects of a learned model to readings of the same machine.
 
     :raises InputRefused: nothing to apply, or too few readings inside the learned range.
     """
+    if isinstance(part, MixtureDocument):
+        raise InputRefused(
+            f"Model {source} holds the explanations of a five-bar; only the effects of an arm are applied to "
+            "another log. Diagnose the other log, or use `station solve`."
+        )
     mechanism = mechanism_of(robot, readings)
     mechanism.check()
     terms = terms_of(part, effects_of(mechanism), source)

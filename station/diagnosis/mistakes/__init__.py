@@ -10,7 +10,7 @@ themselves; `fresh` compares fresh readings with the sequence; `glitches` are si
 from __future__ import annotations
 
 from station.diagnosis.mistakes.fitting import fit as fit_readings
-from station.diagnosis.mistakes.mistake import Context, Kind, Mistake, Severity
+from station.diagnosis.mistakes.mistake import Context, Kind, Mistake, MistakeRefused, Severity
 from station.diagnosis.mistakes.search import find_mistake
 
-__all__ = ["Context", "Kind", "Mistake", "Severity", "find_mistake", "fit_readings"]
+__all__ = ["Context", "Kind", "Mistake", "MistakeRefused", "Severity", "find_mistake", "fit_readings"]

@@ -8,6 +8,7 @@ from typing import Any, Literal
 
 import numpy as np
 
+from station.errors import InputRefused
 from station.records import Index, Measurements
 
 Kind = Literal[
@@ -40,6 +41,14 @@ class Mistake:
     def as_json(self) -> dict[str, Any]:
         """The contract's object."""
         return {"kind": self.kind, "text": self.text, "rows": list(self.rows)}
+
+
+class MistakeRefused(InputRefused):
+    """Files that cannot be diagnosed before the mistake in them is put right."""
+
+    def __init__(self, mistake: Mistake) -> None:
+        super().__init__(mistake.text)
+        self.mistake = mistake
 
 
 @dataclass(frozen=True)

@@ -8,12 +8,9 @@ from dataclasses import replace
 import numpy as np
 from markupsafe import Markup
 
-from station.diagnosis.report.document import Findings, FoundEffect
-from station.diagnosis.report.joint_curves import Curve, curves
-from station.machines import kind_of
-from station.mechanism import by_reading
-from station.model import Fit
-from station.records import Quantity, Real, guesses_in_words
+from station.diagnosis.report.findings import Findings, FoundEffect, ResidualView
+from station.diagnosis.report.joint_curves import Curve
+from station.records import Measurements, Quantity, Real, guesses_in_words
 from station.report import Chart, Page, Section, Series, Table, line, place_map, scatter
 
 UM = "µm"
@@ -28,10 +25,9 @@ def page(findings: Findings, source: str) -> Page:
     sections = [_errors(findings)]
     if findings.effects:
         sections.append(_causes(findings))
-    drawn = curves(findings.diagnosis.last)
-    if drawn:
-        sections.append(_curves(drawn))
-    if findings.diagnosis.hints:
+    if findings.curves:
+        sections.append(_curves(findings.curves))
+    if findings.hints:
         sections.append(_hints(findings))
     sections += [_residual(findings), _parameters(findings), _invisible(findings)]
     return Page(f"Diagnosis of {source}", findings.sentence, sections)
@@ -50,7 +46,7 @@ def _errors(findings: Findings) -> Section:
     for s in findings.stages:
         sizes = (s.fit_rms_mm, s.holdout_rms_mm, s.holdout_max_mm, s.confirm_rms_mm, s.confirm_max_mm)
         rows.append((s.model, s.unknowns, *(_um(v) for v in sizes)))
-    noise, measurements = findings.noise, findings.diagnosis.measurements
+    noise, measurements = findings.noise, findings.measurements
     origin = f"from {noise.dof} repeats" if noise.source == "repeats" else "as specified"
     return Section(
         "Errors before and after",
@@ -72,7 +68,7 @@ def _errors(findings: Findings) -> Section:
 
 
 def _position_errors(findings: Findings) -> Iterator[Table]:
-    predicted = f"Predicted position error over {kind_of(findings.fit.model.mechanism).extent}, mm"
+    predicted = f"Predicted position error over {findings.extent}, mm"
     for by, errors, caption in (
         ("commands by", findings.position_errors, predicted),
         ("position by", findings.true_position_errors, "True position error, against the tracker, mm"),
@@ -90,20 +86,27 @@ def _um(value: float | None) -> str:
 def _causes(findings: Findings) -> Section:
     rows = [
         (
-            found.term.effect.label,
+            found.label,
             "; ".join(f"{q.name} {shown(q)}" for q in found.parameters),
             f"{100.0 * found.share:.1f} %",
-            f"{found.p_value:.1g}",
-            ", ".join(t.effect.label for t in found.aliases) or "nothing",
+            f"{found.p_value:.1g}" if found.probability is None else f"{100.0 * found.probability:.0f} %",
+            ", ".join(found.alias_labels) or "nothing",
         )
         for found in findings.effects
     ]
+    certainty = "p" if findings.effects[0].probability is None else "probability"
     return Section(
         "Effects tried" if findings.decision.refuted else "Effects added",
         _explanations(findings.effects),
         (
             Table(
-                ("effect", "size", "share of the residual's square", "p", "looks the same in these readings"),
+                (
+                    "effect",
+                    "size",
+                    "share of the residual's square",
+                    certainty,
+                    "looks the same in these readings",
+                ),
                 rows,
             ),
         ),
@@ -158,11 +161,10 @@ def _explanations(effects: Sequence[FoundEffect]) -> list[str]:
     """Physics and remedy, once for all effects that share them."""
     by_text: dict[str, list[str]] = {}
     for found in effects:
-        effect = found.term.effect
-        text = f"{effect.physics} Remedy: {effect.remedy}"
+        text = f"{found.physics} Remedy: {found.remedy}"
         if found.aliases:
-            text += f" To tell the look-alikes apart: {effect.experiment}"
-        by_text.setdefault(text, []).append(effect.label)
+            text += f" To distinguish them: {found.experiment}"
+        by_text.setdefault(text, []).append(found.label)
     return [f"{', '.join(labels)}: {text}" for text, labels in by_text.items()]
 
 
@@ -173,43 +175,40 @@ def _hints(findings: Findings) -> Section:
         (
             Table(
                 ("depends on", "share", "in words"),
-                [(h.depends_on, f"{100.0 * h.strength:.0f} %", h.text) for h in findings.diagnosis.hints],
+                [(h.depends_on, f"{100.0 * h.strength:.0f} %", h.text) for h in findings.hints],
             ),
         ),
     )
 
 
 def _residual(findings: Findings) -> Section:
-    before, after = findings.diagnosis.base, findings.diagnosis.last
-    added = bool(findings.effects)
+    added = bool(findings.added)
     text = ["Left: the base model's residual" + (", and what the effects account for. " if added else ". ")]
     if added:
         text[0] += "Right: what is left with the effects in the model."
-    return Section("Residual", text, (), tuple(_charts(before, after, added)))
+    return Section("Residual", text, (), tuple(_charts(findings.measurements, findings.residual, added)))
 
 
-def _charts(before: Fit, after: Fit, added: bool) -> Iterator[Chart]:
+def _charts(m: Measurements, view: ResidualView, added: bool) -> Iterator[Chart]:
     """Pairs against order, time, angles, travel, approach and place; single ones where nothing was added."""
-    m, c = before.model.mechanism.measurements, before.conditions
-    mechanism = before.model.mechanism
-    was, left = (_drawn(f) * MICROMETRES for f in (before, after))
+    was, left = view.before_mm * MICROMETRES, view.after_mm * MICROMETRES
     by_number: list[tuple[str, Real]] = [
         ("order", np.arange(1.0, len(was) + 1.0)),
         ("time s", m.t_s),
-        *((f"theta{i + 1} deg", np.degrees(c.theta[:, i])) for i in range(m.joints)),
+        *((f"theta{i + 1} deg", np.degrees(view.theta[:, i])) for i in range(m.joints)),
     ]
-    if np.ptp(c.travel) > 0:
-        by_number.append(("travel mm", c.travel))
-    if c.temperature_rise is not None:
-        by_number.append(("temperature rise K", c.temperature_rise))
+    if np.ptp(view.travel_mm) > 0:
+        by_number.append(("travel mm", view.travel_mm))
+    if view.temperature_rise_k is not None:
+        by_number.append(("temperature rise K", view.temperature_rise_k))
     for name, along in by_number:
         yield Chart(scatter(_series(along, was, left, added), name, f"residual {UM}"), f"before, by {name}")
         if added:
             yield Chart(scatter([_points("left", along, left)], name, f"rest {UM}"), f"after, by {name}")
     for i in range(m.joints):
-        if np.any(c.approach[:, i]):
-            yield from _by_approach(i, c.approach[:, i], was, left, added)
-    at = mechanism.places(before.x[: before.model.base_size])
+        if np.any(view.approach[:, i]):
+            yield from _by_approach(i, view.approach[:, i], was, left, added)
+    at = view.place_mm
     first = np.unique(m.position, return_index=True)[1]
     for values, name in ((was, "before"), (left, "after")):
         mean = np.bincount(m.position, values) / np.maximum(np.bincount(m.position), 1)
@@ -236,14 +235,6 @@ def _by_approach(i: int, approach: Real, was: Real, left: Real, added: bool) -> 
         yield Chart(drawing, f"after, by {label}")
 
 
-def _drawn(fit: Fit) -> Real:
-    """(K,) mm: the residual of each reading, of several coordinates its length."""
-    mechanism = fit.model.mechanism
-    if len(fit.residual_mm) == len(mechanism.measurements):
-        return fit.residual_mm
-    return by_reading(mechanism, fit.residual_mm)
-
-
 def _series(along: Real, was: Real, left: Real, added: bool) -> Sequence[Series]:
     measured = _points("measured less base model", along, was)
     return (measured, _points("the effects account for", along, was - left)) if added else (measured,)
@@ -257,9 +248,8 @@ def _points(label: str, x: Real, y: Real) -> Series:
 
 def _parameters(findings: Findings) -> Section:
     weak = findings.weak_direction
-    d = findings.diagnosis
     text = [
-        f"From the model “{findings.stages[findings.decision.trusted + 1].model}”. Determined least: "
+        f"{findings.origin} Determined least: "
         f"{weak.text}, standard uncertainty {weak.sd_deg or 0.0:.4f} deg. "
         f"Not seen by one distance at all: {'; '.join(weak.blind)}."
     ]
@@ -268,9 +258,9 @@ def _parameters(findings: Findings) -> Section:
             f"The model does not fit: every sd is widened by {findings.decision.sd_factor:.1f}, "
             "the ratio of what is left to the noise."
         )
-    text += [f"Left out: reading {o.reading}, {o.reason}." for o in d.outliers]
-    if d.confirmations and d.confirmations[-1].left_out:
-        names = ", ".join(map(str, d.confirmations[-1].left_out))
+    text += [f"Left out: reading {o.reading}, {o.reason}." for o in findings.outliers]
+    if findings.fresh_outliers:
+        names = ", ".join(map(str, findings.fresh_outliers))
         text.append(f"Left out of the confirmation: fresh reading {names}.")
     rows = [(q.name, f"{q.value:.5f}", f"{q.sd:.5f}", q.unit) for q in findings.parameters]
     remedies = [(r.text, f"{r.sd_deg:.4f}") for r in weak.remedies]

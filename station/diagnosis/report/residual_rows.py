@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from station.diagnosis.report.document import Findings
-from station.records import LIMIT_SDS
+from station.diagnosis.report.findings import Findings
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,33 +48,27 @@ class Residuals:
 
 def residuals(findings: Findings, positions: Mapping[int | str, str]) -> Residuals:
     """Row by row; `positions` names the place of each reading."""
-    d = findings.diagnosis
-    base, m = d.base, d.measurements
-    at = base.model.mechanism.places(base.x[: base.model.base_size])
-    left = np.array([stage.fit.residual_mm for stage in d.trace.stages])
-    taken = left[:-1] - left[1:]
-    theta = np.degrees(base.conditions.theta)
-    rise = base.conditions.temperature_rise
-    limit = LIMIT_SDS * d.last.row_sd
+    m, view = findings.measurements, findings.residual
+    theta, rise = np.degrees(view.theta), view.temperature_rise_k
     return Residuals(
-        tuple(finding.term.effect.label for finding in d.trace.findings),
+        findings.added,
         tuple(
             ResidualRow(
                 reading=m.ids[k],
                 position=positions[m.ids[k]],
-                x_mm=float(at[k, 0]),
-                y_mm=float(at[k, 1]),
+                x_mm=float(view.place_mm[k, 0]),
+                y_mm=float(view.place_mm[k, 1]),
                 t_s=float(m.t_s[k]),
                 theta1_deg=float(theta[k, 0]),
                 theta2_deg=float(theta[k, 1]),
                 approach1=int(m.approach[k, 0]),
                 approach2=int(m.approach[k, 1]),
-                travel_mm=float(base.conditions.travel[k]),
+                travel_mm=float(view.travel_mm[k]),
                 temperature_rise_k=None if rise is None else float(rise[k]),
-                before_mm=float(left[0, k]),
-                by_effect_mm=tuple(taken[:, k].tolist()),
-                after_mm=float(left[-1, k]),
-                limit_mm=float(limit[k]),
+                before_mm=float(view.before_mm[k]),
+                by_effect_mm=tuple(float(taken[k]) for taken in view.by_effect_mm),
+                after_mm=float(view.after_mm[k]),
+                limit_mm=float(view.limit_mm[k]),
             )
             for k in range(len(m))
         ),

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from station.diagnosis.closed_loop import Diagnosis
 from station.diagnosis.tests_of_fit import in_words
+from station.diagnosis.traced_loop import TracedDiagnosis
 from station.messages import display_name
 from station.records import Reason, because
 
 
-def verdict_reason(diagnosis: Diagnosis, labels: Sequence[str]) -> Reason:
+def verdict_reason(diagnosis: TracedDiagnosis, labels: Sequence[str]) -> Reason:
     """Why the verdict is what it is; `labels` of the effects found, strongest first."""
     d = diagnosis
     causes = " and ".join(labels)
@@ -21,6 +21,8 @@ def verdict_reason(diagnosis: Diagnosis, labels: Sequence[str]) -> Reason:
         alternative = in_words(d.rival)
         return because("alternative", causes=causes, share_percent=share, alternative=alternative)
     match d.verdict:
+        case "ambiguous":
+            raise AssertionError("a search weighs no alternatives")
         case "adequate":
             return because("adequate_confirmed" if confirmed else "adequate")
         case "explained":

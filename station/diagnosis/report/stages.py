@@ -5,20 +5,22 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from station.diagnosis.closed_loop import Diagnosis
 from station.diagnosis.tests_of_fit import predicted_by_others
+from station.diagnosis.traced_loop import TracedDiagnosis
 from station.errors import InputRefused
 from station.fitting import NotConvergedError, Prior, Solution, solve
 from station.mechanism import Mechanism, by_reading
 from station.model import Term
-from station.records import Real, StageErrors
+from station.records import Measurements, Real, StageErrors
 
 Mask = NDArray[np.bool_]
 
 
-def stage_errors(diagnosis: Diagnosis) -> tuple[StageErrors, ...]:
+def stage_errors(diagnosis: TracedDiagnosis) -> tuple[StageErrors, ...]:
     """Paper, base, and one more per effect found."""
-    stages = [_simplest(diagnosis)]
+    base = diagnosis.base
+    kept = None if diagnosis.fresh is None else diagnosis.fresh.take(kept_fresh(diagnosis))
+    stages = [simplest(base.model.mechanism, base.row_sd, base.x, kept)]
     names = ["base", *(finding.term.effect.label for finding in diagnosis.trace.findings)]
     for k, (stage, name) in enumerate(zip(diagnosis.trace.stages, names, strict=True)):
         fit = stage.fit
@@ -26,7 +28,7 @@ def stage_errors(diagnosis: Diagnosis) -> tuple[StageErrors, ...]:
         if diagnosis.confirmations:
             fresh = diagnosis.confirmations[k].error_mm[kept_fresh(diagnosis)]
         stages.append(
-            _errors(
+            errors_of(
                 name if k == 0 else f"+ {name}",
                 base_unknowns(fit.model.mechanism) + sum(len_of(term) for term in fit.model.terms),
                 fit.solution,
@@ -38,7 +40,7 @@ def stage_errors(diagnosis: Diagnosis) -> tuple[StageErrors, ...]:
     return tuple(stages)
 
 
-def kept_fresh(diagnosis: Diagnosis) -> Mask:
+def kept_fresh(diagnosis: TracedDiagnosis) -> Mask:
     """(K,) fresh readings that took part in the confirmation of the last model."""
     if diagnosis.fresh is None:
         return np.zeros(0, dtype=bool)
@@ -56,7 +58,7 @@ def len_of(term: Term) -> int:
     return len(term.effect.quantities(term.hidden, np.ones(term.size), np.eye(term.size)))
 
 
-def _errors(
+def errors_of(
     model: str,
     unknowns: int,
     solution: Solution,
@@ -64,6 +66,7 @@ def _errors(
     mechanism: Mechanism,
     fresh_mm: Real | None,
 ) -> StageErrors:
+    """Of one model fitted; fresh_mm (F,) are fresh readings less predicted."""
     fit_mm = by_reading(mechanism, solution.residual * row_sd)
     out_mm = by_reading(mechanism, predicted_by_others(solution, mechanism) * row_sd)
     return StageErrors(
@@ -73,20 +76,22 @@ def _errors(
         holdout_rms_mm=_rms(out_mm),
         holdout_max_mm=float(out_mm.max()),
         confirm_rms_mm=None if fresh_mm is None else _rms(fresh_mm),
-        confirm_max_mm=None if fresh_mm is None else float(fresh_mm.max()),
+        confirm_max_mm=None if fresh_mm is None else float(np.abs(fresh_mm).max()),
     )
 
 
-def _simplest(diagnosis: Diagnosis) -> StageErrors:
-    """The simplest model of the machine: the rest of it stays nominal, nothing is known before."""
-    mechanism = diagnosis.base.model.mechanism
+def simplest(mechanism: Mechanism, row_sd: Real, start: Real, later: Measurements | None) -> StageErrors:
+    """The simplest model of the machine: the rest of it stays nominal, nothing is known before.
+
+    :param start: (P,) parameters to start from
+    :param later: fresh readings
+    """
     name, names = mechanism.simplest
     free = np.flatnonzero([p.name in names for p in mechanism.parameters])
-    start = mechanism.start
-    row_sd = diagnosis.base.row_sd
+    nominal = mechanism.start
 
     def full(q: Real) -> Real:
-        p = start.copy()
+        p = nominal.copy()
         p[free] = q
         return p
 
@@ -95,19 +100,19 @@ def _simplest(diagnosis: Diagnosis) -> StageErrors:
         return (at.value - mechanism.measured) / row_sd, at.by_parameter[:, free] / row_sd[:, None]
 
     try:
-        solution = solve(residuals, diagnosis.base.x[free], Prior(start[free], np.zeros((0, len(free)))))
+        solution = solve(residuals, start[free], Prior(nominal[free], np.zeros((0, len(free)))))
     except NotConvergedError as error:
         raise InputRefused(
             f"Not even the {len(names)} unknowns of the {name} model converge on these readings ({error}); "
             "check the robot file and that angles and distances belong together."
         ) from error
     fresh_mm = None
-    if diagnosis.fresh is not None:
-        fresh = mechanism.of(diagnosis.fresh)
+    if later is not None:
+        fresh = mechanism.of(later)
         rows = fresh.measured - fresh.observe(full(solution.x), fresh.theta).value
-        fresh_mm = by_reading(fresh, rows)[kept_fresh(diagnosis)]
+        fresh_mm = by_reading(fresh, rows)
     unknowns = sum(p.role != "reading_offset" for p in mechanism.parameters if p.name in names)
-    return _errors(name, unknowns, solution, row_sd, mechanism, fresh_mm)
+    return errors_of(name, unknowns, solution, row_sd, mechanism, fresh_mm)
 
 
 def _rms(errors: Real) -> float:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from station.diagnosis.explanations import Around, ExplanationSet
 from station.fitting import rms_and_max
 from station.mechanism import temperature_rise
 from station.model import Fit, Situation, identified
@@ -33,5 +34,25 @@ def true_position_errors(
     stood = tracked.tracker @ [1.0, 1.0j]
     before, after = (
         np.abs(machine.positions(tracked.theta, situation) - stood) for machine in machines if machine
+    )
+    return rms_and_max(before), rms_and_max(after)
+
+
+def true_errors_of_set(
+    found: ExplanationSet, walk: Measurements, fresh: Measurements | None
+) -> tuple[PositionError, PositionError] | None:
+    """The same under the base model and under a set of explanations."""
+    tracked = next((m for m in (fresh, walk) if m is not None and m.tracker is not None), None)
+    if tracked is None or tracked.tracker is None:
+        return None
+    around = Around(
+        tracked.approach.astype(float),
+        temperature_rise(tracked, found.weighing.reference),
+        tracked.payload_kg,
+    )
+    stood = tracked.tracker @ [1.0, 1.0j]
+    before, after = (
+        np.abs(mixture.positions(tracked.theta, around) - stood)
+        for mixture in (found.mixture.only(found.base), found.mixture)
     )
     return rms_and_max(before), rms_and_max(after)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from station.diagnosis import Scan, diagnose
+from station.diagnosis import Scan, diagnose, traced
 from station.effects import five_bar_catalogue
 from station.five_bar import Robot
 from station.studies.bench.timing import time_ms
@@ -18,7 +18,7 @@ def measure(seconds: float) -> dict[str, Any]:
     """{scan_ms, diagnose_ms}: 110 readings, and 40 fresh ones for the diagnosis."""
     robot = Robot.default()
     drawn = draw(robot, ("backlash",), seed=1)
-    base = diagnose(robot, drawn.walk).base
+    base = traced(robot, drawn.walk).base
     effects = [effect for effect in five_bar_catalogue() if effect.id not in SEARCHED]
     return {
         "scan_ms": time_ms(lambda: Scan(base).candidates(effects), seconds=seconds),

@@ -11,7 +11,7 @@ from multiprocessing import get_context
 
 import numpy as np
 
-from station.diagnosis import Diagnosis, diagnose
+from station.diagnosis import WeighedFindings, weighed
 from station.errors import InputRefused
 from station.five_bar import Robot
 from station.records import Real
@@ -81,20 +81,21 @@ def _one(kinds: tuple[str, ...], seed: int) -> Outcome:
     robot = Robot.default()
     drawn = draw(robot, kinds, seed)
     try:
-        found = diagnose(robot, drawn.walk, drawn.fresh)
+        found = WeighedFindings(weighed(robot, drawn.walk, drawn.fresh))
     except InputRefused as refusal:
         return Outcome(_clear(drawn), f"refused: {str(refusal)[:40]}", False, False, False, False)
     return replace(judge(drawn, found), errors=before_and_after(robot, drawn, found))
 
 
-def judge(drawn: Drawn, found: Diagnosis) -> Outcome:
+def judge(drawn: Drawn, found: WeighedFindings) -> Outcome:
     """Compare what was found with what is in the machine."""
-    sets = [{f.term.key, *(t.key for t in f.aliases)} for f in found.trace.findings]
+    sets = [{(n.effect, n.joint) for n in (effect.name, *effect.aliases)} for effect in found.effects]
     wanted = list(drawn.truth)
-    named = ", ".join(sorted(f.term.effect.label for f in found.trace.findings))
-    explained = found.verdict == "explained" and found.confirmed is True
+    named = ", ".join(sorted(effect.label for effect in found.effects))
+    verdict = found.decision.verdict
+    explained = verdict == "explained" and found.decision.confirmed is True
     if not wanted:
-        right = found.verdict == "adequate" and not sets
+        right = verdict == "adequate" and not sets
     else:
         right = (
             explained
@@ -103,7 +104,7 @@ def judge(drawn: Drawn, found: Diagnosis) -> Outcome:
         )
     return Outcome(
         clear=_clear(drawn),
-        said=f"{found.verdict}: {named}" if named else found.verdict,
+        said=f"{verdict}: {named}" if named else verdict,
         right=right,
         alone=right and all(len(s) == 1 for s in sets),
         explained=explained,

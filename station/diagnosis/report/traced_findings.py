@@ -1,77 +1,64 @@
-"""Everything that is said of one diagnosis, and its document (schema station.diagnosis/1)."""
+"""Everything that is said of a search effect by effect, and its document (schema station.diagnosis/1)."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 from typing import Literal
 
 import numpy as np
 
-from station.diagnosis.closed_loop import Diagnosis
 from station.diagnosis.decision import Decision
 from station.diagnosis.learned import model_document
 from station.diagnosis.report.detectability import detectable
-from station.diagnosis.report.joint_curves import curves
+from station.diagnosis.report.findings import Findings, FoundEffect, ResidualView, accuracy, dependences
+from station.diagnosis.report.joint_curves import Curve, curves
 from station.diagnosis.report.predicted_error import position_errors
 from station.diagnosis.report.sentence import verdict_reason
 from station.diagnosis.report.stages import stage_errors
 from station.diagnosis.report.tracked import true_position_errors
+from station.diagnosis.search import Hint
+from station.diagnosis.traced_loop import TracedDiagnosis
 from station.fitting import Noise
 from station.machines import effects_of, kind_of
+from station.mechanism import by_reading
 from station.model import Fit, Term
 from station.records import (
+    LIMIT_SDS,
     DataSource,
-    Dependence,
     DiagnosisDocument,
     EffectName,
-    Finding,
     PositionError,
     Quantity,
+    Real,
     Reason,
     SmallestVisible,
-    StageAccuracy,
     StageErrors,
     WeakDirection,
 )
 
 
-@dataclass(frozen=True)
-class FoundEffect:
-    """One effect of the last model as it is reported."""
+class TracedFindings(Findings):
+    """Of the last model of a search."""
 
-    term: Term
-    parameters: tuple[Quantity, ...]
-    share: float
-    """Of the base residual's square that this effect took."""
-    p_value: float
-    aliases: tuple[Term, ...]
-
-    def record(self) -> Finding:
-        """As the document shows it."""
-        effect = self.term.effect
-        return Finding(
-            effect=effect.id,
-            joint=effect.joint,
-            label=effect.label,
-            parameters=self.parameters,
-            share=self.share,
-            p_value=self.p_value,
-            alias_set=tuple(
-                EffectName(effect=t.effect.id, joint=t.effect.joint) for t in (self.term, *self.aliases)
-            ),
-            remedy=effect.remedy,
-            separating_experiment=effect.experiment if self.aliases else None,
-        )
-
-
-class Findings:
-    """Everything that is said of one diagnosis, each figure computed once."""
-
-    def __init__(self, diagnosis: Diagnosis) -> None:
+    def __init__(self, diagnosis: TracedDiagnosis) -> None:
         self.diagnosis = diagnosis
+        self.robot = diagnosis.robot
+        self.measurements = diagnosis.measurements
+        self.outliers = diagnosis.outliers
+        self.fresh_outliers = diagnosis.confirmations[-1].left_out if diagnosis.confirmations else ()
 
     @property
+    def hints(self) -> tuple[Hint, ...]:
+        """On what an unexplained residual depends."""
+        return self.diagnosis.hints
+
+    @property
+    def added(self) -> tuple[str, ...]:
+        """Labels of the effects in the order of the search."""
+        return tuple(finding.term.effect.label for finding in self.diagnosis.trace.findings)
+
+    @cached_property
     def decision(self) -> Decision:
         """Verdict and trusted stage."""
         return self.diagnosis.decision
@@ -112,11 +99,19 @@ class Findings:
             term = d.last.model.terms[k]
             found.append(
                 FoundEffect(
-                    term,
-                    term.effect.quantities(term.hidden, amplitudes, covariance * self._last_sd_factor**2),
-                    (squares[k] - squares[k + 1]) / squares[0],
-                    finding.p_value,
-                    finding.aliases,
+                    name=_name(term),
+                    label=term.effect.label,
+                    physics=term.effect.physics,
+                    parameters=term.effect.quantities(
+                        term.hidden, amplitudes, covariance * self._last_sd_factor**2
+                    ),
+                    share=(squares[k] - squares[k + 1]) / squares[0],
+                    p_value=finding.p_value,
+                    probability=None,
+                    aliases=tuple(_name(t) for t in finding.aliases),
+                    alias_labels=tuple(t.effect.label for t in finding.aliases),
+                    remedy=term.effect.remedy,
+                    experiment=term.effect.experiment,
                 )
             )
         return tuple(sorted(found, key=lambda f: -f.share))
@@ -162,12 +157,36 @@ class Findings:
     @cached_property
     def reason(self) -> Reason:
         """The verdict in one sentence, for every output."""
-        return verdict_reason(self.diagnosis, [f.term.effect.label for f in self.effects])
+        return verdict_reason(self.diagnosis, [f.label for f in self.effects])
 
-    @property
-    def sentence(self) -> str:
-        """The same in English."""
-        return self.reason.text
+    @cached_property
+    def curves(self) -> tuple[Curve, ...]:
+        """Of every joint that has one in the model."""
+        return curves(self.diagnosis.last, self._last_sd_factor)
+
+    @cached_property
+    def origin(self) -> str:
+        """The trusted stage."""
+        return f"From the model “{self.stages[self.decision.trusted + 1].model}”."
+
+    @cached_property
+    def residual(self) -> ResidualView:
+        """Of every reading; of several coordinates the length."""
+        d = self.diagnosis
+        base, mechanism = d.base, d.base.model.mechanism
+        left = [_by_reading(stage.fit) for stage in d.trace.stages]
+        c = base.conditions
+        return ResidualView(
+            before_mm=left[0],
+            by_effect_mm=tuple(a - b for a, b in pairwise(left)),
+            after_mm=left[-1],
+            limit_mm=LIMIT_SDS * d.last.row_sd,
+            theta=c.theta,
+            approach=c.approach,
+            travel_mm=c.travel,
+            temperature_rise_k=c.temperature_rise,
+            place_mm=mechanism.places(base.x[: base.model.base_size]),
+        )
 
     def document(self, data: DataSource) -> DiagnosisDocument:
         """The contract's document; `data` says what it was made from."""
@@ -183,17 +202,15 @@ class Findings:
             parameters=self.parameters,
             weak_direction=self.weak_direction,
             findings=tuple(f.record() for f in self.effects),
-            curves=tuple(c.record() for c in curves(d.last, self._last_sd_factor)),
+            curves=tuple(c.record() for c in self.curves),
             stages=self.stages,
-            before=_accuracy(self.stages[1], before, true_before),
-            after=_accuracy(self.stages[-1], after, true_after),
-            hints=tuple(
-                Dependence(depends_on=h.depends_on, strength=h.strength, text=h.text) for h in d.hints
-            ),
+            before=accuracy(self.stages[1], before, true_before),
+            after=accuracy(self.stages[-1], after, true_after),
+            hints=dependences(d.hints),
             invisible=self.invisible,
             outliers=tuple(o.reading for o in d.outliers),
             outlier_reasons=tuple(o.reason for o in d.outliers),
-            fresh_outliers=d.confirmations[-1].left_out if d.confirmations else (),
+            fresh_outliers=self.fresh_outliers,
             model=model_document(
                 d,
                 self.fit,
@@ -204,5 +221,14 @@ class Findings:
         )
 
 
-def _accuracy(stage: StageErrors, predicted: PositionError, true: PositionError | None) -> StageAccuracy:
-    return StageAccuracy(**dict(stage), predicted_position_error_mm=predicted, true_position_error_mm=true)
+def _name(term: Term) -> EffectName:
+    effect = term.effect
+    return EffectName(effect=effect.id, joint=effect.joint)
+
+
+def _by_reading(fit: Fit) -> Real:
+    """(K,) mm: the residual of each reading, of several coordinates its length."""
+    mechanism = fit.model.mechanism
+    if len(fit.residual_mm) == len(mechanism.measurements):
+        return fit.residual_mm
+    return by_reading(mechanism, fit.residual_mm)

@@ -1,0 +1,59 @@
+"""Readings as they would be taken: where, from which side, when; and what an explanation says of them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from station.diagnosis.experiments.hypotheses import Hypothesis
+from station.diagnosis.experiments.outcomes import Outcome
+from station.diagnosis.explanations import ExplanationSet, prediction, specified_as
+from station.five_bar import FiveBar, inverse
+from station.records import Complex, Measurements, Real
+
+RUN_UP = np.radians(1.0)
+
+
+def asked(found: ExplanationSet, places: Complex, sides: Real, stops: int) -> Measurements:
+    """Readings at places (K,) from sides (K, 2), in the middle of an experiment of so many stops."""
+    learned = found.mechanism.measurements
+    robot, p = found.mechanism.robot, found.shown.x[: found.shown.size]
+    theta = inverse(robot.geometry, places) - p[:2]
+    before = theta - RUN_UP * sides
+    count = len(places)
+    pace_s = float(np.median(np.diff(learned.t_s)))
+    readings = Measurements(
+        ids=tuple(range(count)),
+        t_s=np.full(count, learned.t_s.max() + 0.5 * stops * pace_s),
+        theta=theta,
+        approach=np.asarray(sides, dtype=np.int8),
+        distance=np.zeros(count),
+        position=np.arange(count),
+        mount=np.full(count, learned.mount[-1]),
+        samples=np.full(count, learned.samples[-1]),
+        mounts=learned.mounts,
+        temperature_c=_all(learned.temperature_c, count),
+        payload_kg=_all(learned.payload_kg, count),
+    )
+    return placed(FiveBar(robot, readings), p, before)
+
+
+def placed(mechanism: FiveBar, p: Real, before: Real) -> Measurements:
+    """The readings of a mechanism with the distances that they would have, come from `before` (K, 2)."""
+    m = mechanism.measurements
+    here, there = (mechanism.observe(p, angles).value for angles in (m.theta, before))
+    return replace(m, distance=here, came_from=np.column_stack([before, there]))
+
+
+def _all(column: Real | None, count: int) -> Real | None:
+    """As at the end of the readings."""
+    return None if column is None else np.full(count, column[-1])
+
+
+def outcome(found: ExplanationSet, mechanism: FiveBar, hypothesis: Hypothesis) -> Outcome:
+    """What one explanation says of the readings of a mechanism."""
+    sd = specified_as(found.weighing, mechanism)
+    residual, covariance = prediction(mechanism, found.weighing.reference, hypothesis.settled, sd)
+    noise = (sd * hypothesis.settled.level) ** 2
+    return Outcome(mechanism.measured - residual, covariance - np.diag(noise), noise)

@@ -1,0 +1,123 @@
+"""Experiments that a person has to do: what each explanation says that they would read."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from station.diagnosis.experiments.asking import asked, outcome, placed
+from station.diagnosis.experiments.hypotheses import Hypothesis
+from station.diagnosis.experiments.outcomes import Outcome
+from station.diagnosis.explanations import ExplanationSet, Family, Situation, at_readings
+from station.five_bar import FiveBar
+from station.plans import SIDES
+from station.records import Complex, Index, Real
+
+MOUNT = "second"
+MOUNT_BESIDE_MM = 200.0
+GRID = (8, 5)
+ANGLES = 5
+REFERENCE_SD = np.radians(0.005)
+"""Of a good level or index."""
+GAUGE_PLACES, GAUGE_SD_MM, START_SD_MM = 10, 2e-3, 10.0
+KNOWN_SHARE = 0.5
+"""Standard deviation of what a payload adds, relative to it: compliance per kilogram is not known."""
+LOADED = frozenset(
+    {"platform by load", "mechanism by load", "bearing under load", "frame under load", "link under load"}
+)
+"""Unnamed errors that grow with the load; sag is the named one."""
+
+
+def second_mount(found: ExplanationSet, some: Sequence[Hypothesis]) -> list[Outcome]:
+    """The mechanism at another point of the base, known as well as the first."""
+    learned = found.mechanism
+    robot = learned.robot
+    mounts = {**robot.mounts, MOUNT: (robot.c[0] + MOUNT_BESIDE_MM, robot.c[1])}
+    m = asked(found, *_stops(found), GRID[0] * GRID[1])
+    elsewhere = replace(m, mount=np.full(len(m), len(m.mounts)), mounts=(*m.mounts, MOUNT))
+    mechanism = FiveBar(replace(robot, mounts=mounts), elsewhere)
+    known = [one.of(mechanism, learned) for one in some]
+    before = np.asarray(m.came_from)[:, :2]
+    p = known[0].settled.x[: known[0].settled.size]
+    later = mechanism.of(placed(mechanism, p, before))
+    return [outcome(found, later, one) for one in known]
+
+
+def joint_reference(found: ExplanationSet, some: Sequence[Hypothesis], joint: int) -> list[Outcome]:
+    """The angle of one proximal link against the drive's feedback, over the range of the joint."""
+    situation = found.weighing.frame.situation
+    rows = _spread(situation.theta[:, joint - 1], ANGLES)
+    s = situation.take(rows)
+    out = []
+    for one in some:
+        settled = one.settled
+        jacobian = np.zeros((len(rows), len(settled.x)))
+        jacobian[:, joint - 1] = 1.0
+        for family, choice, where in zip(settled.families, settled.choices, settled.parts, strict=True):
+            jacobian[:, where] = _on(family, s, choice.member, f"joint{joint}")
+        out.append(Outcome.linear(jacobian @ settled.x, jacobian, settled.covariance, REFERENCE_SD))
+    return out
+
+
+def payload(found: ExplanationSet, some: Sequence[Hypothesis]) -> list[Outcome]:
+    """The same positions with a payload that about doubles what sags."""
+    places, sides = _stops(found)
+    mechanism = found.mechanism.of(asked(found, places, sides, len(places)))
+    out = []
+    for one in some:
+        said, settled = outcome(found, mechanism, one), one.settled
+        s = at_readings(mechanism, settled.x[: settled.size], found.weighing.reference, first=False)
+        more = np.zeros(len(places))
+        for family, choice, amplitudes in zip(
+            settled.families, settled.choices, settled.amplitudes, strict=True
+        ):
+            if _loaded(family):
+                more += family.columns(s, choice.member)[0] @ amplitudes
+        unknown = said.unknown + np.outer(more, more) * KNOWN_SHARE**2
+        out.append(Outcome(said.mean + more, unknown, said.noise))
+    return out
+
+
+def gauge(found: ExplanationSet, some: Sequence[Hypothesis]) -> list[Outcome]:
+    """The reading against a known length, over the travel; where it starts is not known."""
+    situation = found.weighing.frame.situation
+    s = situation.take(_spread(situation.travel, GAUGE_PLACES))
+    ones = np.ones((len(s), 1))
+    out = []
+    for one in some:
+        settled = one.settled
+        jacobian = np.zeros((len(s), len(settled.x)))
+        for family, choice, where in zip(settled.families, settled.choices, settled.parts, strict=True):
+            if family.depends_on in (None, "reading"):
+                jacobian[:, where] = _on(family, s, choice.member, "reading")
+        said = Outcome.linear(jacobian @ settled.x, jacobian, settled.covariance, GAUGE_SD_MM)
+        out.append(replace(said, unknown=said.unknown + START_SD_MM**2 * (ones @ ones.T)))
+    return out
+
+
+def _stops(found: ExplanationSet) -> tuple[Complex, Real]:
+    """Places over the workspace, each from another side than the one before."""
+    places = found.mechanism.robot.workspace_grid(*GRID)
+    sides = np.array([SIDES[k % len(SIDES)] for k in range(len(places))], dtype=float)
+    return places, sides
+
+
+def _loaded(family: Family) -> bool:
+    return family.kind in LOADED or any(part.effect == "compliance" for part in family.parts)
+
+
+def _on(family: Family, s: Situation, member: int, target: str) -> Real:
+    """(N, q) what a unit of each amplitude adds to one target."""
+    out: Real = np.zeros((len(s), family.width))
+    for action in family.actions(s, family.hidden[member : member + 1]):
+        if action.target == target:
+            out = out + action.basis[0]
+    return out
+
+
+def _spread(values: Real, count: int) -> Index:
+    """Rows at evenly spread values."""
+    order = np.argsort(values, kind="stable")
+    return np.asarray(order[np.linspace(0, len(order) - 1, count).astype(int)])

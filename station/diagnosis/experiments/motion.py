@@ -1,0 +1,110 @@
+"""Further motion: readings where the explanations disagree most beyond noise and their own uncertainty."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import Self
+
+import numpy as np
+
+from station.diagnosis.experiments.asking import asked, outcome
+from station.diagnosis.experiments.hypotheses import Hypothesis
+from station.diagnosis.experiments.outcomes import Outcome
+from station.diagnosis.explanations import ExplanationSet
+from station.diagnosis.search import ALIAS
+from station.plans import SIDES
+from station.records import Complex, Real
+
+PLACES = (17, 9)
+INSET_MM = 4.0
+"""Kept free of the workspace's edge for the run-up."""
+WORTH = 2.0 * ALIAS
+"""Chi-square to be expected between two explanations for a motion to be worth its time."""
+
+
+@dataclass(frozen=True)
+class Motion:
+    """Chosen readings."""
+
+    places: Complex
+    """(N,) mm, nearest first."""
+    sides: Real
+    """(N, 2)"""
+    outcomes: tuple[Outcome, ...]
+    """What each explanation says of them."""
+    apart: tuple[int, ...]
+    """Numbers of the explanations that they should distinguish from the first."""
+
+
+def motion(
+    found: ExplanationSet, some: Sequence[Hypothesis], count: int, grid: tuple[int, int] = PLACES
+) -> Motion:
+    """The best so many readings, chosen one after another."""
+    places, sides = _candidates(found, grid)
+    mechanism = found.mechanism.of(asked(found, places, sides, count))
+    said = [outcome(found, mechanism, one) for one in some]
+    disputes = {k: _Dispute.between(said[0], said[k]) for k in range(1, len(some))}
+    chosen: list[int] = []
+    for _ in range(count):
+        # for the dispute that one more reading brings furthest, as long as any is open
+        still = [d for d in disputes.values() if d.expected < WORTH] or list(disputes.values())
+        best = int(np.argmax(max(still, key=lambda d: float(d.gain.max())).gain))
+        chosen.append(best)
+        disputes = {k: d.after(best) for k, d in disputes.items()}
+    way = _nearest_first(places, chosen)
+    apart = tuple(k for k, d in disputes.items() if d.expected >= WORTH)
+    return Motion(places[way], sides[way], tuple(o.take(way) for o in said), apart)
+
+
+def _candidates(found: ExplanationSet, grid: tuple[int, int]) -> tuple[Complex, Real]:
+    """(K,) places of the workspace and (K, 2) senses of approach there."""
+    robot = found.mechanism.robot
+    (x0, x1), (y0, y1) = robot.workspace_x, robot.workspace_y
+    x = np.linspace(x0 + INSET_MM, x1 - INSET_MM, grid[0])
+    y = np.linspace(y0 + INSET_MM, y1 - INSET_MM, grid[1])
+    places = (x[None, :] + 1j * y[:, None]).ravel()
+    return np.repeat(places, len(SIDES)), np.tile(np.array(SIDES, dtype=float), (len(places), 1))
+
+
+@dataclass(frozen=True)
+class _Dispute:
+    """Two explanations over the candidates, given the stops chosen so far."""
+
+    difference: Real
+    """(K,) of their predictions, less what the stops chosen leave no doubt about."""
+    covariance: Real
+    """(K, K) of what both do not know, without noise."""
+    noise: Real
+    """(K,) variance of a reading."""
+    expected: float = 0.0
+    """Chi-square that the stops chosen promise between the two."""
+
+    @classmethod
+    def between(cls, one: Outcome, other: Outcome) -> Self:
+        return cls(other.mean - one.mean, one.unknown + other.unknown, one.noise)
+
+    @property
+    def gain(self) -> Real:
+        """(K,) chi-square that one more reading at each candidate adds."""
+        return np.asarray(self.difference**2 / (np.maximum(np.diag(self.covariance), 0.0) + self.noise))
+
+    def after(self, k: int) -> Self:
+        """With candidate k read."""
+        variance = self.covariance[k, k] + self.noise[k]
+        pull = self.covariance[:, k] / variance
+        return replace(
+            self,
+            difference=self.difference - pull * self.difference[k],
+            covariance=self.covariance - np.outer(pull, self.covariance[k]),
+            expected=self.expected + float(self.gain[k]),
+        )
+
+
+def _nearest_first(places: Complex, chosen: list[int]) -> list[int]:
+    """A way that always goes to the nearest place left, its repeats one after another."""
+    left = sorted(chosen)
+    way = [left.pop(0)]
+    while left:
+        way.append(left.pop(int(np.argmin(np.abs(places[left] - places[way[-1]])))))
+    return way

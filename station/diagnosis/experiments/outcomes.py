@@ -1,0 +1,66 @@
+"""What an experiment would read under each explanation, and how often it would decide between them."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.linalg import solve_triangular
+from scipy.special import logsumexp
+
+from station.records import Real
+
+SURE = 0.95
+DRAWS = 300
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Readings not yet taken, as one explanation predicts them."""
+
+    mean: Real
+    """(N,)"""
+    unknown: Real
+    """(N, N) covariance of what the explanation leaves open."""
+    noise: Real
+    """(N,) variance of a reading."""
+
+    @property
+    def covariance(self) -> Real:
+        """(N, N) of the readings."""
+        return np.asarray(self.unknown + np.diag(self.noise))
+
+    @classmethod
+    def linear(cls, mean: Real, jacobian: Real, covariance: Real, noise_sd: float) -> Outcome:
+        """From derivatives (N, X) by unknowns with this covariance (X, X)."""
+        return cls(mean, jacobian @ covariance @ jacobian.T, np.full(len(mean), noise_sd**2))
+
+    def take(self, rows: Sequence[int]) -> Outcome:
+        """Some of the readings; one taken twice has noise of its own each time."""
+        return Outcome(self.mean[list(rows)], self.unknown[np.ix_(rows, rows)], self.noise[list(rows)])
+
+
+def decides(outcomes: Sequence[Outcome], probability: Sequence[float], seed: int = 0) -> float:
+    """The probability that one explanation holds 0.95 afterwards.
+
+    An explanation is drawn by its probability, then readings under it, then all are weighed anew.
+    """
+    rng = np.random.default_rng(seed)
+    prior = np.array(probability) / np.sum(probability)
+    count = rng.multinomial(DRAWS, prior)
+    roots = [np.linalg.cholesky(o.covariance) for o in outcomes]
+    logs = [float(2.0 * np.sum(np.log(np.diag(root)))) for root in roots]
+    done = 0
+    for truth, draws in enumerate(count):
+        if not draws:
+            continue
+        noise = rng.standard_normal((len(outcomes[truth].mean), draws))
+        read = outcomes[truth].mean[:, None] + roots[truth] @ noise
+        posterior = np.empty((len(outcomes), draws))
+        for k, (o, root, log) in enumerate(zip(outcomes, roots, logs, strict=True)):
+            z = solve_triangular(root, read - o.mean[:, None], lower=True)
+            posterior[k] = np.log(prior[k]) - 0.5 * (np.sum(z**2, axis=0) + log)
+        top = np.exp(posterior.max(axis=0) - logsumexp(posterior, axis=0))
+        done += int(np.sum(top >= SURE))
+    return done / DRAWS

@@ -1,0 +1,54 @@
+"""Whether readings can be judged at all, before any search."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from station.diagnosis.tests_of_fit import FEWEST
+from station.errors import InputRefused
+from station.mechanism import Mechanism
+from station.records import Measurements
+
+FEWEST_READINGS = 30
+"""Thirteen unknowns and an effect leave too little of fewer readings to judge a residual by."""
+FEWEST_REPEATS = 6
+
+
+def check_enough(mechanism: Mechanism, *, labelled: bool = True) -> None:
+    """:raises InputRefused: "not enough data to judge", with what is missing.
+
+    :param labelled: whether the labels of positions can be trusted; without them there are no repeats
+    """
+    measurements, unknowns = mechanism.measurements, len(mechanism.parameters)
+    groups = measurements.repeat_group
+    repeats = len(groups) - len(np.unique(groups))
+    fewest = max(FEWEST_READINGS, 2 * unknowns)
+    missing = []
+    if len(measurements) < fewest:
+        missing.append(f"{fewest - len(measurements)} more readings")
+    if mechanism.needs_repeats and labelled and repeats < FEWEST_REPEATS:
+        missing.append(
+            f"{FEWEST_REPEATS - repeats} more repeats (readings that share `position` and approach)"
+        )
+    if missing:
+        raise InputRefused(f"Not enough data to judge: {' and '.join(missing)} are needed.")
+
+
+def checked_fresh(mechanism: Mechanism, fresh: Measurements) -> Measurements:
+    """Fresh readings that can judge those of `mechanism`, their mounts numbered alike.
+
+    :raises InputRefused: poses that cannot be, too few readings, or a mount whose offset was not learned.
+    """
+    mechanism.of(fresh).check()
+    if len(fresh) < FEWEST:
+        raise InputRefused(f"Only {len(fresh)} fresh readings; at least {FEWEST} are needed to confirm.")
+    learned = mechanism.measurements
+    unknown = [name for name in fresh.mounts if name not in learned.mounts]
+    if unknown:
+        raise InputRefused(
+            f"The fresh readings are of mount {unknown[0]!r}, which the measurement sequence never used."
+        )
+    renumbered = np.array([learned.mounts.index(name) for name in fresh.mounts])
+    return replace(fresh, mount=renumbered[fresh.mount], mounts=learned.mounts)

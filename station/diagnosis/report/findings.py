@@ -1,0 +1,216 @@
+"""What is said of one diagnosis, however it came about: the figures that documents, pages and tables show."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from station.diagnosis.decision import Decision
+from station.diagnosis.report.joint_curves import Curve
+from station.diagnosis.search import Hint
+from station.fitting import Noise, Outlier
+from station.machines import AnyRobot, kind_of
+from station.records import (
+    DataSource,
+    Dependence,
+    DiagnosisDocument,
+    EffectName,
+    ExperimentRecord,
+    ExplanationRecord,
+    Finding,
+    Measurements,
+    MistakeRecord,
+    PositionError,
+    Quantity,
+    Real,
+    Reason,
+    SmallestVisible,
+    StageAccuracy,
+    StageErrors,
+    WeakDirection,
+)
+
+
+@dataclass(frozen=True)
+class FoundEffect:
+    """One effect as it is reported."""
+
+    name: EffectName
+    label: str
+    physics: str
+    parameters: tuple[Quantity, ...]
+    share: float
+    """Of the base residual's square that this effect took."""
+    p_value: float
+    probability: float | None
+    """That it or one of its aliases is there; None where the search weighs no alternatives."""
+    aliases: tuple[EffectName, ...]
+    """What these readings cannot distinguish from it,"""
+    alias_labels: tuple[str, ...]
+    """and how that is called."""
+    remedy: str
+    experiment: str
+    """What separates it from its aliases."""
+
+    def record(self) -> Finding:
+        """As the document shows it."""
+        return Finding(
+            effect=self.name.effect,
+            joint=self.name.joint,
+            part=self.name.part,
+            label=self.label,
+            parameters=self.parameters,
+            share=self.share,
+            p_value=self.p_value,
+            probability=self.probability,
+            alias_set=(self.name, *self.aliases),
+            remedy=self.remedy,
+            separating_experiment=self.experiment if self.aliases else None,
+        )
+
+
+@dataclass(frozen=True)
+class ResidualView:
+    """The residual of every reading that was learned on, beside all that it may be ordered by."""
+
+    before_mm: Real
+    """(K,) under the base model."""
+    by_effect_mm: tuple[Real, ...]
+    """(K,) what each effect accounts for, in the order in which they were added."""
+    after_mm: Real
+    """(K,)"""
+    limit_mm: Real
+    """(K,) what noise alone hardly exceeds."""
+    theta: Real
+    """(K, n) rad, zero offsets included."""
+    approach: Real
+    """(K, n)"""
+    travel_mm: Real
+    temperature_rise_k: Real | None
+    place_mm: Real
+    """(K, 2 or 3)"""
+
+
+class Findings(ABC):
+    """Everything that is said of one diagnosis, each figure computed once."""
+
+    robot: AnyRobot
+    measurements: Measurements
+    """The readings that took part, without fresh ones."""
+    outliers: tuple[Outlier, ...]
+    fresh_outliers: tuple[int | str, ...]
+
+    @property
+    @abstractmethod
+    def decision(self) -> Decision:
+        """Verdict, confirmation, and what follows."""
+
+    @property
+    @abstractmethod
+    def noise(self) -> Noise:
+        """What the readings were judged by."""
+
+    @property
+    @abstractmethod
+    def parameters(self) -> tuple[Quantity, ...]:
+        """Base parameters in shown units, zero offsets first."""
+
+    @property
+    @abstractmethod
+    def origin(self) -> str:
+        """Which model the parameters are of, in words."""
+
+    @property
+    @abstractmethod
+    def weak_direction(self) -> WeakDirection:
+        """What the readings determine least."""
+
+    @property
+    @abstractmethod
+    def effects(self) -> tuple[FoundEffect, ...]:
+        """Named effects, strongest first."""
+
+    @property
+    @abstractmethod
+    def added(self) -> tuple[str, ...]:
+        """Labels of what was added to the base model, stage by stage."""
+
+    @property
+    @abstractmethod
+    def stages(self) -> tuple[StageErrors, ...]:
+        """Paper, base, then one per addition."""
+
+    @property
+    @abstractmethod
+    def position_errors(self) -> tuple[PositionError, PositionError]:
+        """Predicted, mm, with commands of the base model and of what was found."""
+
+    @property
+    @abstractmethod
+    def true_position_errors(self) -> tuple[PositionError, PositionError] | None:
+        """Against a tracker, mm; None where nothing was tracked."""
+
+    @property
+    @abstractmethod
+    def hints(self) -> tuple[Hint, ...]:
+        """On what an unexplained residual depends."""
+
+    @property
+    @abstractmethod
+    def invisible(self) -> tuple[SmallestVisible, ...]:
+        """Smallest visible size of everything that was not found."""
+
+    @property
+    @abstractmethod
+    def curves(self) -> tuple[Curve, ...]:
+        """Of every joint that has one in the model."""
+
+    @property
+    @abstractmethod
+    def residual(self) -> ResidualView:
+        """Of every reading."""
+
+    @property
+    @abstractmethod
+    def reason(self) -> Reason:
+        """The verdict in one sentence, for every output."""
+
+    @property
+    def explanations(self) -> tuple[ExplanationRecord, ...]:
+        """Most probable first; empty where none were weighed."""
+        return ()
+
+    @property
+    def experiments(self) -> tuple[ExperimentRecord, ...]:
+        """What could distinguish the explanations, best first."""
+        return ()
+
+    @property
+    def mistake(self) -> MistakeRecord | None:
+        """What is wrong with the file, though not so wrong that it was refused."""
+        return None
+
+    @abstractmethod
+    def document(self, data: DataSource) -> DiagnosisDocument:
+        """The contract's document; `data` says what it was made from."""
+
+    @property
+    def sentence(self) -> str:
+        """The verdict in English."""
+        return self.reason.text
+
+    @property
+    def extent(self) -> str:
+        """Over what position errors are predicted."""
+        return kind_of(self.robot).extent
+
+
+def dependences(found: Sequence[Hint]) -> tuple[Dependence, ...]:
+    """As the document shows them."""
+    return tuple(Dependence(depends_on=h.depends_on, strength=h.strength, text=h.text) for h in found)
+
+
+def accuracy(stage: StageErrors, predicted: PositionError, true: PositionError | None) -> StageAccuracy:
+    """A stage with the position error that goes with it."""
+    return StageAccuracy(**dict(stage), predicted_position_error_mm=predicted, true_position_error_mm=true)

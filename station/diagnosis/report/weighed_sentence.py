@@ -1,0 +1,91 @@
+"""The verdict on a set of explanations in one sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from station.diagnosis.explanations import Explanation
+from station.diagnosis.naming import named
+from station.diagnosis.search import Hint
+from station.diagnosis.weighed_loop import WeighedDiagnosis
+from station.messages import display_name
+from station.records import ExperimentRecord, Reason, because
+
+WORTH_SAYING = 0.02
+MOST_OTHERS = 3
+LOUD = 2.0
+"""Noise over the specification from which on the readings scatter."""
+
+
+def weighed_reason(
+    diagnosis: WeighedDiagnosis,
+    labels: Sequence[str],
+    share: float,
+    hints: Sequence[Hint],
+    experiments: Sequence[ExperimentRecord],
+) -> Reason:
+    """Why the verdict is what it is; `labels` of the named effects found, strongest first."""
+    d = diagnosis
+    mistake = d.mistake or d.entry
+    causes = " and ".join(labels)
+    percent = 100.0 * share
+    depends_on = hints[0].depends_on if hints else display_name("dependences", "nothing")
+    match d.verdict:
+        case "adequate" | "explained" if d.mistake is not None:
+            code = f"{d.verdict}_mistake"
+        case "adequate" | "explained" if d.confirmed is False:
+            code = f"{d.verdict}_not_verified"
+        case "adequate" | "explained":
+            code = f"{d.verdict}_confirmed" if d.confirmed else d.verdict
+        case "ambiguous":
+            return _ambiguous(d, experiments)
+        case "partly_explained" if not _refuted(d):
+            return because("partly_explained", causes=causes, share_percent=percent, depends_on=depends_on)
+        case _:
+            return _unexplained(d, causes, percent, depends_on)
+    text = "" if mistake is None else mistake.text
+    return because(code, causes=causes, share_percent=percent, text=text)
+
+
+def _refuted(d: WeighedDiagnosis) -> bool:
+    validation = d.found.validation
+    return validation is not None and validation.new and not validation.agrees
+
+
+def _ambiguous(d: WeighedDiagnosis, experiments: Sequence[ExperimentRecord]) -> Reason:
+    first, *others = d.found.explanations
+    more = [f"{_words(one)} ({100.0 * one.probability:.0f} %)" for one in others]
+    worth = [text for text, one in zip(more, others, strict=True) if one.probability >= WORTH_SAYING]
+    best = ""
+    if experiments:
+        best = f"{experiments[0].text} ({100.0 * experiments[0].decides:.0f} % probable to decide)"
+    return because(
+        "ambiguous",
+        causes=_words(first),
+        probability_percent=100.0 * first.probability,
+        others=", ".join(worth[:MOST_OTHERS]) or "others",
+        experiment=best,
+    )
+
+
+def _unexplained(d: WeighedDiagnosis, causes: str, percent: float, depends_on: str) -> Reason:
+    mistake = d.mistake or d.entry
+    if mistake is not None:
+        return because("unexplained_mistake", depends_on=depends_on, text=mistake.text)
+    if d.found.weighing.best.level > LOUD:
+        return because("scattering", times=d.found.weighing.best.level)
+    unnamed = [e for e in d.found.explanations if not e.named]
+    if _refuted(d) and causes:
+        return because("unexplained_refuted", causes=causes, share_percent=percent, depends_on=depends_on)
+    if _refuted(d) and not unnamed:
+        return because("adequate_refuted")
+    if unnamed:
+        return because("unexplained_unnamed", depends_on=depends_on, unnamed=_words(unnamed[0]))
+    if causes:
+        return because("unexplained_nearest", causes=causes, depends_on=depends_on)
+    return because("unexplained", depends_on=depends_on)
+
+
+def _words(one: Explanation) -> str:
+    labels = [named(held.part.key, held.depends_on).label for held in one.errors]
+    return " and ".join(dict.fromkeys(labels)) or "no effect at all"

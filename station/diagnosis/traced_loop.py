@@ -1,0 +1,194 @@
+"""The search effect by effect on one set of readings, with or without fresh ones (method.md section 3).
+
+Arms are diagnosed by it; a five-bar by the set of its explanations (`weighed_loop`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from station.diagnosis.decision import GOOD_SHARE, Decision, StageFigures, decide
+from station.diagnosis.readiness import check_enough, checked_fresh
+from station.diagnosis.search import Hint, Stage, Trace, hints, long_trace, trace, with_alias
+from station.diagnosis.tests_of_fit import Confirmation, Rest, confirm, of_fit, rest_of, strongest
+from station.effects import Effect
+from station.errors import InputRefused
+from station.fitting import NotConvergedError, Outlier, tolerance_prior
+from station.five_bar import check_places
+from station.machines import AnyMechanism, AnyRobot, effects_of, mechanism_of
+from station.mechanism import reference_of
+from station.model import Fit, Model, is_long
+from station.records import DiagnosisVerdict, Measurements
+
+FEWEST_NOISE_DOF = 10
+MOST_LEFT_OUT = 0.05
+USELESS = 0.6
+"""Fresh residual over that of the base model from which on an added effect predicts nothing worth having."""
+
+
+@dataclass(frozen=True)
+class TracedDiagnosis:
+    """What became of one residual."""
+
+    robot: AnyRobot
+    measurements: Measurements
+    """The readings that took part."""
+    outliers: tuple[Outlier, ...]
+    trace: Trace
+    fresh: Measurements | None
+    confirmations: tuple[Confirmation, ...]
+    """One per stage; empty without fresh readings."""
+    hints: tuple[Hint, ...]
+    rival: str | None
+    """A nameless dependence that makes the readings about as probable as the effects found."""
+
+    @property
+    def base(self) -> Fit:
+        return self.trace.stages[0].fit
+
+    @property
+    def last(self) -> Fit:
+        return self.trace.stages[-1].fit
+
+    @property
+    def explained_share(self) -> float:
+        """Of the base residual's square beyond the noise."""
+        before = np.sum(self.base.residual_mm**2)
+        after = np.sum(self.last.residual_mm**2)
+        return float(1.0 - after / before)
+
+    @cached_property
+    def decision(self) -> Decision:
+        """Verdict and trusted stage."""
+        checks = self.confirmations or (None,) * len(self.trace.stages)
+        figures = [_figures(stage, check) for stage, check in zip(self.trace.stages, checks, strict=True)]
+        return decide(figures, alternative=self.rival is not None, share=self.explained_share)
+
+    @property
+    def verdict(self) -> DiagnosisVerdict:
+        return self.decision.verdict
+
+    @property
+    def confirmed(self) -> bool | None:
+        """Whether the last model predicted fresh readings; None without any."""
+        return self.decision.confirmed
+
+
+def _figures(stage: Stage, check: Confirmation | None) -> StageFigures:
+    fit_ratio = stage.fit.cost / max(stage.fit.dof, 1)
+    if check is None:
+        return StageFigures(stage.adequacy.passed, fit_ratio)
+    fresh_ratio = float(np.mean((check.residual_mm / check.sd_mm) ** 2))
+    return StageFigures(stage.adequacy.passed, fit_ratio, check.confirmed, check.rms_mm, fresh_ratio)
+
+
+def traced(
+    robot: AnyRobot,
+    measurements: Measurements,
+    fresh: Measurements | None = None,
+    effects: Sequence[Effect] | None = None,
+) -> TracedDiagnosis:
+    """Residual, cause, model, confirmation.
+
+    :raises InputRefused: the readings are malformed or not enough to judge, with what is missing.
+    """
+    mechanism = mechanism_of(robot, measurements)
+    mechanism.check()
+    check_places(measurements)
+    check_enough(mechanism)
+    if fresh is not None:
+        fresh = checked_fresh(mechanism, fresh)
+    effects = effects_of(mechanism) if effects is None else effects
+    kept = measurements
+    found = _trace(mechanism, effects)
+    left_out = found.left_out
+    while found.outliers and len(left_out) < MOST_LEFT_OUT * len(measurements):
+        left_out = (*left_out, *found.outliers)
+        named = {o.reading for o in found.outliers}
+        kept = kept.take(np.array([i not in named for i in kept.ids]))
+        found = _trace(mechanism.of(kept), effects)
+    checks: tuple[Confirmation, ...] = ()
+    if fresh is not None:
+        found, checks = _confirmed(found, fresh)
+    rival = _rival(found, checks)
+    unexplained = not found.adequate or rival is not None or (bool(checks) and not checks[-1].confirmed)
+    described = 0 if rival is not None or _hopeless(found, checks) else -1
+    return TracedDiagnosis(
+        robot=robot,
+        measurements=found.stages[-1].fit.model.mechanism.measurements,
+        outliers=left_out,
+        trace=found,
+        fresh=fresh,
+        confirmations=checks,
+        hints=hints(_rest(found, checks, described)) if unexplained else (),
+        rival=rival,
+    )
+
+
+def _confirmed(found: Trace, fresh: Measurements) -> tuple[Trace, tuple[Confirmation, ...]]:
+    """Every stage against the fresh readings; they also settle between look-alikes left open by the walk."""
+    base = found.stages[0].fit
+    mechanism = base.model.mechanism
+    checks = tuple(_check(base, stage, fresh) for stage in found.stages)
+    if not found.findings or not found.adequate or checks[-1].confirmed or is_long(mechanism):
+        return found, checks
+    for at, finding in enumerate(found.findings):
+        for alias in finding.aliases:
+            try:
+                other = with_alias(found, at, alias, tolerance_prior(mechanism), mechanism.row_sd)
+            except NotConvergedError:
+                continue
+            check = _check(base, other.stages[-1], fresh)
+            if other.adequate and check.confirmed:
+                return other, (*(_check(base, stage, fresh) for stage in other.stages[:-1]), check)
+    return found, checks
+
+
+def _check(base: Fit, stage: Stage, fresh: Measurements) -> Confirmation:
+    return confirm(base, stage.fit, fresh, max(stage.adequacy.pure_dof, FEWEST_NOISE_DOF))
+
+
+def _trace(mechanism: AnyMechanism, effects: Sequence[Effect]) -> Trace:
+    traced = long_trace if is_long(mechanism) else trace
+    try:
+        return traced(
+            Model(mechanism, reference_of(mechanism.measurements)),
+            tolerance_prior(mechanism),
+            mechanism.row_sd,
+            effects,
+        )
+    except NotConvergedError as error:
+        raise InputRefused(
+            f"The identification did not converge ({error}); check that angles and distances belong together."
+        ) from error
+
+
+def _rival(found: Trace, checks: Sequence[Confirmation]) -> str | None:
+    """Of the effects found, by all readings there are."""
+    if checks:
+        return checks[-1].rival
+    base, last = found.stages[0].fit, found.stages[-1].fit
+    if not found.findings or not found.adequate or is_long(last.model.mechanism):
+        return None
+    without = Rest((of_fit(base, last.row_sd),), base.prior, base.x)
+    return strongest(without, _rest(found, checks, -1), last.model.terms, last.conditions)
+
+
+def _rest(found: Trace, checks: Sequence[Confirmation], stage: int) -> Rest:
+    """What a stage leaves, of fresh readings too where there are any."""
+    if checks:
+        return checks[stage].rest
+    return rest_of(found.stages[stage].fit)
+
+
+def _hopeless(found: Trace, checks: Sequence[Confirmation]) -> bool:
+    """The effects found take or predict so little that the rest is better described from the base on."""
+    if checks:
+        return checks[-1].rms_mm > USELESS * checks[0].rms_mm
+    before = float(np.sum(found.stages[0].fit.residual_mm ** 2))
+    after = float(np.sum(found.stages[-1].fit.residual_mm ** 2))
+    return not found.adequate and 1.0 - after / before < GOOD_SHARE

@@ -1,0 +1,247 @@
+"""The set of explanations of a five-bar's readings, and the mistakes in its files (method.md section 4).
+
+Mistakes come first: readings or angles that are wrong are refused, a wrong label is left out.  Where the
+explanations do not settle the question, small wrong entries are looked for as well.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from station.diagnosis.decision import Decision
+from station.diagnosis.explanations import ExplanationSet, explain, together
+from station.diagnosis.mistakes import Context, Mistake, MistakeRefused, find_mistake
+from station.diagnosis.readiness import check_enough, checked_fresh
+from station.errors import InputRefused
+from station.fitting import NotConvergedError, Outlier
+from station.five_bar import FiveBar, Robot, check_places
+from station.records import DiagnosisVerdict, Measurements
+
+SURE = 0.95
+Change = Callable[[Measurements], Measurements]
+
+
+@dataclass(frozen=True)
+class WeighedDiagnosis:
+    """What became of one residual."""
+
+    robot: Robot
+    measurements: Measurements
+    """The readings that took part, without the fresh ones."""
+    fresh: Measurements | None
+    """The fresh readings that took part."""
+    found: ExplanationSet
+    mistake: Mistake | None
+    """A wrong label, or glitches, that were left out."""
+    entry: Mistake | None
+    """A wrong entry of the size of an effect: reported with the effect."""
+    outliers: tuple[Outlier, ...]
+    fresh_outliers: tuple[int | str, ...]
+
+    @cached_property
+    def decision(self) -> Decision:
+        """Verdict and confirmation; a file with a mistake confirms nothing."""
+        decided = self.found.decision
+        confirmed = False if self.mistake is not None else decided.confirmed
+        return Decision(decided.verdict, confirmed)
+
+    @property
+    def verdict(self) -> DiagnosisVerdict:
+        return self.decision.verdict
+
+    @property
+    def confirmed(self) -> bool | None:
+        """Whether independent fresh readings agree with what was found; None without any."""
+        return self.decision.confirmed
+
+
+@dataclass(frozen=True)
+class _Files:
+    """What is diagnosed: without columns or rows that are known to be wrong."""
+
+    walk: Measurements
+    fresh: Measurements | None
+    labelled: bool = True
+    """Whether the labels of positions can be trusted."""
+
+    def without(self, mistake: Mistake) -> _Files:
+        """The same files without what a mistake has spoiled."""
+        match mistake.kind:
+            case "position_labels" if mistake.file == "fresh":
+                return replace(self, fresh=_each(self.fresh, _unlabelled))
+            case "position_labels":
+                return replace(self, walk=_unlabelled(self.walk), labelled=False)
+            case "approach_sign" | "approach_missing":
+                return replace(self, walk=_undirected(self.walk), fresh=_each(self.fresh, _undirected))
+            case "time" if mistake.file == "fresh":
+                return replace(self, fresh=_each(self.fresh, _untimed))
+            case "time":
+                return replace(self, walk=_untimed(self.walk), fresh=_each(self.fresh, _untimed))
+        if mistake.file == "fresh":
+            return replace(self, fresh=None if self.fresh is None else _left(self.fresh, mistake))
+        return replace(self, walk=_left(self.walk, mistake))
+
+
+def weighed(
+    robot: Robot,
+    measurements: Measurements,
+    fresh: Measurements | None = None,
+    context: Context | None = None,
+) -> WeighedDiagnosis:
+    """Mistakes, explanations, decision.
+
+    :param context: what the files recorded; without it what the numbers show
+    :raises MistakeRefused: readings, angles or the robot file are wrong in a way that can be named.
+    :raises InputRefused: the readings are malformed or not enough to judge, with what is missing.
+    """
+    context = context or Context.of(measurements)
+    mistake = _mistake(robot, measurements, fresh, context, explained=True)
+    files = _Files(measurements, _distinct(fresh, measurements))
+    if mistake is not None:
+        files = files.without(mistake)
+    found, files = _explained(robot, files)
+    entry = None
+    if found.decision.verdict not in ("adequate", "explained"):
+        late = _mistake(robot, files.walk, files.fresh, context, explained=False)
+        if late is not None and late.severity == "as_effect":
+            entry = late
+        elif late is not None and mistake is None:
+            mistake = late
+            found, files = _explained(robot, files.without(late))
+    told = _told(found, files)
+    if told is not None:
+        raise MistakeRefused(told)
+    held = set(found.weighing.mechanism.measurements.ids)
+    fresh_ids = () if files.fresh is None else files.fresh.ids
+    return WeighedDiagnosis(
+        robot=robot,
+        measurements=_kept(files.walk, held),
+        fresh=None if files.fresh is None else _kept(files.fresh, held),
+        found=found,
+        mistake=mistake,
+        entry=entry,
+        outliers=_outliers(robot, measurements, found),
+        fresh_outliers=tuple(i for i in fresh_ids if i not in held),
+    )
+
+
+def _mistake(
+    robot: Robot, walk: Measurements, fresh: Measurements | None, context: Context, *, explained: bool
+) -> Mistake | None:
+    """:raises MistakeRefused: one that has to be put right first."""
+    found = find_mistake(robot, walk, fresh, context, explained=explained)
+    if found is not None and found.severity == "refused":
+        raise MistakeRefused(found)
+    return found
+
+
+def _explained(robot: Robot, files: _Files) -> tuple[ExplanationSet, _Files]:
+    """The explanations, and the files with their mounts numbered alike.
+
+    :raises InputRefused: files that cannot be judged.
+    """
+    mechanism = FiveBar(robot, files.walk)
+    backwards = np.flatnonzero(np.diff(files.walk.t_s) < 0)
+    if backwards.size:
+        raise InputRefused(
+            f"Reading {files.walk.ids[int(backwards[0]) + 1]}, column t_s: time runs backwards; put the rows "
+            "in the order they were measured."
+        )
+    mechanism.check()
+    check_places(files.walk)
+    check_enough(mechanism, labelled=files.labelled)
+    fresh = None if files.fresh is None else checked_fresh(mechanism, files.fresh)
+    try:
+        return explain(mechanism, fresh), replace(files, fresh=fresh)
+    except NotConvergedError as error:
+        raise InputRefused(
+            f"The identification did not converge ({error}); check that angles and distances belong together."
+        ) from error
+
+
+def _told(found: ExplanationSet, files: _Files) -> Mistake | None:
+    """What was done to the machine between readings, as the explanations know it."""
+    fresh, validation = files.fresh, found.validation
+    if fresh is None or validation is None or not found.explanations:
+        return None
+    if not validation.new:
+        text = "Readings of the fresh file repeat the measurement sequence; take new ones at new positions."
+        return Mistake("same_readings", text, fresh.ids, "refused", "fresh")
+    best = found.explanations[0]
+    slips = [held for held in best.errors if held.part.effect == "count_slip"]
+    moments = {q.value for held in slips for q in held.parameters if q.name == "from_s"}
+    if best.probability < SURE or len(moments) != 1 or len(slips) != len(best.errors):
+        return None
+    moment, joints = moments.pop(), [held.part.joint for held in slips]
+    sizes = " and ".join(
+        f"{q.value:.4f} deg" for held in slips for q in held.parameters if q.name == "step_deg"
+    )
+    clock = together(files.walk, fresh).t_s
+    if moment == clock[len(files.walk)] and not validation.agrees:
+        what = "Both joints were" if len(joints) == 2 else f"Joint {joints[0]} was"
+        text = (
+            f"{what} homed anew before the fresh readings, by {sizes}: those agree with the measurement "
+            "sequence once they are shifted by as much; measure both with one homing."
+        )
+        return Mistake(
+            "zeros_written" if len(joints) == 2 else "rehomed", text, fresh.ids, "refused", "fresh"
+        )
+    if len(joints) == 2 and moment in files.walk.t_s:
+        rows = tuple(i for i, t in zip(files.walk.ids, files.walk.t_s, strict=True) if t >= moment)
+        text = (
+            f"From reading {rows[0]} on both joints are shifted, by {sizes}: zeros were written to the "
+            "drives during the measurement sequence; measure again with one set of zeros."
+        )
+        return Mistake("zeros_written", text, rows, "refused")
+    return None
+
+
+def _outliers(robot: Robot, walk: Measurements, found: ExplanationSet) -> tuple[Outlier, ...]:
+    """Readings of the sequence that took no part, glitches included."""
+    held = set(found.weighing.mechanism.measurements.ids)
+    out = np.array([i not in held for i in walk.ids])
+    if not out.any():
+        return ()
+    residual_mm, sd_mm = found.left_by(FiveBar(robot, walk))
+    return tuple(
+        Outlier(walk.ids[k], float(residual_mm[k]), float(abs(residual_mm[k]) / sd_mm[k]))
+        for k in np.flatnonzero(out)
+    )
+
+
+def _distinct(fresh: Measurements | None, walk: Measurements) -> Measurements | None:
+    """Fresh readings under ids of their own."""
+    if fresh is None or not set(fresh.ids) & set(walk.ids):
+        return fresh
+    return replace(fresh, ids=tuple(f"fresh {i}" for i in fresh.ids))
+
+
+def _kept(m: Measurements, held: set[int | str]) -> Measurements:
+    kept = np.array([i in held for i in m.ids])
+    return m if kept.all() else m.take(kept)
+
+
+def _left(m: Measurements, mistake: Mistake) -> Measurements:
+    """Without the rows of a mistake."""
+    rows = {*mistake.rows, *(f"fresh {i}" for i in mistake.rows)}
+    return m.take(np.array([i not in rows for i in m.ids]))
+
+
+def _each(m: Measurements | None, change: Change) -> Measurements | None:
+    return None if m is None else change(m)
+
+
+def _unlabelled(m: Measurements) -> Measurements:
+    return replace(m, position=np.arange(len(m)))
+
+
+def _undirected(m: Measurements) -> Measurements:
+    return replace(m, approach=np.zeros_like(m.approach))
+
+
+def _untimed(m: Measurements) -> Measurements:
+    return replace(m, t_s=np.arange(len(m), dtype=float))
