@@ -13,6 +13,7 @@ from station.diagnosis.explanations.frame import added, frame
 from station.diagnosis.explanations.mixture import Mixture, PositionError, mixture
 from station.diagnosis.explanations.noise_level import NoiseLevel, specified
 from station.diagnosis.explanations.search import Key
+from station.diagnosis.explanations.searched import with_searched
 from station.diagnosis.explanations.settle import Settled, settle
 from station.diagnosis.explanations.situation import Around, at_readings, predicted
 from station.diagnosis.explanations.statements import Statements, statements
@@ -124,6 +125,7 @@ class ExplanationSet:
         for part in family.parts:
             own = list(part.own)
             quantities = part.quantities(hidden, amplitudes[own], covariance[np.ix_(own, own)])
+            quantities = with_searched(self.weighing.frame, settled, at, quantities)
             out.append(Held(part, quantities, family.kind, family.depends_on))
         return tuple(out)
 

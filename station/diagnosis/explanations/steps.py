@@ -21,6 +21,9 @@ from station.fitting import Solution
 from station.five_bar import FiveBar
 from station.records import Measurements, Real
 
+OPEN = 4.0
+"""Standard deviation of a prediction over the noise from which on it says nothing (a direction not known)."""
+
 
 @dataclass(frozen=True)
 class Step:
@@ -35,7 +38,7 @@ class Step:
     row_sd: Real
     """(K,) that noise, mm."""
     fresh_mm: Real | None
-    """(F,) fresh readings less predicted."""
+    """(F,) fresh readings less predicted; NaN where the model itself leaves open what they read."""
 
     @property
     def residual_mm(self) -> Real:
@@ -105,5 +108,7 @@ def _step(
     )
     fresh_mm = None
     if later is not None:
-        fresh_mm = prediction(later, weighing.reference, one, specified_as(weighing, later))[0]
+        sd = specified_as(weighing, later)
+        fresh_mm, covariance = prediction(later, weighing.reference, one, sd)
+        fresh_mm = np.where(np.sqrt(np.diag(covariance)) > OPEN * sd * one.level, np.nan, fresh_mm)
     return Step(one, errors, s, solution, row_sd, fresh_mm)

@@ -25,6 +25,8 @@ def page(findings: Findings, source: str) -> Page:
     sections = [_errors(findings)]
     if findings.effects:
         sections.append(_causes(findings))
+    if findings.explanations:
+        sections.append(_probabilities(findings))
     if findings.curves:
         sections.append(_curves(findings.curves))
     if findings.hints:
@@ -111,6 +113,29 @@ def _causes(findings: Findings) -> Section:
             ),
         ),
     )
+
+
+def _probabilities(findings: Findings) -> Section:
+    """The set of explanations, and what would decide between them."""
+    rows = [
+        (
+            " and ".join(effect.label for effect in one.effects) or "no effect",
+            f"{100.0 * one.probability:.0f} %",
+        )
+        for one in findings.explanations
+    ]
+    tables = [Table(("explanation", "probability"), rows)]
+    if findings.experiments:
+        tables.append(
+            Table(
+                ("experiment", "probability that it decides"),
+                [(one.text, f"{100.0 * one.decides:.0f} %") for one in findings.experiments],
+            )
+        )
+    text = ["Every explanation of these readings with a probability of 1 % or more."]
+    if findings.mistake is not None:
+        text.insert(0, findings.mistake.text)
+    return Section("Explanations", text, tuple(tables))
 
 
 def _curves(drawn: Sequence[Curve]) -> Section:

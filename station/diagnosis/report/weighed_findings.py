@@ -133,7 +133,7 @@ class WeighedFindings(Findings):
                     name=name_record(finding.part.key),
                     label=naming.label,
                     physics=naming.physics,
-                    parameters=finding.parameters,
+                    parameters=next(h.parameters for h in step.errors if h.part.key == finding.part.key),
                     share=self.shares[at - 1] / len(step.errors),
                     p_value=float(chdtrc(step.settled.families[-1].width, chi2)),
                     probability=min(finding.probability, 1.0),
@@ -157,7 +157,8 @@ class WeighedFindings(Findings):
             unknowns += sum(len(held.parameters) for held in step.errors)
             if step.errors and step.errors[0].depends_on is not None:
                 unknowns += step.settled.families[-1].width
-            fresh = None if step.fresh_mm is None else np.abs(step.fresh_mm)
+            fresh = None if step.fresh_mm is None else np.abs(step.fresh_mm[np.isfinite(step.fresh_mm)])
+            fresh = None if fresh is None or not len(fresh) else fresh
             out.append(errors_of(name, unknowns, step.solution, step.row_sd, self.mechanism, fresh))
         return tuple(out)
 

@@ -58,7 +58,9 @@ def _ambiguous(d: WeighedDiagnosis, experiments: Sequence[ExperimentRecord]) -> 
     worth = [text for text, one in zip(more, others, strict=True) if one.probability >= WORTH_SAYING]
     best = ""
     if experiments:
-        best = f"{experiments[0].text} ({100.0 * experiments[0].decides:.0f} % probable to decide)"
+        best = (
+            f"Most useful ({100.0 * experiments[0].decides:.0f} % probable to decide): {experiments[0].text}"
+        )
     return because(
         "ambiguous",
         causes=_words(first),

@@ -6,8 +6,9 @@ from typing import Any
 
 import pytest
 
-from station.diagnosis.closed_loop import diagnose
-from station.diagnosis.report.document import Findings
+from station.diagnosis.report.weighed_findings import WeighedFindings
+from station.diagnosis.weighed_loop import weighed
+from station.records import Measurements
 from tests.station.diagnosis.machines import ROBOT, ZERO_OFFSETS_DEG, Emulated
 
 EFFECTS: list[tuple[str, dict[str, Any], str, dict[str, float]]] = [
@@ -63,9 +64,13 @@ EFFECTS: list[tuple[str, dict[str, Any], str, dict[str, float]]] = [
         "thermal_growth",
         {"rise_k": 8, "tau_s": 100, "scale_um_per_m_per_k": 40},
         "thermal_growth",
-        {"scale_um_per_m_per_K": -40},
+        {"scale_um_per_m_per_K": 40},
     ),
 ]
+
+
+def diagnosed(walk: Measurements, fresh: Measurements | None = None) -> WeighedFindings:
+    return WeighedFindings(weighed(ROBOT, walk, fresh))
 
 
 @pytest.mark.parametrize(
@@ -75,10 +80,12 @@ def test_physics_is_named_and_its_size_recovered(
     kind: str, known: dict[str, Any], label: str, sizes: dict[str, float]
 ) -> None:
     machine = Emulated({"kind": kind, **known}, seed=1)
-    found = Findings(diagnose(ROBOT, machine.walk(), machine.fresh()))
-    assert (found.diagnosis.verdict, found.diagnosis.confirmed) == ("explained", True)
+    found = diagnosed(machine.walk(), machine.fresh())
+    # a link 1 mm off is nearly as probable as an unnamed error: then it comes first in the set
+    likely = [("explained", True), ("ambiguous", False)] if kind == "link_length" else [("explained", True)]
+    assert (found.decision.verdict, found.decision.confirmed) in likely
     (effect,) = found.effects
-    assert effect.term.effect.label == label
+    assert effect.label == label
     by_name = {q.name: q for q in effect.parameters}
     for name, true in sizes.items():
         assert abs(by_name[name].value - true) < 3.0 * by_name[name].sd
@@ -89,10 +96,10 @@ def test_physics_is_named_and_its_size_recovered(
 @pytest.mark.parametrize("seed", [1, 2])
 def test_drift_is_in_its_alias_set(seed: int) -> None:
     machine = Emulated({"kind": "drift", "mm_per_hour": 0.4}, seed=seed)
-    found = Findings(diagnose(ROBOT, machine.walk(), machine.fresh()))
+    found = diagnosed(machine.walk(), machine.fresh())
     assert found.decision.passed
     (effect,) = found.effects
-    assert "drift" in [t.effect.id for t in (effect.term, *effect.aliases)]
+    assert "drift" in [n.effect for n in (effect.name, *effect.aliases)]
 
 
 def test_two_effects_at_once() -> None:
@@ -101,9 +108,9 @@ def test_two_effects_at_once() -> None:
         {"kind": "scale_cyclic", "amplitude_mm": 0.006, "period_mm": 2},
         seed=3,
     )
-    found = Findings(diagnose(ROBOT, machine.walk(), machine.fresh()))
+    found = diagnosed(machine.walk(), machine.fresh())
     assert found.decision.passed
-    assert [e.term.effect.label for e in found.effects] == ["backlash of joint 1", "scale_cyclic"]
+    assert [e.label for e in found.effects] == ["backlash of joint 1", "scale_cyclic"]
     assert found.effects[0].share > found.effects[1].share
     assert len(found.stages) == 4
 
@@ -123,17 +130,17 @@ def test_two_effects_at_once() -> None:
 @pytest.mark.parametrize("seed", [1, 2])
 def test_outside_the_catalogue_nothing_is_blamed(effect: dict[str, Any], hint: str, seed: int) -> None:
     machine = Emulated(effect, seed=seed)
-    found = Findings(diagnose(ROBOT, machine.walk(), machine.fresh()))
+    found = diagnosed(machine.walk(), machine.fresh())
     assert not found.decision.passed
-    assert found.diagnosis.confirmed is False
-    assert found.diagnosis.hints[0].depends_on == hint
+    assert found.decision.confirmed is False
+    assert found.hints[0].depends_on == hint
 
 
 @pytest.mark.parametrize("seed", [4, 5, 6])
 def test_clean_machine_is_adequate(seed: int) -> None:
     machine = Emulated(seed=seed)
-    found = Findings(diagnose(ROBOT, machine.walk(), machine.fresh()))
-    assert (found.diagnosis.verdict, found.diagnosis.confirmed) == ("adequate", True)
+    found = diagnosed(machine.walk(), machine.fresh())
+    assert (found.decision.verdict, found.decision.confirmed) == ("adequate", True)
     assert found.effects == ()
     assert found.decision.sd_factor == 1.0
 
@@ -142,15 +149,18 @@ def test_dirty_readings_are_named_and_left_out() -> None:
     machine = Emulated(seed=7)
     walk = machine.walk()
     walk.distance[[20, 77]] += [0.05, -0.08]
-    found = Findings(diagnose(ROBOT, walk, machine.fresh()))
-    assert found.decision.passed
-    assert {o.reading for o in found.diagnosis.outliers} == {21, 78}
+    found = diagnosed(walk, machine.fresh())
+    assert {o.reading for o in found.outliers} == {21, 78}
+    assert found.mistake is not None and (found.mistake.kind, found.mistake.rows) == ("glitches", (21, 78))
+    # what was left out has to be looked at first
+    assert (found.decision.verdict, found.decision.confirmed) == ("adequate", False)
 
 
 def test_repeats_that_disagree_grossly_are_never_adequate() -> None:
-    """Twelve readings off by 5 mm are too many to be left out, and their scatter must not hide them."""
+    """Twelve readings off by 5 mm are named, and nothing is confirmed."""
     walk = Emulated(seed=3).walk()
     walk.distance[::10] += 5.0
-    found = Findings(diagnose(ROBOT, walk))
+    found = diagnosed(walk)
     assert not found.decision.passed
-    assert "times more than specified" in found.sentence
+    assert found.mistake is not None and found.mistake.kind == "glitches"
+    assert found.mistake.rows == tuple(range(1, 121, 10))

@@ -98,7 +98,8 @@ def test_fresh_places_are_others_each_run_and_the_same_again_by_seed() -> None:
 
 def test_a_clean_machine_lacks_nothing() -> None:
     readings, result = run(machine())
-    assert (result.verdict, result.method, result.findings) == ("pass", "diagnosis", ())
+    assert (result.verdict, result.outcome) == ("pass", "good")
+    assert (result.method, result.findings) == ("diagnosis", ())
     assert result.reason.code == "adequate_confirmed"
     assert [r.walk for r in readings] == [1] * 120 + [2] * 40
     for zero, truth in zip(result.zero_offsets, (0.8, -0.6), strict=True):
@@ -107,7 +108,8 @@ def test_a_clean_machine_lacks_nothing() -> None:
 
 def test_backlash_is_named_and_fresh_readings_confirm_it() -> None:
     _, result = run(machine(BACKLASH))
-    assert result.verdict == "pass"
+    # a defect was found: the robot may not be used as it is
+    assert (result.verdict, result.outcome) == ("fail", "repair")
     assert result.reason.code == "explained_confirmed"
     assert result.reason.text.startswith("backlash of joint 1 explained 9")
     (finding,) = result.findings

@@ -8,10 +8,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from station.diagnosis.closed_loop import diagnose
-from station.diagnosis.report.document import Findings
 from station.diagnosis.report.joint_curves import curves
+from station.diagnosis.report.traced_findings import TracedFindings
 from station.diagnosis.tests_of_fit.cross_validation import without_a_quarter
+from station.diagnosis.traced_loop import traced
 from station.records import Real
 from tests.station.serial_arm.simulated import CRAIG_SEVEN, UR_LIKE, random_arm, random_poses
 
@@ -32,10 +32,10 @@ def harmonic_drive(theta: Real) -> Real:
     return np.asarray(np.radians(0.006) * np.sum(waves, axis=0))
 
 
-def found(data: dict[str, Any], seed: int, by_range: bool = False, **effects: Any) -> Findings:
+def found(data: dict[str, Any], seed: int, by_range: bool = False, **effects: Any) -> TracedFindings:
     arm = random_arm(data, seed, **effects)
     m = arm.log(random_poses(arm.robot.joints, COUNT, seed), seed)
-    return Findings(diagnose(arm.robot, *without_a_quarter(replace(m, tracker=None) if by_range else m)))
+    return TracedFindings(traced(arm.robot, *without_a_quarter(replace(m, tracker=None) if by_range else m)))
 
 
 @pytest.mark.parametrize("data", [UR_LIKE, CRAIG_SEVEN], ids=["six joints", "seven joints"])
@@ -50,7 +50,7 @@ def test_one_ripple_is_named_by_joint_and_cycles(joint: int, n: float, by_range:
     result = found(UR_LIKE, 2, by_range, **{f"j{joint}": ripple(0.01, n)})
     assert (result.diagnosis.verdict, result.diagnosis.confirmed) == ("explained", True)
     (effect,) = result.effects
-    assert (effect.term.effect.label, effect.aliases) == (f"gear_cyclic of joint {joint}", ())
+    assert (effect.label, effect.aliases) == (f"gear_cyclic of joint {joint}", ())
     sizes = {q.name: q for q in effect.parameters}
     assert sizes["per_rev"].value == pytest.approx(n, abs=0.05)
     assert sizes["amplitude_deg"].value == pytest.approx(0.01, abs=4.0 * sizes["amplitude_deg"].sd)
@@ -60,7 +60,7 @@ def test_one_ripple_is_named_by_joint_and_cycles(joint: int, n: float, by_range:
 def test_many_waves_become_a_curve_that_holds_where_the_joint_has_been() -> None:
     result = found(UR_LIKE, 3, j2=harmonic_drive)
     assert result.diagnosis.confirmed
-    assert result.effects[0].term.effect.label == "gear_cyclic curve of joint 2"
+    assert result.effects[0].label == "gear_cyclic curve of joint 2"
     assert all(q.sd > 0.0 for q in result.effects[0].parameters)
     base, last = result.stages[1], result.stages[-1]
     assert base.confirm_rms_mm is not None and last.confirm_rms_mm is not None
@@ -84,7 +84,7 @@ def test_gross_readings_are_named_and_left_out() -> None:
     assert m.tracker is not None
     tracker = m.tracker.copy()
     tracker[[100, 500]] += [[3.0, 0.0, 0.0], [0.0, -2.0, 1.0]]
-    result = diagnose(arm.robot, replace(m, tracker=tracker))
+    result = traced(arm.robot, replace(m, tracker=tracker))
     assert {o.reading for o in result.outliers} == {101, 501}
     assert [f.term.effect.label for f in result.trace.findings] == ["gear_cyclic of joint 2"]
 

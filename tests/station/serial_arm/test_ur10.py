@@ -11,12 +11,12 @@ import pytest
 from click.testing import CliRunner
 
 from station.cli import main
-from station.diagnosis.closed_loop import diagnose
 from station.diagnosis.learned.model_file import model_document
 from station.diagnosis.learned.other_log import transfer
-from station.diagnosis.report.document import Findings
 from station.diagnosis.report.joint_curves import curves
+from station.diagnosis.report.traced_findings import TracedFindings
 from station.diagnosis.tests_of_fit.cross_validation import without_a_quarter
+from station.diagnosis.traced_loop import traced
 from station.machines import AnyRobot, Measured, read_readings, read_robot
 from tests.station.groups import DATA, needs_data
 
@@ -31,9 +31,9 @@ def robot() -> AnyRobot:
 
 
 @cache
-def found(log: str, measured: Measured) -> Findings:
+def found(log: str, measured: Measured) -> TracedFindings:
     readings = read_readings(robot(), LOGS / f"{log}.csv", measured)
-    return Findings(diagnose(robot(), *without_a_quarter(readings)))
+    return TracedFindings(traced(robot(), *without_a_quarter(readings)))
 
 
 @pytest.mark.parametrize(
@@ -56,7 +56,7 @@ def test_held_out_error_after_the_loop(log: str, measured: Measured, most_mm: fl
 
 def test_the_cause_is_named_by_joint_and_cycles() -> None:
     result = found("series_a", "position")
-    labels = [e.term.effect.label for e in result.effects]
+    labels = [e.label for e in result.effects]
     assert {f"gear_cyclic curve of joint {i}" for i in (1, 2, 3)} <= set(labels)
     for effect in result.effects[:3]:
         sizes = {q.name: q for q in effect.parameters}
@@ -76,7 +76,7 @@ def test_both_logs_show_the_same_curve_where_both_have_been() -> None:
 
 
 def test_learned_on_one_log_holds_unchanged_on_another() -> None:
-    learned = diagnose(robot(), read_readings(robot(), LOGS / "series_a.csv"))
+    learned = traced(robot(), read_readings(robot(), LOGS / "series_a.csv"))
     part = model_document(learned, learned.last, 1.0, stage="last", confirmed=None)
     result = transfer(part, robot(), read_readings(robot(), LOGS / "series_b.csv"), "a")
     assert result.applied.rms_mm <= 0.21

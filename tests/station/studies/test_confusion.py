@@ -8,7 +8,8 @@ import pytest
 from click.testing import CliRunner
 
 from station.cli import main
-from station.diagnosis.closed_loop import diagnose
+from station.diagnosis.report.weighed_findings import WeighedFindings
+from station.diagnosis.weighed_loop import weighed
 from station.five_bar.robot_file import Robot
 from station.studies.confusion.errors import before_and_after
 from station.studies.confusion.machines import draw
@@ -20,7 +21,7 @@ ROBOT = Robot.default()
 @pytest.mark.parametrize("kind", ["backlash", "gear_cyclic", "compliance", "scale_gain"])
 def test_a_cause_found_makes_readings_and_true_positions_better(kind: str) -> None:
     drawn = draw(ROBOT, (kind,), 12)
-    found = diagnose(ROBOT, drawn.walk, drawn.fresh)
+    found = WeighedFindings(weighed(ROBOT, drawn.walk, drawn.fresh))
     errors = before_and_after(ROBOT, drawn, found)
     assert judge(drawn, found).right
     assert errors.reading_um[1] < 1.4 < errors.reading_um[0]
@@ -30,7 +31,7 @@ def test_a_cause_found_makes_readings_and_true_positions_better(kind: str) -> No
 def test_a_machine_with_another_cause_is_not_right() -> None:
     drawn = draw(ROBOT, ("backlash",), 12)
     other = draw(ROBOT, ("scale_gain",), 12)
-    found = diagnose(ROBOT, other.walk, other.fresh)
+    found = WeighedFindings(weighed(ROBOT, other.walk, other.fresh))
     assert not judge(drawn, found).right
 
 

@@ -13,11 +13,14 @@ import pytest
 from click.testing import CliRunner
 
 from station.cli import main
-from station.diagnosis.closed_loop import Diagnosis, diagnose
+from station.diagnosis.explanations import Around
 from station.diagnosis.learned.commands import solve_targets
 from station.diagnosis.learned.model_file import LearnedModel, read_model
 from station.diagnosis.learned.targets import read_targets
-from station.diagnosis.report.document import Findings
+from station.diagnosis.report.traced_findings import TracedFindings
+from station.diagnosis.report.weighed_findings import WeighedFindings
+from station.diagnosis.traced_loop import traced
+from station.diagnosis.weighed_loop import WeighedDiagnosis, weighed
 from station.model.identified_machine import IdentifiedMachine, Situation, identified
 from station.model.model import Fit
 from station.records import Complex, DataSource, Real
@@ -34,13 +37,13 @@ def machine_of(fit: Fit, sd_factor: float = 1.0) -> IdentifiedMachine:
     return machine
 
 
-def learned(tmp_path: Path, effect: dict[str, Any]) -> tuple[Emulated, Diagnosis, Path]:
+def learned(tmp_path: Path, effect: dict[str, Any]) -> tuple[Emulated, WeighedDiagnosis, Path]:
     """A machine with an effect, its diagnosis, and the model as a file."""
     machine = Emulated(effect, seed=2)
-    diagnosis = diagnose(ROBOT, machine.walk(), machine.fresh())
+    diagnosis = weighed(ROBOT, machine.walk(), machine.fresh())
     file = tmp_path / "model.json"
     data = DataSource(file="walk.csv", readings=120, sha256="0" * 64)
-    file.write_text(Findings(diagnosis).document(data).model_dump_json(by_alias=True))
+    file.write_text(WeighedFindings(diagnosis).document(data).model_dump_json(by_alias=True))
     return machine, diagnosis, file
 
 
@@ -83,16 +86,21 @@ def test_true_position_error_falls(tmp_path: Path, effect: dict[str, Any]) -> No
     machine, diagnosis, file = learned(tmp_path, effect)
     place = np.tile(ROBOT.workspace_grid(7, 5), 2)
     approach = np.random.default_rng(0).choice([-1.0, 1.0], (len(place), 2))
-    before = machine_of(diagnosis.base).commands(
-        place, Situation(approach, np.zeros(len(place)), np.zeros(len(place)))
-    )
+    found = diagnosis.found
+    before = found.mixture.only(found.base).commands(place, Around(approach))
     after = solve_targets(read_model(file), read_targets(targets_file(tmp_path, place, approach))[1])
     was = rms(true_error_mm(machine, place, approach, before))
     now = rms(true_error_mm(machine, place, approach, after))
-    predicted_before, predicted_after = Findings(diagnosis).position_errors
+    predicted_before, predicted_after = WeighedFindings(diagnosis).position_errors
     assert now < 0.5 * was
     assert now < 3.0 * predicted_after.rms
     assert was == pytest.approx(predicted_before.rms, rel=0.3)
+
+
+def old_model(tmp_path: Path, effect: dict[str, Any]) -> IdentifiedMachine:
+    """One model as earlier versions found it."""
+    machine = Emulated(effect, seed=2)
+    return machine_of(traced(ROBOT, machine.walk(), machine.fresh()).last)
 
 
 def model_of(tmp_path: Path, effect: dict[str, Any]) -> LearnedModel:
@@ -100,24 +108,38 @@ def model_of(tmp_path: Path, effect: dict[str, Any]) -> LearnedModel:
 
 
 def test_commands_and_positions_are_inverse(tmp_path: Path) -> None:
-    machine = model_of(tmp_path, RIPPLE).machine
-    place = ROBOT.workspace_grid(9, 7)
-    situation = Situation.plain(len(place))
-    theta = machine.commands(place, situation)
-    assert np.abs(machine.positions(theta, situation) - place).max() < 1e-9
+    for machine in (model_of(tmp_path, RIPPLE).machine, old_model(tmp_path, RIPPLE)):
+        place = ROBOT.workspace_grid(9, 7)
+        situation = Situation.plain(len(place))
+        theta = machine.commands(place, situation)
+        assert np.abs(machine.positions(theta, situation) - place).max() < 1e-4
 
 
 def test_model_survives_its_file(tmp_path: Path) -> None:
+    """To the last digit, after the search and after a journey through JSON."""
     _, diagnosis, file = learned(tmp_path, RIPPLE)
-    here, there = machine_of(diagnosis.last), read_model(file).machine
-    situation = Situation.plain(1)
-    place = np.array([37.0 - 701.0j])
-    assert np.array_equal(here.commands(place, situation), there.commands(place, situation))
-    assert np.array_equal(here.covariance, there.covariance)
+    place = np.array([37.0 - 701.0j, -120.0 - 640.0j])
+    approach = np.array([[1.0, -1.0], [0.0, 1.0]])
+    here = diagnosis.found.mixture.commands(place, Around(approach))
+    there = read_model(file).machine.commands(place, Situation(approach, np.zeros(2), np.zeros(2)))
+    assert np.allclose(here, there, rtol=0.0, atol=1e-12)
+
+
+def test_an_old_model_file_is_still_read(tmp_path: Path) -> None:
+    machine = Emulated(RIPPLE, seed=2)
+    diagnosis = traced(ROBOT, machine.walk(), machine.fresh())
+    file = tmp_path / "old.json"
+    data = DataSource(file="walk.csv", readings=120, sha256="0" * 64)
+    file.write_text(TracedFindings(diagnosis).document(data).model_dump_json(by_alias=True))
+    model = read_model(file)
+    place, situation = np.array([37.0 - 701.0j]), Situation.plain(1)
+    here = machine_of(diagnosis.last).commands(place, situation)
+    assert np.array_equal(here, model.machine.commands(place, situation))
+    assert [effect.label for effect in model.acting] == ["gear_cyclic of joint 2"]
 
 
 def test_jacobian_against_differences(tmp_path: Path) -> None:
-    machine = model_of(tmp_path, RIPPLE).machine
+    machine = old_model(tmp_path, RIPPLE)
     theta = machine.commands(ROBOT.workspace_grid(2, 2), Situation.plain(4))
     jacobian = machine.jacobian(theta, Situation.plain(4))
     for k in range(len(machine.x)):
@@ -155,7 +177,7 @@ def test_play_is_taken_out_in_the_sense_of_approach(tmp_path: Path) -> None:
     above, below = np.degrees(machine.commands(place, situation))
     # coming from below the arm lags by half the play: the command goes further by as much
     assert above[0] - below[0] == pytest.approx(0.05, rel=0.03)
-    assert above[1] == pytest.approx(below[1], abs=1e-12)
+    assert above[1] == pytest.approx(below[1], abs=1e-6)
 
 
 REFUSED = {
@@ -210,11 +232,12 @@ def spoil(content: dict[str, Any], *path: str | int, value: Any) -> dict[str, An
 BROKEN: dict[str, tuple[tuple[str | int, ...], Any, str]] = {
     "other schema": (("model", "schema"), "station.model/9", "schema 'station.model/9'"),
     "no model": (("model",), None, "no section `model`"),
-    "unknown effect": (("model", "terms", 0, "effect"), "gremlins", "not in the catalogue"),
+    "unknown effect": (("model", "explanations", 0, "errors", 0, "kind"), "gremlins", "not in the catalogue"),
     "not a number": (("model", "values", 0), "much", "model.values.0"),
-    "values missing": (("model", "values"), [0.0], "covariance"),
+    "values missing": (("model", "values"), [0.0], "13 values"),
     "covariance ragged": (("model", "covariance", 0), [], "covariance"),
-    "amplitudes differ": (("model", "terms", 0, "amplitudes"), [7.0], "amplitudes"),
+    "amplitudes differ": (("model", "explanations", 0, "errors", 0, "amplitudes"), [7.0, 1.0], "evaluated"),
+    "readings ragged": (("model", "readings", "t_s"), [0.0], "one length"),
     "robot wrong": (("model", "robot", "robot", "L"), -1.0, "model.robot"),
     "range missing": (("model", "ranges"), {}, "model.ranges.joints_deg"),
 }

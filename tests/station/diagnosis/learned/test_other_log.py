@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from station.diagnosis.closed_loop import Diagnosis, diagnose
 from station.diagnosis.learned.model_file import model_document
 from station.diagnosis.learned.other_log import transfer
+from station.diagnosis.traced_loop import TracedDiagnosis, traced
 from station.errors import InputRefused
 from station.records import ModelDocument
 from tests.station.serial_arm.simulated import UR_LIKE, SimulatedArm, random_arm, random_poses, shift, turn
@@ -25,14 +25,14 @@ def arm() -> SimulatedArm:
 
 
 @pytest.fixture(scope="module")
-def learned(arm: SimulatedArm) -> Diagnosis:
+def learned(arm: SimulatedArm) -> TracedDiagnosis:
     theta = random_poses(6, 1200, 9)
     gap = (np.degrees(theta[:, 1]) > GAP_DEG[0]) & (np.degrees(theta[:, 1]) < GAP_DEG[1])
-    return diagnose(arm.robot, arm.log(theta[~gap], 9))
+    return traced(arm.robot, arm.log(theta[~gap], 9))
 
 
 @pytest.fixture(scope="module")
-def part(learned: Diagnosis) -> ModelDocument:
+def part(learned: TracedDiagnosis) -> ModelDocument:
     assert [f.term.effect.label for f in learned.trace.findings] == ["gear_cyclic curve of joint 2"]
     return model_document(learned, learned.last, 1.0, stage="last", confirmed=None)
 

@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from station.diagnosis.closed_loop import diagnose
 from station.diagnosis.report.detectability import POWER, detectable
 from station.diagnosis.search.cause_search import SIGNIFICANT
 from station.diagnosis.search.scan import Scan
+from station.diagnosis.traced_loop import traced
 from station.effects import five_bar_catalogue, signature
 from station.effects.backlash import Backlash
 from station.fitting.least_squares import Prior
@@ -23,7 +23,7 @@ CHECKED_NOISE_MM = 4e-3
 
 @pytest.fixture(scope="module")
 def clean() -> Fit:
-    return diagnose(ROBOT, Emulated(seed=8).walk()).last
+    return traced(ROBOT, Emulated(seed=8).walk()).last
 
 
 def test_sizes_agree_with_the_checked_ones(clean: Fit) -> None:
@@ -89,7 +89,7 @@ def test_more_noise_hides_more(clean: Fit) -> None:
 
 def test_what_was_found_is_not_listed() -> None:
     walk = Emulated({"kind": "backlash", "joint": 1, "width_deg": 0.01}, seed=1).walk()
-    listed = [(d.effect, d.joint) for d in detectable(diagnose(ROBOT, walk).last, five_bar_catalogue())]
+    listed = [(d.effect, d.joint) for d in detectable(traced(ROBOT, walk).last, five_bar_catalogue())]
     assert ("backlash", 1) not in listed
     assert ("backlash", 2) in listed
 
@@ -97,7 +97,7 @@ def test_what_was_found_is_not_listed() -> None:
 def test_without_approach_backlash_cannot_be_shown() -> None:
     walk = Emulated(seed=8).walk()
     walk.approach[:] = 0
-    for entry in detectable(diagnose(ROBOT, walk).last, five_bar_catalogue()):
+    for entry in detectable(traced(ROBOT, walk).last, five_bar_catalogue()):
         if entry.effect == "backlash":
             assert entry.minimum_detectable is None
             assert "not taken in a way" in entry.text

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from station.diagnosis.closed_loop import diagnose
-from station.diagnosis.report.document import Findings
 from station.diagnosis.report.report_page import page
+from station.diagnosis.report.weighed_findings import WeighedFindings
+from station.diagnosis.weighed_loop import weighed
 from station.records import DataSource
 from tests.station.diagnosis.machines import ROBOT, Emulated
 
@@ -18,12 +18,12 @@ BACKLASH = {"kind": "backlash", "joint": 1, "width_deg": 0.05}
 
 
 @pytest.fixture(scope="module")
-def tracked() -> Findings:
+def tracked() -> WeighedFindings:
     machine = Emulated(BACKLASH, seed=2, tracked=True)
-    return Findings(diagnose(ROBOT, machine.walk(), machine.fresh()))
+    return WeighedFindings(weighed(ROBOT, machine.walk(), machine.fresh()))
 
 
-def test_the_true_position_error_falls(tracked: Findings) -> None:
+def test_the_true_position_error_falls(tracked: WeighedFindings) -> None:
     errors = tracked.true_position_errors
     assert errors is not None
     before, after = errors
@@ -36,16 +36,16 @@ def test_the_true_position_error_falls(tracked: Findings) -> None:
     assert "True position error, against the tracker, mm" in page(tracked, "walk.csv").to_html()
 
 
-def test_the_tracker_takes_part_in_no_fit(tracked: Findings) -> None:
+def test_the_tracker_takes_part_in_no_fit(tracked: WeighedFindings) -> None:
     d = tracked.diagnosis
     assert d.measurements.tracker is not None and d.fresh is not None
     wrong = replace(d.measurements, tracker=d.measurements.tracker + 5.0)
-    again = diagnose(ROBOT, wrong, d.fresh)
-    assert np.array_equal(again.last.x, d.last.x)
+    again = weighed(ROBOT, wrong, d.fresh)
+    assert np.array_equal(again.found.mixture.mean, d.found.mixture.mean)
 
 
 def test_without_a_tracker_nothing_is_said_of_it() -> None:
     machine = Emulated(BACKLASH, seed=2)
-    findings = Findings(diagnose(ROBOT, machine.walk(), machine.fresh()))
+    findings = WeighedFindings(weighed(ROBOT, machine.walk(), machine.fresh()))
     assert findings.true_position_errors is None
     assert findings.document(SOURCE).before.true_position_error_mm is None

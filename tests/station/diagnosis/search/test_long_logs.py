@@ -7,10 +7,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from station.diagnosis.closed_loop import diagnose
 from station.diagnosis.search import long_log
 from station.diagnosis.search.scan import INVISIBLE_SHARE, Scan
 from station.diagnosis.tests_of_fit.cross_validation import without_a_quarter
+from station.diagnosis.traced_loop import traced
 from station.effects import signature
 from station.effects.cyclic import GearCyclic
 from station.effects.gear_curve import GearCurve
@@ -79,7 +79,7 @@ def test_a_few_gross_distances_suggest_no_effect() -> None:
     distance = m.distance.copy()
     gross = [60, 61, 340, 341, 342, 900, 901]
     distance[gross] += [0.8, 0.9, -0.7, -0.8, -0.9, 0.7, 0.8]
-    found = diagnose(arm.robot, replace(m, distance=distance, tracker=None))
+    found = traced(arm.robot, replace(m, distance=distance, tracker=None))
     assert is_long(found.last.model.mechanism)
     assert {o.reading for o in found.outliers} == {k + 1 for k in gross}
     assert [f.term.effect.label for f in found.trace.findings] == ["gear_cyclic curve of joint 2"]
@@ -90,7 +90,7 @@ def test_generous_tolerances_make_no_cause_of_noise(seed: int) -> None:
     """Forty-two unknowns and a hundred distances, most unknowns far better than their tolerance."""
     arm = random_arm(UR_LIKE, seed)
     m = replace(arm.log(random_poses(6, 130, seed), seed), tracker=None)
-    found = diagnose(arm.robot, *without_a_quarter(m))
+    found = traced(arm.robot, *without_a_quarter(m))
     assert (found.verdict, found.confirmed) == ("adequate", True)
 
 

@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from station.diagnosis.closed_loop import diagnose
 from station.diagnosis.report.stages import Mask
 from station.diagnosis.tests_of_fit.cross_validation import held_out
+from station.diagnosis.traced_loop import traced
 from station.five_bar.mechanism import FiveBar
 from station.mechanism.conditions import reference_of
 from station.model.model import Fit, Model, fit
@@ -31,7 +31,7 @@ def refitted(whole: Fit, left_out: Mask) -> Real:
 @pytest.mark.parametrize("stage", [0, 1], ids=["base", "with the effect"])
 def test_hat_matrix_gives_what_refits_give(stage: int) -> None:
     walk = Emulated({"kind": "backlash", "joint": 1, "width_deg": 0.01}, seed=1).walk()
-    whole = diagnose(ROBOT, walk).trace.stages[stage].fit
+    whole = traced(ROBOT, walk).trace.stages[stage].fit
     position = whole.model.mechanism.measurements.position
     by_identity = held_out(whole.solution, position) * whole.row_sd
     plain = whole.residual_mm

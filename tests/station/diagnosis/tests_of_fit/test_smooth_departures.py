@@ -11,10 +11,10 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from station.diagnosis.closed_loop import Diagnosis, diagnose
 from station.diagnosis.search.dependence import hints
 from station.diagnosis.tests_of_fit.rivals import rivals
 from station.diagnosis.tests_of_fit.smooth_departures import Rest, departures, of_fit
+from station.diagnosis.traced_loop import TracedDiagnosis, traced
 from station.effects.backlash import Backlash
 from station.model.model import Fit
 from station.studies.confusion.machines import OUTSIDE, draw
@@ -25,7 +25,7 @@ TIMES = 200
 
 @cache
 def clean() -> Fit:
-    return diagnose(ROBOT, Emulated(seed=8).walk()).last
+    return traced(ROBOT, Emulated(seed=8).walk()).last
 
 
 def with_residual(mm: np.ndarray) -> Rest:
@@ -81,9 +81,9 @@ def test_temperature_is_named_where_it_is_recorded() -> None:
     assert strongest.depends_on == "temperature"
 
 
-def outside(kind: str, seed: int) -> Diagnosis:
+def outside(kind: str, seed: int) -> TracedDiagnosis:
     drawn = draw(ROBOT, (kind,), seed)
-    return diagnose(ROBOT, drawn.walk, drawn.fresh)
+    return traced(ROBOT, drawn.walk, drawn.fresh)
 
 
 @pytest.mark.parametrize("kind", OUTSIDE)
@@ -105,7 +105,7 @@ def test_outside_the_catalogue_of_any_size(kind: str) -> None:
 )
 def test_the_best_rival_is_the_kind_that_is_there(effect: dict[str, Any], on: str) -> None:
     machine = Emulated(effect, seed=5)
-    base = diagnose(ROBOT, machine.walk(), machine.fresh()).confirmations[0]
+    base = traced(ROBOT, machine.walk(), machine.fresh()).confirmations[0]
     assert min(rivals(base.rest), key=lambda r: r.score).on == on
 
 
@@ -113,14 +113,14 @@ def test_three_slips_are_no_better_than_a_wandering() -> None:
     """A confirmed model must beat every rival: a small random walk is never confirmed as slips or drift."""
     for seed in range(20):
         machine = Emulated({"kind": "random_walk", "mm_per_stop": 0.0006}, seed=seed)
-        found = diagnose(ROBOT, machine.walk(), machine.fresh())
+        found = traced(ROBOT, machine.walk(), machine.fresh())
         assert not (found.verdict == "explained" and found.confirmed)
 
 
 def test_small_true_play_is_confirmed() -> None:
     """A rival may not take away what a true cause of three times the noise explains."""
     machine = Emulated({"kind": "backlash", "joint": 1, "width_deg": 0.002}, seed=6)
-    found = diagnose(ROBOT, machine.walk(), machine.fresh())
+    found = traced(ROBOT, machine.walk(), machine.fresh())
     assert (found.verdict, found.confirmed) == ("explained", True)
     assert isinstance(found.trace.findings[0].term.effect, Backlash)
     assert found.confirmations[-1].rival is None
@@ -133,7 +133,7 @@ def test_second_ripple_of_the_same_joint_is_found() -> None:
         for a, n in ((0.01, 12), (0.004, 17))
     ]
     machine = Emulated(*ripples, seed=7)
-    found = diagnose(ROBOT, machine.walk(), machine.fresh())
+    found = traced(ROBOT, machine.walk(), machine.fresh())
     assert (found.verdict, found.confirmed) == ("explained", True)
     per_rev = sorted(f.term.hidden["per_rev"] for f in found.trace.findings)
     assert per_rev == pytest.approx([12.0, 17.0], abs=0.3)
