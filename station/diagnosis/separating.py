@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from station.diagnosis.experiments import Hypothesis, Motion, hypotheses, motion
+from station.diagnosis.experiments import Hypothesis, Motion, decides, hypotheses, motion
 from station.diagnosis.naming import named
 from station.diagnosis.report import Findings, WeighedFindings
 from station.five_bar import Robot, inverse
@@ -20,6 +20,8 @@ from station.records import Real, Stop
 
 COUNTS = (40, 80, 160, 240)
 """Stops; time effects need time to part, so that a longer sequence may do what a shorter one cannot."""
+WORTH, ENOUGH = 0.3, 0.9
+"""Probability to decide from which on a motion is offered, and from which on no longer one is planned."""
 LEAST = 0.02
 """Probability of an explanation that is worth distinguishing from the first."""
 
@@ -31,6 +33,8 @@ class Experiment:
     stops: tuple[Stop, ...]
     apart: tuple[str, ...]
     """Labels of the explanations that the readings should distinguish from the first, or confirm instead."""
+    decides: float
+    """Probability that one explanation holds 0.95 afterwards."""
 
 
 def experiment(findings: Findings) -> Experiment | None:
@@ -45,17 +49,19 @@ def experiment(findings: Findings) -> Experiment | None:
     found, some = findings.found, hypotheses(findings.found, LEAST)
     if len(some) < 2:
         return None
-    best: Motion | None = None
+    best: tuple[float, Motion] | None = None
     for count in COUNTS:
         planned = motion(found, some, count)
-        if best is None or len(planned.apart) > len(best.apart):
-            best = planned
-        if len(best.apart) == len(some) - 1:
+        sure = decides(planned.outcomes, [one.probability for one in some])
+        if best is None or sure > best[0]:
+            best = sure, planned
+        if sure >= ENOUGH:
             break
-    if best is None or not best.apart:
+    if best is None or best[0] < WORTH:
         return None
-    robot = found.mechanism.robot
-    return Experiment(_stops(robot, best, some[0]), tuple(_label(some[k]) for k in best.apart))
+    sure, chosen = best
+    apart = tuple(dict.fromkeys(_label(some[k]) for k in chosen.apart))
+    return Experiment(_stops(found.mechanism.robot, chosen, some[0]), apart, sure)
 
 
 def _label(one: Hypothesis) -> str:

@@ -10,7 +10,7 @@ import pytest
 from station.records import State
 from tests.station.asking import asked
 from tests.station.run_kinds.test_diagnose import BACKLASH, ROBOT, machine, run
-from tests.station.run_kinds.test_separate import FAST_WARMING
+from tests.station.run_kinds.test_separate import DRIFT
 from tests.web.conftest import Service
 
 LIST = "/api/v1/calibrations"
@@ -30,7 +30,7 @@ def test_the_document_is_answered_whole_and_the_findings_with_the_run(service: S
     number = diagnosed_run(service)
     document = service.client.get(f"{LIST}/{number}/diagnosis").json()
     assert (document["schema"], document["verdict"], document["confirmed"]) == (
-        "station.diagnosis/1",
+        "station.diagnosis/2",
         "explained",
         True,
     )
@@ -87,10 +87,11 @@ def test_a_run_without_a_diagnosis_says_so(service: Service) -> None:
 
 def test_the_motion_that_separates_is_planned_for_whoever_asks(service: Service) -> None:
     store = service.runtime.store
-    readings, result = run(machine(FAST_WARMING))
+    readings, result = run(machine(DRIFT))
     number = store.add_run(asked("R1", "diagnostic"), ROBOT, readings, result)
     plan = service.client.get(f"{LIST}/{number}/separating").json()
-    assert (plan["apart"], len(plan["stops"]), plan["refused"]) == (["drift"], 40, None)
+    assert "thermal_growth of the links" in plan["apart"]
+    assert (len(plan["stops"]) >= 40, plan["refused"]) == (True, None)
     assert plan["duration_s"] > 0
     assert set(plan["stops"][0]) == {"position", "x_mm", "y_mm"}
 
@@ -110,7 +111,7 @@ def test_why_nothing_is_separated(service: Service) -> None:
 
 def test_the_separating_run_goes_on_from_the_readings_and_the_clock_of_the_run(service: Service) -> None:
     store = service.runtime.store
-    readings, result = run(machine(FAST_WARMING))
+    readings, result = run(machine(DRIFT))
     number = store.add_run(asked("FB-1", "diagnostic"), ROBOT, readings, result)
     service.rig.axes[0].stuck = True
     answer = service.client.post(f"{LIST}/{number}/separate", json={"operator": "ada"})
@@ -120,6 +121,7 @@ def test_the_separating_run_goes_on_from_the_readings_and_the_clock_of_the_run(s
     service.wait_for("axis 1 move_to")
     assert store.readings(begun["id"]) == store.readings(number)[:120]
     under_way = service.client.get("/api/v1/station").json()["run"]
-    assert (under_way["step"], under_way["steps"], len(under_way["stops"])) == (120, 160, 40)
+    assert under_way["step"] == 120
+    assert under_way["steps"] == 120 + len(under_way["stops"]) >= 160
     service.client.post(f"{LIST}/{begun['id']}/abort")
     assert service.runtime.orchestrator.wait(begun["id"], 10.0) is State.ABORTED

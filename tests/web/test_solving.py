@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from station.diagnosis.closed_loop import diagnose
-from station.model.identified_machine import Situation, identified
+from station.diagnosis.explanations import Around
+from station.diagnosis.weighed_loop import weighed
 from station.records import Complex, Real
 from tests.station.diagnosis.learned.test_commands import BACKLASH, rms, true_error_mm
 from tests.station.diagnosis.machines import ROBOT, Emulated, to_csv
@@ -24,7 +24,7 @@ def imported(service: Service, walk: str, fresh: str) -> str:
     answer = service.client.post(
         "/api/v1/datasets", files={"file": ("w.csv", walk), "fresh": ("f.csv", fresh)}
     )
-    assert answer.json()["verdict"] == "pass", answer.text
+    assert (answer.json()["verdict"], answer.json()["outcome"]) == ("fail", "repair"), answer.text
     return str(answer.headers["location"])
 
 
@@ -53,10 +53,8 @@ def test_the_true_position_error_falls(service: Service) -> None:
     assert solution["confirmed"] is True
     assert "with backlash of joint 1" in solution["range"]
     after = np.radians([[c["theta1_deg"], c["theta2_deg"]] for c in solution["commands"]])
-    situation = Situation(approach, np.zeros(len(place)), np.zeros(len(place)))
-    machine_before = identified(diagnose(ROBOT, walk).base)
-    assert machine_before is not None
-    before = machine_before.commands(place, situation)
+    found = weighed(ROBOT, walk).found
+    before = found.mixture.only(found.base).commands(place, Around(approach))
     was, now = (rms(true_error_mm(machine, place, approach, theta)) for theta in (before, after))
     assert now < 0.5 * was
 

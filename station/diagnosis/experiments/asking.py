@@ -8,7 +8,7 @@ import numpy as np
 
 from station.diagnosis.experiments.hypotheses import Hypothesis
 from station.diagnosis.experiments.outcomes import Outcome
-from station.diagnosis.explanations import ExplanationSet, prediction, specified_as
+from station.diagnosis.explanations import ExplanationSet, specified_as, tangent
 from station.five_bar import FiveBar, inverse
 from station.records import Complex, Measurements, Real
 
@@ -53,7 +53,7 @@ def _all(column: Real | None, count: int) -> Real | None:
 
 def outcome(found: ExplanationSet, mechanism: FiveBar, hypothesis: Hypothesis) -> Outcome:
     """What one explanation says of the readings of a mechanism."""
-    sd = specified_as(found.weighing, mechanism)
-    residual, covariance = prediction(mechanism, found.weighing.reference, hypothesis.settled, sd)
-    noise = (sd * hypothesis.settled.level) ** 2
-    return Outcome(mechanism.measured - residual, covariance - np.diag(noise), noise)
+    settled = hypothesis.settled
+    residual, jacobian = tangent(mechanism, found.weighing.reference, settled)
+    sd = specified_as(found.weighing, mechanism) * settled.level
+    return Outcome.linear(mechanism.measured - residual, jacobian, settled.covariance, sd)

@@ -49,7 +49,7 @@ def joint_reference(found: ExplanationSet, some: Sequence[Hypothesis], joint: in
     """The angle of one proximal link against the drive's feedback, over the range of the joint."""
     situation = found.weighing.frame.situation
     rows = _spread(situation.theta[:, joint - 1], ANGLES)
-    s = situation.take(rows)
+    s = _at_once(situation.take(rows))
     out = []
     for one in some:
         settled = one.settled
@@ -75,16 +75,14 @@ def payload(found: ExplanationSet, some: Sequence[Hypothesis]) -> list[Outcome]:
         ):
             if _loaded(family):
                 more += family.columns(s, choice.member)[0] @ amplitudes
-        unknown = said.unknown + np.outer(more, more) * KNOWN_SHARE**2
-        out.append(Outcome(said.mean + more, unknown, said.noise))
+        out.append(replace(said, mean=said.mean + more).beside(KNOWN_SHARE * more))
     return out
 
 
 def gauge(found: ExplanationSet, some: Sequence[Hypothesis]) -> list[Outcome]:
     """The reading against a known length, over the travel; where it starts is not known."""
     situation = found.weighing.frame.situation
-    s = situation.take(_spread(situation.travel, GAUGE_PLACES))
-    ones = np.ones((len(s), 1))
+    s = _at_once(situation.take(_spread(situation.travel, GAUGE_PLACES)))
     out = []
     for one in some:
         settled = one.settled
@@ -93,7 +91,7 @@ def gauge(found: ExplanationSet, some: Sequence[Hypothesis]) -> list[Outcome]:
             if family.depends_on in (None, "reading"):
                 jacobian[:, where] = _on(family, s, choice.member, "reading")
         said = Outcome.linear(jacobian @ settled.x, jacobian, settled.covariance, GAUGE_SD_MM)
-        out.append(replace(said, unknown=said.unknown + START_SD_MM**2 * (ones @ ones.T)))
+        out.append(said.beside(np.full(len(s), START_SD_MM)))
     return out
 
 
@@ -102,6 +100,13 @@ def _stops(found: ExplanationSet) -> tuple[Complex, Real]:
     places = found.mechanism.robot.workspace_grid(*GRID)
     sides = np.array([SIDES[k % len(SIDES)] for k in range(len(places))], dtype=float)
     return places, sides
+
+
+def _at_once(s: Situation) -> Situation:
+    """Nothing changes with time or temperature during the experiment."""
+    count = len(s)
+    rise = None if s.rise is None else np.full(count, s.rise[-1])
+    return replace(s, t_s=np.full(count, s.t_s.max()), rise=rise)
 
 
 def _loaded(family: Family) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from typing import Self
 
 import numpy as np
@@ -19,8 +20,8 @@ from station.records import Complex, Real
 PLACES = (17, 9)
 INSET_MM = 4.0
 """Kept free of the workspace's edge for the run-up."""
-WORTH = 2.0 * ALIAS
-"""Chi-square to be expected between two explanations for a motion to be worth its time."""
+WORTH, APART = 2.0 * ALIAS, 4.0
+"""Chi-square to be expected between two explanations: enough of it, and worth mentioning."""
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,7 @@ def motion(
         chosen.append(best)
         disputes = {k: d.after(best) for k, d in disputes.items()}
     way = _nearest_first(places, chosen)
-    apart = tuple(k for k, d in disputes.items() if d.expected >= WORTH)
+    apart = tuple(k for k, d in disputes.items() if d.expected >= APART)
     return Motion(places[way], sides[way], tuple(o.take(way) for o in said), apart)
 
 
@@ -73,8 +74,8 @@ class _Dispute:
 
     difference: Real
     """(K,) of their predictions, less what the stops chosen leave no doubt about."""
-    covariance: Real
-    """(K, K) of what both do not know, without noise."""
+    root: Real
+    """(K, X) whose square is the covariance of what both do not know, without noise."""
     noise: Real
     """(K,) variance of a reading."""
     expected: float = 0.0
@@ -82,21 +83,23 @@ class _Dispute:
 
     @classmethod
     def between(cls, one: Outcome, other: Outcome) -> Self:
-        return cls(other.mean - one.mean, one.unknown + other.unknown, one.noise)
+        return cls(other.mean - one.mean, np.hstack([one.root, other.root]), one.noise)
 
-    @property
+    @cached_property
     def gain(self) -> Real:
         """(K,) chi-square that one more reading at each candidate adds."""
-        return np.asarray(self.difference**2 / (np.maximum(np.diag(self.covariance), 0.0) + self.noise))
+        return np.asarray(self.difference**2 / (np.sum(self.root**2, axis=1) + self.noise))
 
     def after(self, k: int) -> Self:
-        """With candidate k read."""
-        variance = self.covariance[k, k] + self.noise[k]
-        pull = self.covariance[:, k] / variance
+        """With candidate k read: 1 - v v' / (v'v + noise) is the square of 1 - share v v' / v'v."""
+        v = self.root[k]
+        known, variance = float(v @ v), float(v @ v + self.noise[k])
+        along = self.root @ v
+        share = (1.0 - np.sqrt(self.noise[k] / variance)) / max(known, 1e-300)
         return replace(
             self,
-            difference=self.difference - pull * self.difference[k],
-            covariance=self.covariance - np.outer(pull, self.covariance[k]),
+            difference=self.difference - along / variance * self.difference[k],
+            root=self.root - share * np.outer(along, v),
             expected=self.expected + float(self.gain[k]),
         )
 

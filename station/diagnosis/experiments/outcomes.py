@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.linalg import solve_triangular
 from scipy.special import logsumexp
 
+from station.diagnosis.explanations import root_of
 from station.records import Real
 
 SURE = 0.95
@@ -21,24 +22,29 @@ class Outcome:
 
     mean: Real
     """(N,)"""
-    unknown: Real
-    """(N, N) covariance of what the explanation leaves open."""
+    root: Real
+    """(N, X) whose square is the covariance of what the explanation leaves open."""
     noise: Real
     """(N,) variance of a reading."""
 
     @property
     def covariance(self) -> Real:
         """(N, N) of the readings."""
-        return np.asarray(self.unknown + np.diag(self.noise))
+        return np.asarray(self.root @ self.root.T + np.diag(self.noise))
 
     @classmethod
-    def linear(cls, mean: Real, jacobian: Real, covariance: Real, noise_sd: float) -> Outcome:
+    def linear(cls, mean: Real, jacobian: Real, covariance: Real, noise_sd: Real | float) -> Outcome:
         """From derivatives (N, X) by unknowns with this covariance (X, X)."""
-        return cls(mean, jacobian @ covariance @ jacobian.T, np.full(len(mean), noise_sd**2))
+        noise = np.broadcast_to(np.asarray(noise_sd) ** 2, mean.shape)
+        return cls(mean, jacobian @ root_of(covariance), noise)
+
+    def beside(self, column: Real) -> Outcome:
+        """With one more unknown of unit variance, which adds this (N,)."""
+        return replace(self, root=np.column_stack([self.root, column]))
 
     def take(self, rows: Sequence[int]) -> Outcome:
         """Some of the readings; one taken twice has noise of its own each time."""
-        return Outcome(self.mean[list(rows)], self.unknown[np.ix_(rows, rows)], self.noise[list(rows)])
+        return Outcome(self.mean[list(rows)], self.root[list(rows)], self.noise[list(rows)])
 
 
 def decides(outcomes: Sequence[Outcome], probability: Sequence[float], seed: int = 0) -> float:

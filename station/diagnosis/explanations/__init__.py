@@ -15,12 +15,12 @@ from station.diagnosis.explanations.explanation_set import (
     specified_as,
 )
 from station.diagnosis.explanations.family import Family
-from station.diagnosis.explanations.mixture import Mixture, PositionError
+from station.diagnosis.explanations.mixture import Mixture, PositionError, root_of
 from station.diagnosis.explanations.restored import KeptError, KeptExplanation, NotInCatalogue, restored
 from station.diagnosis.explanations.settle import Settled
 from station.diagnosis.explanations.situation import Around, Situation, at_readings
 from station.diagnosis.explanations.steps import Step, steps
-from station.diagnosis.explanations.validation import Validation, prediction, together
+from station.diagnosis.explanations.validation import Validation, tangent, together
 from station.diagnosis.explanations.verdict import Decision, Finding, Verdict
 
 __all__ = [
@@ -44,9 +44,10 @@ __all__ = [
     "Verdict",
     "at_readings",
     "explain",
-    "prediction",
     "restored",
+    "root_of",
     "specified_as",
     "steps",
+    "tangent",
     "together",
 ]

@@ -18,7 +18,7 @@ from station.diagnosis.explanations.settle import Settled, settle
 from station.diagnosis.explanations.situation import Around, at_readings, predicted
 from station.diagnosis.explanations.statements import Statements, statements
 from station.diagnosis.explanations.validation import Validation, together, validate
-from station.diagnosis.explanations.verdict import Decision, Finding, decide, findings, told
+from station.diagnosis.explanations.verdict import Decision, Finding, decide, findings, loudness, told
 from station.diagnosis.explanations.weighing import Weighing, weigh
 from station.five_bar import SCALE_SD_MM, FiveBar
 from station.mechanism import Reference, reference_of
@@ -102,6 +102,11 @@ class ExplanationSet:
     def probability(self, effect: str, joint: int | None, part: str | None = None) -> float:
         """That an effect is there: the sum over all explanations that hold it."""
         return self.statements.probability((effect, joint, part))
+
+    @property
+    def loudness(self) -> float:
+        """Noise that the best explanation leaves, over the specification."""
+        return loudness(self.weighing.best, self.weighing)
 
     def left_by(self, mechanism: FiveBar) -> tuple[Real, Real]:
         """(K,) what the best explanation leaves of other readings, and their noise, mm."""

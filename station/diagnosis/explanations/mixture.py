@@ -88,7 +88,7 @@ class Mixture:
         for s, w, count in zip(self.settled, self.weight, counts, strict=True):
             r, at = self._arrived(s, theta, _plain(len(place)))
             mean = np.stack([(r - place).real, (r - place).imag], axis=1)
-            root = self._moved(s, at) @ _root(s.covariance)
+            root = self._moved(s, at) @ root_of(s.covariance)
             square += w * (np.sum(mean**2, axis=1) + np.sum(root**2, axis=(1, 2)))
             if count > 0:
                 error = mean[:, :, None] + root @ rng.standard_normal((root.shape[2], count))
@@ -151,7 +151,7 @@ def spread(means: Sequence[Real], covariances: Sequence[Real], weight: Real) -> 
     )
 
 
-def _root(covariance: Real) -> Real:
+def root_of(covariance: Real) -> Real:
     """(X, X) whose square is a covariance; variances may differ by many orders."""
     sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
     values, vectors = np.linalg.eigh(covariance / np.outer(sd, sd))

@@ -21,7 +21,7 @@ from station.diagnosis.explanations.weighing import Weighing
 SUPPORTED = 3.0
 """Log of the evidence that an error must add before it is spoken of."""
 BESIDE_UNNAMED = 0.4
-"""Share of named effects that are really there when found beside an unnamed one (emulated machines)."""
+"""Prior trust in a named effect that is found beside an unnamed one.  It is set, not measured."""
 NEGLIGIBLE = 1e-5
 PartKey = tuple[str, int | None, str | None]
 

@@ -98,14 +98,19 @@ def validate(
 
 def prediction(later: FiveBar, reference: Reference, settled: Settled, row_sd: Real) -> tuple[Real, Real]:
     """(F,) measured less predicted and its covariance (F, F), mm."""
+    residual, J = tangent(later, reference, settled)
+    noise = (row_sd * settled.level) ** 2
+    return residual, J @ settled.covariance @ J.T + np.diag(noise)
+
+
+def tangent(later: FiveBar, reference: Reference, settled: Settled) -> tuple[Real, Real]:
+    """(F,) measured less predicted, and the derivatives (F, X) of the prediction by all unknowns, mm."""
     p = settled.x[: settled.size]
     plain = at_readings(later, p, reference, first=False)
     more = added(plain, settled.present)
     s = plain if more is None else at_readings(later, p, reference, more, first=False)
     columns = [f.columns(s, c.member)[0] for f, c in zip(settled.families, settled.choices, strict=True)]
-    J = np.hstack([s.by_parameter[:, 0, :], *columns])
-    noise = (row_sd * settled.level) ** 2
-    return later.measured - predicted(later, p, more), J @ settled.covariance @ J.T + np.diag(noise)
+    return later.measured - predicted(later, p, more), np.hstack([s.by_parameter[:, 0, :], *columns])
 
 
 def _new(earlier: Measurements, fresh: Measurements) -> bool:

@@ -15,6 +15,7 @@ from station.diagnosis.explanations.settle import Settled
 from station.diagnosis.explanations.situation import predicted
 from station.diagnosis.explanations.statements import PartKey, Statements
 from station.diagnosis.explanations.validation import Validation
+from station.diagnosis.explanations.weighing import Weighing
 from station.fitting import pure_error
 from station.records import Quantity
 
@@ -58,7 +59,7 @@ def accounts(weighed: Settled, statements: Statements) -> bool:
     """Whether an explanation leaves no more than the repeats scatter by, and that is noise."""
     weighing = statements.weighing
     frame, measurements = weighing.frame, weighing.mechanism.measurements
-    if weighed.level > LOUD:
+    if loudness(weighed, weighing) > LOUD:
         return False
     model = predicted(weighing.mechanism, weighed.x[: weighed.size], added(frame.situation, weighed.present))
     residual = (weighing.mechanism.measured - model) / frame.row_sd
@@ -69,6 +70,15 @@ def accounts(weighed: Settled, statements: Statements) -> bool:
         return True
     lack = max(weighed.cost - pure, 0.0) / lack_dof
     return float(fdtrc(lack_dof, dof, lack / (pure / dof))) > MISFIT_P
+
+
+def loudness(weighed: Settled, weighing: Weighing) -> float:
+    """Noise that an explanation leaves, over that of the head and of the feedback's half pulse.
+
+    What wanders is weighed by the noise of the head alone; it is loud only beyond both.
+    """
+    specified = np.maximum(weighing.frame.row_sd, weighing.mechanism.row_sd)
+    return weighed.level * float(np.sqrt(np.mean(weighing.frame.row_sd**2) / np.mean(specified**2)))
 
 
 def decide(statements: Statements, findings: tuple[Finding, ...], validation: Validation | None) -> Decision:

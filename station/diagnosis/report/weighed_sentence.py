@@ -74,8 +74,8 @@ def _unexplained(d: WeighedDiagnosis, causes: str, percent: float, depends_on: s
     mistake = d.mistake or d.entry
     if mistake is not None:
         return because("unexplained_mistake", depends_on=depends_on, text=mistake.text)
-    if d.found.weighing.best.level > LOUD:
-        return because("scattering", times=d.found.weighing.best.level)
+    if d.found.loudness > LOUD:
+        return because("scattering", times=d.found.loudness)
     unnamed = [e for e in d.found.explanations if not e.named]
     if _refuted(d) and causes:
         return because("unexplained_refuted", causes=causes, share_percent=percent, depends_on=depends_on)

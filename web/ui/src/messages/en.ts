@@ -240,6 +240,10 @@ export const en = {
   diagnoses: {
     adequate: { name: "adequate", explanation: "The model fits the readings. No effect is missing from it." },
     explained: { name: "explained", explanation: "With the effects found, the model fits the readings." },
+    ambiguous: {
+      name: "not certain",
+      explanation: "Several explanations fit the readings, and these readings cannot distinguish them.",
+    },
     partly_explained: {
       name: "partly explained",
       explanation: "The effects found reduce the residual, but it is still larger than the noise.",
