@@ -55,7 +55,7 @@ def test_a_file_with_fresh_readings_becomes_a_run_with_its_cause_confirmed(
         "operator": "ada",
         "work_order": "W1",
         "state": "succeeded",
-        "verdict": "pass",
+        "verdict": "fail",
     }
     calibration = service.client.get(answer.headers["location"]).json()
     assert [finding["effect"] for finding in calibration["findings"]] == ["backlash"]
@@ -98,9 +98,16 @@ def test_readings_that_miss_nothing_pass_only_when_fresh_ones_agree(service: Ser
 def test_the_robot_file_that_is_kept_here_counts(service: Service, worn: tuple[bytes, bytes]) -> None:
     store = service.runtime.store
     other = store.robot_or_nominal("FB-3")
-    store.save_robot(replace(other, d=(0.0, -60.0)))
+    store.save_robot(replace(other, d=(0.0, -51.5)))
     number = send(service, *worn, robot_serial="FB-3").json()["id"]
-    assert store.robot_of(number).d == (0.0, -60.0)
+    assert store.robot_of(number).d == (0.0, -51.5)
+
+
+def test_a_mistake_in_the_robot_file_is_refused_by_name(service: Service, worn: tuple[bytes, bytes]) -> None:
+    store = service.runtime.store
+    store.save_robot(replace(store.robot_or_nominal("FB-3"), d=(0.0, -60.0)))
+    assert "d" in problem_of(send(service, *worn, robot_serial="FB-3"), 422)["detail"]
+    assert service.client.get(LIST).json()["items"] == []
 
 
 def test_it_needs_no_rig(service: Service, worn: tuple[bytes, bytes]) -> None:
@@ -145,10 +152,13 @@ MALFORMED = {
     "beyond all measure": (HEADER + b"1,0,0,180,1e300\n", "row 2, column scale_mm"),
     "twice": (HEADER + b"1,0,0,180,1\n1,1,0,180,1\n", "row 3, column reading"),
     "wrong unit": (
-        HEADER + b"".join(b"%d,%d,%d,0,1\n" % (k, k, 90 - k) for k in range(40)),
-        "Reading 1, column theta1_deg",
+        HEADER + b"".join(b"%d,%d,%d,0,%d\n" % (k, k, 90 - k, 3 * k) for k in range(40)),
+        "zero_at_deg",
     ),
-    "too few": (HEADER + b"".join(b"%d,%d,%d,180,1\n" % (k, k, k) for k in range(8)), "Not enough data"),
+    "too few": (
+        HEADER + b"".join(b"%d,%d,%d,180,%d\n" % (k, k, k, 3 * k) for k in range(7)),
+        "Not enough data",
+    ),
 }
 
 

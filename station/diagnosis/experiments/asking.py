@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from station.diagnosis.experiments.hypotheses import Hypothesis
+from station.diagnosis.experiments.in_question import Hypothesis
 from station.diagnosis.experiments.outcomes import Outcome
 from station.diagnosis.explanations import ExplanationSet, specified_as, tangent
 from station.five_bar import FiveBar, inverse

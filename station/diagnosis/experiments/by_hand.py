@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 
 from station.diagnosis.experiments.asking import asked, outcome, placed
-from station.diagnosis.experiments.hypotheses import Hypothesis
+from station.diagnosis.experiments.in_question import Hypothesis
 from station.diagnosis.experiments.outcomes import Outcome
 from station.diagnosis.explanations import ExplanationSet, Family, Situation, at_readings
 from station.five_bar import FiveBar

@@ -9,8 +9,8 @@ from typing import Literal
 import numpy as np
 
 from station.diagnosis.experiments.by_hand import gauge, joint_reference, payload, second_mount
-from station.diagnosis.experiments.hypotheses import Hypothesis, hypotheses
-from station.diagnosis.experiments.motion import motion
+from station.diagnosis.experiments.further_motion import motion
+from station.diagnosis.experiments.in_question import Hypothesis, hypotheses
 from station.diagnosis.experiments.outcomes import Outcome, decides
 from station.diagnosis.explanations import ExplanationSet
 

@@ -193,7 +193,8 @@ def _validated(
     searched
     for anew without the fresh readings, linearised about the best explanation of all.
     """
-    rows = np.isin(np.array(both.measurements.ids, dtype=object), weighing.mechanism.measurements.ids)
+    held = set(weighing.mechanism.measurements.ids)
+    rows = np.array([i in held for i in both.measurements.ids])
     order = np.arange(len(rows))
     first = both.of(both.measurements.take(order[rows & (order < earlier)]))
     fresh = both.measurements.take(order >= earlier)

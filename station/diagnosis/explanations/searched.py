@@ -44,4 +44,4 @@ def _sd(at: Frame, settled: Settled, index: int, name: str) -> float:
     )
     slope = at.whiten((high - low) / (2.0 * step))
     left = slope - known @ np.linalg.lstsq(known, slope, rcond=None)[0]
-    return float(settled.level / max(np.linalg.norm(left), 1e-12))
+    return settled.level / max(float(np.linalg.norm(left)), 1e-12)

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 
@@ -138,6 +139,7 @@ def wanderings(s: Situation) -> tuple[Family, ...]:
     return made("reading", sizes(3e-4, 0.05)), made("joint1", angle), made("joint2", angle)
 
 
+@cache
 def _over_place(h: float, count: tuple[int, int]) -> Shapes:
     induced = _induced(_lattice(count), np.array([h, 2.0 * h]))
     return lambda s: induced(s.place)
@@ -148,11 +150,13 @@ def _lattice(count: tuple[int, int]) -> Real:
     return np.column_stack([u.ravel(), v.ravel()])
 
 
+@cache
 def _approach_by_place(joint: int) -> Shapes:
     induced = _induced(_lattice((5, 2)), np.array([0.7, 1.4]))
     return lambda s: induced(s.place) * s.approach[:, [joint - 1]]
 
 
+@cache
 def _slider_by_place() -> Shapes:
     induced = _induced(_lattice((5, 2)), np.array([0.7, 1.4]))
     return lambda s: induced(s.place) * s.slider[:, :1]

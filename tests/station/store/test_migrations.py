@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from station.records import ModelDocument
 from station.store.store import Store
 
 RELEASED = Path(__file__).parent / "released"
@@ -48,6 +49,7 @@ def test_results_documents_and_memories_of_an_old_file_are_read(migrated: Store)
     assert len(full.residuals) == 120
     document = migrated.diagnosis(5)
     assert (document.verdict, document.findings[0].effect) == ("explained", "backlash")
+    assert isinstance(document.model, ModelDocument)
     assert document.model.terms[0].effect == "backlash of joint 2"
     known = migrated.memory("R1")
     assert known is not None and known.calibration_id == 7

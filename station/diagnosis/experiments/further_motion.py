@@ -10,7 +10,7 @@ from typing import Self
 import numpy as np
 
 from station.diagnosis.experiments.asking import asked, outcome
-from station.diagnosis.experiments.hypotheses import Hypothesis
+from station.diagnosis.experiments.in_question import Hypothesis
 from station.diagnosis.experiments.outcomes import Outcome
 from station.diagnosis.explanations import ExplanationSet
 from station.diagnosis.search import ALIAS
