@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import os
 import tomllib
 from pathlib import Path
 from typing import Annotated, Self
 
-import platformdirs
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 from pydantic_core import ErrorDetails
 
@@ -160,15 +158,6 @@ def _sentence(error: ErrorDetails) -> str:
     given = error["input"]
     value = f" (given: {given!r})" if not isinstance(given, dict) else ""
     return f"{where}: {message}{value}.".removeprefix(": ")
-
-
-def station_home(option: Path | None) -> Path:
-    """The folder of database, logs and backups: the option, STATION_HOME, or the platform's."""
-    if option is not None:
-        return option
-    if named := os.environ.get("STATION_HOME"):
-        return Path(named)
-    return platformdirs.user_data_path("fivebar-station")
 
 
 def database_path(settings: Settings, home: Path) -> Path:

@@ -1,8 +1,8 @@
 """Compare `identify` and `diagnose` of two revisions on every measurement file that both read.
 
 Run in a checkout with the shared data beside it:
-`.venv/bin/python -m tests.same_numbers BEFORE [AFTER] [--keep FOLDER]`.  A document that is in FOLDER already is
-not made again.  Prints every field that differs, with an instance; exit status 1 if there is one.
+`.venv/bin/python -m tests.same_numbers BEFORE [AFTER] [--keep FOLDER]`.  A document that is in FOLDER already
+is not made again.  Prints every field that differs, with an instance; exit status 1 if there is one.
 """
 
 from __future__ import annotations

@@ -7,7 +7,7 @@ from pathlib import Path
 import click
 from rich.progress import Progress
 
-from station.cli.numerics import write_text
+from station.cli.files import write_text
 from station.studies.confusion import KINDS, markdown, run
 
 

@@ -8,7 +8,7 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station.cli.numerics import check_folders, write_json, write_text
+from station.cli.files import check_folders, write_json, write_text
 from station.studies.bench import bench
 from station.studies.reproduce import make_page, run_study
 

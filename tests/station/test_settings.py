@@ -8,8 +8,9 @@ import pytest
 
 from drivers.scaling import JointScaling
 from station.errors import InputRefused
+from station.home import station_home
 from station.motion.devices import build_devices
-from station.settings import Settings, load_settings, station_home
+from station.settings import Settings, load_settings
 
 REAL = """
 name = "Line 3"
