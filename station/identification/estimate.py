@@ -123,9 +123,13 @@ class Identification(Generic[M_co]):
         return Memory(names, self.p[kept], self.covariance[np.ix_(kept, kept)])
 
     def quantities(self) -> tuple[Quantity, ...]:
-        """Every parameter in shown units with its standard uncertainty, never more than its tolerance."""
-        tolerance = [p.prior_sd for p in self.mechanism.parameters]
-        sd = np.minimum(np.sqrt(np.diag(self.covariance)), tolerance)
+        """Every parameter in shown units with its standard uncertainty.
+
+        Without repeats everything grows by the misfit, so what a tolerance alone determines stays at it.
+        """
+        sd = np.sqrt(np.diag(self.covariance))
+        if not self.mechanism.needs_repeats:
+            sd = np.minimum(sd, [p.prior_sd for p in self.mechanism.parameters])
         return tuple(
             Quantity(p.name, float(x * p.shown), float(s * p.shown), p.unit)
             for p, x, s in zip(self.mechanism.parameters, self.p, sd, strict=True)
@@ -239,7 +243,7 @@ def _at_noise(mechanism: M, prior: Prior, left_out: tuple[Outlier, ...]) -> Iden
         mechanism=mechanism,
         fit=found,
         noise=noise,
-        sd_factor=ratio if p_value < LACK_OF_FIT_P else 1.0,
+        sd_factor=ratio if p_value < LACK_OF_FIT_P or not mechanism.needs_repeats else 1.0,
         lack_of_fit_p=p_value,
         outliers=left_out,
         gate=None,
