@@ -213,14 +213,16 @@ class SerialArm:
         nominal = np.zeros(6 * self.robot.joints + 3)
         at = self._reach(nominal, self.theta).end
         seen = self.measured.reshape(-1, 3)
-        from scipy.spatial.transform import Rotation  # here, because a five-bar never needs it
+        from scipy.spatial.transform import Rotation
 
         turn, _ = Rotation.align_vectors(seen - seen.mean(axis=0), at - at.mean(axis=0))
         return np.asarray(turn.as_matrix())
 
     def _turned(self, turns: Real) -> tuple[Real, list[Real]]:
         """Base orientation Rx Ry Rz R_0 at turns (3,), rad, and the axis of each of the three."""
-        x, y, z = (_about(k, turns[k]) for k in range(3))
+        from scipy.spatial.transform import Rotation  # here, because a five-bar never needs it
+
+        x, y, z = (Rotation.from_euler(axis, turns[k]).as_matrix() for k, axis in enumerate("xyz"))
         return x @ y @ z @ self._base_frame, [np.eye(3)[0], x[:, 1], (x @ y)[:, 2]]
 
     def _load(self, theta: Real) -> tuple[Real, ...]:
@@ -233,15 +235,6 @@ class SerialArm:
             moment = np.einsum("kj,kqj->kq", at.axes[:, i], np.cross(beyond, down))
             out.append(moment / self._length)
         return tuple(out)
-
-
-def _about(axis: int, angle: float) -> Real:
-    """(3, 3) rotation about one coordinate axis."""
-    i, j = (axis + 1) % 3, (axis + 2) % 3
-    turn = np.eye(3)
-    turn[[i, j], [i, j]] = np.cos(angle)
-    turn[i, j], turn[j, i] = -np.sin(angle), np.sin(angle)
-    return turn
 
 
 def _trilaterated(at: Real, distance: Real) -> Real:
