@@ -16,7 +16,7 @@ from station.model.model import Model, fit
 from station.records import Real
 from tests.station.groups import group, measure
 
-DRAWS = 150
+DRAWS = 500
 
 
 def p_values(off_mm: Real | float = 0.0) -> list[float]:
