@@ -2,6 +2,7 @@
 import { newKey, start } from "../../api";
 import { connected, station } from "../../live";
 import { t } from "../../messages";
+import { inSentence, readable } from "../../names";
 import { keepOperator, operator } from "../../operator";
 import { ConfirmedButton } from "../../parts/confirm";
 import { MotionWarning } from "../../parts/motion-warning";
@@ -28,7 +29,11 @@ export function FindCause({ result }: { result: Calibration }) {
           <h2>
             <strong class="alarm warn">{t.result.misfit}</strong>
           </h2>
-          <p>{result.zero_offsets?.length ? t.result.misfitOffsets(lack_of_fit) : t.result.misfitNone}</p>
+          <p>
+            {result.zero_offsets.length
+              ? t.result.misfitOffsets(inSentence(readable(lack_of_fit)))
+              : t.result.misfitNone}
+          </p>
         </>
       )}
       <p>{t.result.findCauseNote}</p>
