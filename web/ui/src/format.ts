@@ -39,6 +39,10 @@ export function measured(value: number | null, u: number | null): string {
   return `${fixed(value, digits)} ± ${fixed(u, digits)}`;
 }
 
+/** Value ± U with its unit, from the standard uncertainty; it does not break before the unit. */
+export const quantity = (value: number | null, sd: number | null, unit: string) =>
+  `${measured(value, expanded(sd))}${unit && "\u00a0"}${unit}`;
+
 /** A probability or a share; never 0 or 100 % unless it is. */
 export function percent(part: number | null | undefined): string {
   if (part == null || !Number.isFinite(part)) return MISSING;

@@ -87,12 +87,17 @@ const MENTIONED = new RegExp(
   "g",
 );
 
+/** What stands between backquotes is the identifier of a plan. */
+const QUOTED = /`(\w+)`/g;
+
 /** A text of the service with display names in place of identifiers. */
 export const withNames = (text: string) =>
-  text.replace(MENTIONED, (label) => {
-    const id = Object.keys(t.effects).find((one) => label.replaceAll(" ", "_").startsWith(one))!;
-    return inSentence(labelName(id + label.slice(id.length)));
-  });
+  text
+    .replace(MENTIONED, (label) => {
+      const id = Object.keys(t.effects).find((one) => label.replaceAll(" ", "_").startsWith(one))!;
+      return inSentence(labelName(id + label.slice(id.length)));
+    })
+    .replace(QUOTED, (_, id: string) => planOf(id)?.name ?? id);
 
 /** The same as a sentence. */
 export const readable = (text: string) => capital(withNames(text));

@@ -53,8 +53,8 @@ describe("effects", () => {
   ])("the label %s reads %s", (label, name) => expect(labelName(label)).toBe(name));
 
   it.each([
-    ["paper", "published model"],
-    ["base", "base model"],
+    ["paper", "Published model"],
+    ["base", "Base model"],
     ["+ gear_cyclic of joint 1", "+ gear ripple of joint 1"],
   ])("the stage %s reads %s", (model, name) => expect(stageName(model)).toBe(name));
 });
@@ -72,6 +72,7 @@ describe("a sentence of the service", () => {
     ],
     ["thermal_growth of the links took most.", "Thermal growth of the links took most."],
     ["compliance of joint 1 is left", "Sag under gravity of joint 1 is left"],
+    ["Use the plan `full`.", "Use the plan Full."],
     // as it is, where it has display names already
     ["Link length error of proximal link 1.", "Link length error of proximal link 1."],
     ["Scale gain error and thermal growth.", "Scale gain error and thermal growth."],

@@ -42,7 +42,8 @@ export const en = {
   parts: shared.parts satisfies Record<string, string>,
   dependences: shared.dependences satisfies Record<string, string>,
   mounted: (name: string, mount: string) => `${name} (mount ${mount})`,
-  both: (names: string[]) => names.join(" and "),
+  both: (names: string[]) =>
+    names.length < 2 ? names.join("") : `${names.slice(0, -1).join(", ")} and ${names.at(-1)}`,
   /** By the unit that the service states. */
   units: {
     deg: "°",
@@ -96,9 +97,9 @@ export const en = {
 
   /** By the name of the stage; the others are effects. */
   stages: {
-    paper: { name: "published model", text: "Zero offsets and mounting; the geometry is nominal." },
-    nominal: { name: "nominal model", text: "Base and tool; the geometry is nominal." },
-    base: { name: "base model", text: "Zero offsets, geometry and mounting, without effects." },
+    paper: { name: "Published model", text: "Zero offsets and mounting; the geometry is nominal." },
+    nominal: { name: "Nominal model", text: "Base and tool; the geometry is nominal." },
+    base: { name: "Base model", text: "Zero offsets, geometry and mounting, without effects." },
   } satisfies Record<string, Entry>,
   added: (effect: string) => `+ ${effect}`,
 
@@ -275,8 +276,8 @@ export const en = {
     cause: "Cause",
     checkModel: "Check the model for missing effects",
     misfit: "◆ The model does not fit these readings",
-    misfitOffsets: (lack: string) =>
-      `An effect is missing from the model. The zero offsets may be in error by more than their uncertainty: ${lack}.`,
+    misfitOffsets:
+      "An effect is missing from the model. The zero offsets may be in error by more than their uncertainty.",
     misfitNone:
       "No robot within its tolerances gives these readings. An effect is missing from the model, or the robot file belongs to another robot.",
     findCauseNote:

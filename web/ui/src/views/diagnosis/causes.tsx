@@ -1,5 +1,5 @@
 /** The causes that a diagnosis found, by rank, and what an unexplained residual depends on. */
-import { expanded, fixed, K, measured, percent } from "../../format";
+import { fixed, K, percent, quantity } from "../../format";
 import { t } from "../../messages";
 import { effectExplanation, effectName, readable, shown } from "../../names";
 import type { Diagnosis, Finding } from "../../types";
@@ -28,7 +28,7 @@ function Cause({ finding, rank, tried }: { finding: Finding; rank: number; tried
   const { share, probability, alias_set, remedy, separating_experiment } = finding;
   const parameters = finding.parameters.map(shown);
   return (
-    <dl>
+    <dl class={probability == null ? "" : "probable"}>
       <div class="effect">
         <dt>{t.diagnosis.effect(rank)}</dt>
         <dd>{effectName(finding)}</dd>
@@ -37,7 +37,7 @@ function Cause({ finding, rank, tried }: { finding: Finding; rank: number; tried
         <dt>{t.diagnosis.size}</dt>
         {parameters.map(({ name, value, sd, unit }) => (
           <dd key={name}>
-            {name} {measured(value, expanded(sd))} {unit}
+            {name} {quantity(value, sd, unit)}
           </dd>
         ))}
       </div>

@@ -7,7 +7,6 @@ import { BeforeAfter } from "../../parts/before-after";
 import { Link } from "../../parts/link";
 import { useLoaded } from "../../parts/load";
 import { VerdictLine } from "../../parts/verdict";
-import { reasonText } from "../../reason";
 import type { Calibration, Diagnosis } from "../../types";
 import { Causes, Hints } from "./causes";
 import { Experiments } from "./experiments";
@@ -50,13 +49,12 @@ export function DiagnosisView({ id }: { id: number }) {
 export function DiagnosisSummary(props: { run: Calibration; found: Diagnosis; readings: number }) {
   const { run, found, readings } = props;
   const { sigma_mm, source, dof } = found.noise;
-  const sentence = readable(found.sentence);
   const sigma = micrometres(sigma_mm, 2);
   return (
     <section class="panel summary">
       <h1>{t.diagnosis.heading(run.id)}</h1>
       <VerdictLine run={run} />
-      {sentence !== reasonText(run) && <p>{sentence}</p>}
+      {run.reason === null && <p>{readable(found.sentence)}</p>}
       <p class="note">
         {t.verdicts[found.verdict].text}{" "}
         {source === "repeats"

@@ -1,5 +1,5 @@
 /** What could account for the readings: sets of errors with their probabilities, most probable first. */
-import { expanded, measured, percent } from "../../format";
+import { K, percent, quantity } from "../../format";
 import { t } from "../../messages";
 import { effectName, inSentence, shown } from "../../names";
 import type { Diagnosis, Explanation, Held } from "../../types";
@@ -30,6 +30,7 @@ export function Explanations({ found: { explanations = [] } }: { found: Diagnosi
           ))}
         </tbody>
       </table>
+      <p class="note">{t.shared.expanded(K)}</p>
     </section>
   );
 }
@@ -42,7 +43,7 @@ function Row({ explanation: { effects, probability, named } }: { explanation: Ex
         {!named && <small> ({t.diagnosis.outsideCatalogue})</small>}
       </th>
       <td class="text">{t.listed(effects.flatMap(sizes))}</td>
-      <td class="bar">
+      <td class="part">
         <progress value={probability} max={1} aria-hidden="true" />
       </td>
       <td>{percent(probability)}</td>
@@ -56,6 +57,4 @@ const errors = (effects: Held[]) =>
 const sizes = ({ parameters = [] }: Held) =>
   parameters
     .map(shown)
-    .map(({ name, value, sd, unit }) =>
-      `${inSentence(name)} ${measured(value, expanded(sd))} ${unit}`.trim(),
-    );
+    .map(({ name, value, sd, unit }) => `${inSentence(name)} ${quantity(value, sd, unit)}`);

@@ -18,8 +18,10 @@ export function RunRow({ run }: { run: Summary }) {
       <td class="text">{dateTime(run.started_at ?? run.created_at)}</td>
       <td class="text serial">{run.robot_serial}</td>
       <td class="text outcome-cell">
-        <Badge run={run} />
-        <span>{whatItDid(run)}</span>
+        <span class="badges">
+          <Badge run={run} />
+          <span>{whatItDid(run)}</span>
+        </span>
         {run.reason && <small>{reasonText(run)}</small>}
       </td>
       <td>{offset(run, 1)}</td>

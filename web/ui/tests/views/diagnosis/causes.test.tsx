@@ -20,7 +20,7 @@ describe("causes", () => {
   it("have a display name, a size with expanded uncertainty and a share", () => {
     const text = causes();
     expect(text).toContain("Backlash of joint 2");
-    expect(text).toContain("Width 0.04960 ± 0.00020 °");
+    expect(text).toContain("Width 0.04960 ± 0.00020\u00a0°");
     expect(text).toContain("97.0 %");
   });
 

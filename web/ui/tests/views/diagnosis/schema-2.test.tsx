@@ -84,7 +84,7 @@ describe("explanations", () => {
     expect(rows(<Explanations found={found} />)).toEqual([
       [
         "Link length error of proximal link 1 and backlash of joint 2",
-        "length error of proximal link 1 0.310 ± 0.040 mm",
+        "length error of proximal link 1 0.310 ± 0.040\u00a0mm",
         "",
         "62 %",
       ],
