@@ -64,7 +64,7 @@ export function Badge({ run }: { run: Ended }) {
     <span class="badges">
       <strong class={`badge ${alarm && `alarm ${alarm}`}`}>
         <span aria-hidden="true">{shape}</span> {word}
-      </strong>
+      </strong>{" "}
       {verdict && <span class="beside">{t.shared.verdict(verdict)}</span>}
     </span>
   );

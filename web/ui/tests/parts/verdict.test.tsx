@@ -45,7 +45,7 @@ describe("the line of a run", () => {
   };
 
   it("gives the reason", () => expect(line({ reason: "RMS 3 µm" })).toContain("RMS 3 µm"));
-  it("gives outcome and verdict", () => expect(line({})).toContain("GOODVerdict: PASS"));
+  it("gives outcome and verdict", () => expect(line({})).toContain("GOOD Verdict: PASS"));
   it("gives the step of a run in progress", () =>
     expect(line({ state: "running", verdict: null, step: 2, steps: 8 })).toContain("step 2 of 8"));
   it("gives no step of a run that has ended", () =>
