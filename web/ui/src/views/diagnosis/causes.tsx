@@ -4,8 +4,13 @@ import { t } from "../../messages";
 import { effectExplanation, effectName, readable, shown } from "../../names";
 import type { Diagnosis, Finding } from "../../types";
 
-export function Causes({ found: { findings, verdict, confirmed } }: { found: Diagnosis }) {
-  const tried = verdict === "unexplained" || (verdict === "partly_explained" && confirmed === false);
+/** Whether the effects found are no more than an attempt. */
+export const isTried = ({ verdict, confirmed }: Pick<Diagnosis, "verdict" | "confirmed">) =>
+  verdict === "unexplained" || (verdict === "partly_explained" && confirmed === false);
+
+export function Causes({ found }: { found: Diagnosis }) {
+  const { findings, verdict } = found;
+  const tried = isTried(found);
   return (
     <section class="panel wide causes" aria-label={t.diagnosis.causes}>
       <h2>{title(tried, verdict)}</h2>

@@ -8,7 +8,7 @@ import { Link } from "../../parts/link";
 import { useLoaded } from "../../parts/load";
 import { VerdictLine } from "../../parts/verdict";
 import type { Calibration, Diagnosis } from "../../types";
-import { Causes, Hints } from "./causes";
+import { Causes, Hints, isTried } from "./causes";
 import { Experiments } from "./experiments";
 import { Explanations } from "./explanations";
 import { Invisible } from "./invisible";
@@ -56,7 +56,7 @@ export function DiagnosisSummary(props: { run: Calibration; found: Diagnosis; re
       <VerdictLine run={run} />
       {run.reason === null && <p>{readable(found.sentence)}</p>}
       <p class="note">
-        {t.verdicts[found.verdict].text}{" "}
+        {t.verdicts[isTried(found) ? "unexplained" : found.verdict].text}{" "}
         {source === "repeats"
           ? t.diagnosis.noiseFromRepeats(readings, sigma, dof)
           : t.diagnosis.noiseSpecified(readings, sigma)}
