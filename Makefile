@@ -3,7 +3,7 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 PAGE := $(shell find web/ui \( -name node_modules -o -name tests -o -name api-types.ts \) -prune -o -type f -print) \
-	web/openapi.json hatch_build.py deploy/node.py
+	web/openapi.json station/messages/en.json hatch_build.py deploy/node.py
 NPM := $(BIN)/python deploy/node.py
 
 .PHONY: run test record lint format bench lock clean

@@ -74,7 +74,7 @@ export function StartForm() {
         <button type="submit" class="hidden" tabIndex={-1} aria-hidden="true" />
       </form>
       <p id="plan-explanation" class="note">
-        {t.plans[plan.value].explanation}
+        {t.plans[plan.value].text}
       </p>
       <p id="trouble" class={trouble.value ? "trouble" : ""} role="alert">
         {trouble.value && `▲ ${trouble.value.text}`}
