@@ -15,7 +15,7 @@ from rich.table import Table
 from station.five_bar import Robot
 from station.identification import Identification, identification_document, identify
 from station.machines import AnyMechanism, Measured, read_readings, read_robot
-from station.plans import make_plan, plan_as_text, plan_page
+from station.plans import PLANS, make_plan, plan_as_text, plan_page
 from station.records import DataSource, IdentificationDocument, PlanName, Quantity, Record
 
 existing = click.Path(path_type=Path)
@@ -103,7 +103,7 @@ def _print(found: Identification[AnyMechanism], document: IdentificationDocument
 
 
 @click.command("plan")
-@click.option("--plan", "name", type=click.Choice(get_args(PlanName)), default="paper")
+@click.option("--plan", "name", type=click.Choice(tuple(PLANS)), default="paper")
 @click.option("--robot", "robot_file", type=existing, help="Robot file; without it the paper's Table 1.")
 @click.option("--json", "json_file", type=existing, help="Write the plan here.")
 @click.option("--html", "html_file", type=existing, help="Write the plan as a page with drawings here.")
