@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import os
 import tomllib
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Self
+from typing import Annotated, Any, Self
 
 import platformdirs
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, SerializeAsAny, ValidationError, model_validator
 from pydantic_core import ErrorDetails
 
+from drivers.driver import DriverSettings
 from drivers.scaling import JointScaling
 from station.errors import InputRefused
 
@@ -22,11 +24,18 @@ class _Section(BaseModel):
 
 
 class ScaleSettings(_Section):
-    """`[scale]`: the readout of the linear scale."""
+    """`[scale]`: the readout of the linear scale.  All options but `protocol` belong to its driver."""
 
     protocol: str
-    url: str
-    timeout_s: Annotated[float, Field(gt=0, le=10)] = 1.0
+    options: SerializeAsAny[DriverSettings]
+
+    @model_validator(mode="before")
+    @classmethod
+    def _options_of_its_driver(cls, data: Any) -> Any:
+        # Here, not above: drivers load serial and Modbus libraries, which only a file with devices needs.
+        from drivers.scales import SCALES
+
+        return _with_options(data, "protocol", {name: driver.settings for name, driver in SCALES.items()})
 
 
 class JointSettings(_Section):
@@ -55,18 +64,41 @@ DEFAULT_JOINTS = (JointSettings(unit=1, zero_at_deg=0.0), JointSettings(unit=2, 
 
 
 class ServoSettings(_Section):
-    """`[servo]`: the line of the two drives."""
+    """`[servo]`: the line of the two drives.  Options but `profile` and `joint` belong to their driver."""
 
     profile: str
-    url: str
-    timeout_s: Annotated[float, Field(gt=0, le=10)] = 0.3
+    options: SerializeAsAny[DriverSettings]
     joint: tuple[JointSettings, JointSettings] = DEFAULT_JOINTS
+
+    @model_validator(mode="before")
+    @classmethod
+    def _options_of_their_driver(cls, data: Any) -> Any:
+        from drivers.servos import SERVOS  # here, not above: as of the scale
+
+        known = {name: driver.settings for name, driver in SERVOS.items()}
+        return _with_options(data, "profile", known, own=("joint",))
 
     @model_validator(mode="after")
     def _drives_differ(self) -> Self:
         if self.joint[0].unit == self.joint[1].unit:
             raise ValueError("the two joints must have different units")
         return self
+
+
+def _with_options(
+    data: Any, choice: str, known: Mapping[str, type[DriverSettings]], own: tuple[str, ...] = ()
+) -> Any:
+    """A section whose further options, also those in a table named after the driver, are `options`."""
+    if not isinstance(data, dict) or "options" in data or not isinstance(name := data.get(choice), str):
+        return data
+    if name not in known:
+        raise ValueError(f'{choice} "{name}" does not exist; there is {", ".join(sorted(known))}')
+    options = {key: value for key, value in data.items() if key not in (choice, name, *own)}
+    table = data.get(name, {})
+    if not isinstance(table, dict):
+        raise ValueError(f"{name} must be a table")
+    section = {key: value for key, value in data.items() if key in (choice, *own)}
+    return {**section, "options": known[name].model_validate(options | table)}
 
 
 class LimitSettings(_Section):
@@ -149,8 +181,11 @@ def load_settings(path: Path | None) -> Settings:
         raise InputRefused(f"Station file {path}: {_sentence(error.errors()[0])}") from error
 
 
-def _sentence(error: ErrorDetails) -> str:
-    *section, option = ["", *(str(part) for part in error["loc"])]
+def _sentence(error: ErrorDetails, inside: tuple[int | str, ...] = ()) -> str:
+    loc = (*inside, *error["loc"])
+    if isinstance(options := error.get("ctx", {}).get("error"), ValidationError):
+        return _sentence(options.errors()[0], loc)
+    *section, option = ["", *(str(part) for part in loc)]
     where = f"[{'.'.join(section[1:])}] {option}" if len(section) > 1 else f"[{option}]" if option else ""
     message = error["msg"].removeprefix("Value error, ")
     if error["type"] == "extra_forbidden":
