@@ -6,7 +6,7 @@ PAGE := $(shell find web/ui \( -name node_modules -o -name tests -o -name api-ty
 	web/openapi.json hatch_build.py deploy/node.py
 NPM := $(BIN)/python deploy/node.py
 
-.PHONY: run test record lint format bench lock clean
+.PHONY: run test record lint format bench reference lock clean
 
 run: $(VENV)/installed  ## install and start the service on the emulated rig; prints the address
 	$(BIN)/station serve
@@ -35,6 +35,10 @@ format: $(VENV)/installed-for-tests
 
 bench: $(VENV)/installed-for-tests  ## the figures of docs/benchmarks.md
 	$(BIN)/station bench
+
+reference: $(VENV)/installed-for-tests  ## docs/reference and web/openapi.json, made from the code
+	$(BIN)/python -m web.openapi
+	$(BIN)/python -m station.reference docs/reference
 
 lock: $(VENV)/installed-for-tests  ## newest versions that fit, with hashes
 	deploy/lock $(BIN)

@@ -27,6 +27,7 @@ class ScaleSettings(_Section):
     """`[scale]`: the readout of the linear scale.  All options but `protocol` belong to its driver."""
 
     protocol: str
+    """Which driver: see the sections of the drivers below."""
     options: SerializeAsAny[DriverSettings]
 
     @model_validator(mode="before")
@@ -42,10 +43,15 @@ class JointSettings(_Section):
     """`[[servo.joint]]`: one drive and how its pulses become a joint angle."""
 
     unit: Annotated[int, Field(ge=1, le=247)]
+    """Address of the drive on its line."""
     sign: Annotated[int, Field(ge=-1, le=1, multiple_of=1)] = 1
+    """1 if the joint angle grows with the pulses of the drive, else -1."""
     zero_at_deg: Finite
+    """Joint angle at the zero of the drive."""
     counts_per_rev: Annotated[int, Field(gt=0)] = 10_000
+    """Pulses per revolution of the motor."""
     ratio: Annotated[float, Field(gt=0, allow_inf_nan=False)] = 20.0
+    """Revolutions of the motor per revolution of the joint."""
     reach_deg: Annotated[float, Field(gt=0, le=180)] = 60.0
     """How far from `zero_at_deg` the joint may be sent."""
 
@@ -67,6 +73,7 @@ class ServoSettings(_Section):
     """`[servo]`: the line of the two drives.  Options but `profile` and `joint` belong to their driver."""
 
     profile: str
+    """Which driver: see the sections of the drivers below."""
     options: SerializeAsAny[DriverSettings]
     joint: tuple[JointSettings, JointSettings] = DEFAULT_JOINTS
 
@@ -105,12 +112,15 @@ class LimitSettings(_Section):
     """`[limits]`: how the machine is moved and when a reading is believed."""
 
     speed_deg_s: Annotated[float, Field(gt=0, le=180)] = 30.0
+    """Speed of every motion of a joint."""
     workspace_margin_mm: Annotated[float, Field(ge=0, le=50)] = 5.0
     """How far outside the workspace a stop may lie."""
     swing_mm: Annotated[float, Field(ge=0, le=200)] = 80.0
     """How far outside it the arm may swing on the way, zero offsets not yet known included."""
     settle_s: Annotated[float, Field(ge=0, le=10)] = 0.3
+    """Pause between standstill and the first sample."""
     samples: Annotated[int, Field(ge=2, le=100)] = 5
+    """Samples of the scale in one reading."""
     scale_spread_mm: Annotated[float, Field(gt=0, le=1)] = 0.05
     """Largest minus smallest sample of one reading."""
     feedback_deg: Annotated[float, Field(gt=0, le=1)] = 0.05
@@ -127,15 +137,20 @@ class ServiceSettings(_Section):
     """`[service]`: where the page and the REST interface listen."""
 
     host: str = "127.0.0.1"
+    """Address to listen at; `0.0.0.0` is every address of this computer."""
     port: Annotated[int, Field(ge=0, le=65535)] = 8000
+    """Port to listen at; 0 takes a free one."""
     database: Path | None = None
+    """File of the history; by default `station.db` in the home folder."""
     api_keys: Path | None = None
+    """Not used yet."""
 
 
 class EmulatedSettings(_Section):
     """`[emulated]`: the machine that stands in when no devices are named."""
 
     rig: Path | None = None
+    """Rig file; by default the paper's group 1."""
     speed: Annotated[float, Field(gt=0, le=1000)] = 50.0
     """How much faster than real time it lives."""
 
@@ -144,6 +159,7 @@ class Settings(_Section):
     """The whole station file; without one, the emulated rig."""
 
     name: str = "Five-bar station"
+    """Shown at the top of the page."""
     scale: ScaleSettings | None = None
     servo: ServoSettings | None = None
     limits: LimitSettings = LimitSettings()
