@@ -7,7 +7,7 @@ multiplication by i and a unit vector u(theta) is exp(i theta).
 |---|---|---|---|
 | e_i | `e` | mm | eq. 1, Table 1 |
 | L_i, l_i | `L`, `l` | mm | eq. 1, Table 1 |
-| c, d | `c`, `d` | mm | eq. 4, Fig. 4 (signs: method.md section 1) |
+| c, d | `c`, `d` | mm | eq. 4, Fig. 4 (signs: docs/explanation/method.md) |
 | dr_M | `drm`, `drm_sd` | mm | eq. 17 |
 """
 

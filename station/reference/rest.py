@@ -24,7 +24,11 @@ def rest_page() -> str:
         section("Calls"),
         *_calls(document["paths"]),
         section("Bodies and answers"),
-        *(_schema(name, schema) for name, schema in sorted(schemas.items()) if "properties" in schema),
+        *(
+            _schema(name, schema)
+            for name, schema in sorted(schemas.items())
+            if "properties" in schema or "enum" in schema
+        ),
     )
 
 
@@ -59,6 +63,8 @@ def _content(content: Any) -> str:
 
 
 def _schema(name: str, schema: Any) -> str:
+    if "enum" in schema:
+        return section(name, "", schema.get("description", ""), f"One of {_type(schema)}.", level=3)
     required = schema.get("required", [])
     rows = (
         (code(field), _type(value), "required" if field in required else "", value.get("description", ""))
