@@ -52,7 +52,8 @@ def _print(found: Identification[AnyMechanism], document: IdentificationDocument
     console.print(f"Least determined: {weak.text}, sd {weak.sd_deg or 0.0:.4f} deg.")
     for remedy in weak.remedies:
         console.print(f"  {remedy.text}: sd {remedy.sd_deg:.4f} deg")
-    console.print("Not determined by the readings: " + "; ".join(weak.blind) + ".")
+    if weak.blind:
+        console.print("Not determined by the readings: " + "; ".join(weak.blind) + ".")
     for outlier in found.outliers:
         console.print(f"Left out: reading {outlier.reading}, {outlier.reason}.")
     if found.sd_factor > 1.0:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import get_args
 
 import click
 from rich.console import Console
@@ -11,12 +10,12 @@ from rich.table import Table
 
 from station.cli.files import existing, write_json, write_text
 from station.five_bar import Robot
-from station.plans import make_plan, plan_as_text, plan_page
+from station.plans import PLANS, make_plan, plan_as_text, plan_page
 from station.records import PlanName
 
 
 @click.command("plan")
-@click.option("--plan", "name", type=click.Choice(get_args(PlanName)), default="paper")
+@click.option("--plan", "name", type=click.Choice(tuple(PLANS)), default="paper")
 @click.option("--robot", "robot_file", type=existing, help="Robot file; without it the paper's Table 1.")
 @click.option("--json", "json_file", type=existing, help="Write the plan here.")
 @click.option("--html", "html_file", type=existing, help="Write the plan as a page with drawings here.")

@@ -1,4 +1,4 @@
-"""The closed loop on one set of readings, with or without fresh ones (method.md section 3)."""
+"""The closed loop on one set of readings, with or without fresh ones."""
 
 from __future__ import annotations
 

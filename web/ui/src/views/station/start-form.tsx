@@ -4,6 +4,7 @@ import type { ComponentChildren, RefObject } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import { connected, station } from "../../live";
 import { t } from "../../messages";
+import { runKind } from "../../names";
 import { operator } from "../../operator";
 import { MotionWarning } from "../../parts/motion-warning";
 import type { Plan } from "../../types";
@@ -157,7 +158,7 @@ function PlanField() {
       >
         {(station.value?.station.plans ?? ["paper"]).map((name) => (
           <option key={name} value={name}>
-            {t.plans[name].name}
+            {runKind(name).name}
           </option>
         ))}
       </select>
