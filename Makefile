@@ -3,10 +3,11 @@ PYTHON ?= python3
 VENV := .venv
 BIN := $(VENV)/bin
 PAGE := $(shell find web/ui \( -name node_modules -o -name tests -o -name api-types.ts \) -prune -o -type f -print) \
-	web/openapi.json hatch_build.py deploy/node.py
+	web/openapi.json station/messages/en.json hatch_build.py deploy/node.py
+PIP := $(BIN)/python -m pip --disable-pip-version-check
 NPM := $(BIN)/python deploy/node.py
 
-.PHONY: run test record lint format bench lock clean
+.PHONY: run test record lint format bench mutate reference lock clean
 
 run: $(VENV)/installed  ## install and start the service on the emulated rig; prints the address
 	$(BIN)/station serve
@@ -14,18 +15,19 @@ run: $(VENV)/installed  ## install and start the service on the emulated rig; pr
 test: $(VENV)/installed-for-tests  ## everything that can be checked
 	$(NPM) test
 	deploy/debian-packages chromium mbpoll
-	$(BIN)/pytest
+	$(BIN)/pytest --cov=station --cov=drivers --cov=web
 
 record: $(VENV)/installed-for-tests  ## the closed loop in the browser, recorded; prints the folder
 	deploy/debian-packages chromium
 	folder=$$(mktemp -d) && STATION_RECORD=$$folder $(BIN)/pytest tests/browser/test_diagnosing.py && \
 	echo "Recorded in $$folder; watch one with: $(BIN)/playwright show-trace FILE.zip"
 
-lint: $(VENV)/installed-for-tests  ## style, types, import layers
+lint: $(VENV)/installed-for-tests  ## style, types, import layers, spelling
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	$(BIN)/codespell
 	$(NPM) run lint
 
 format: $(VENV)/installed-for-tests
@@ -36,6 +38,14 @@ format: $(VENV)/installed-for-tests
 bench: $(VENV)/installed-for-tests  ## the figures of docs/benchmarks.md
 	$(BIN)/station bench
 
+mutate: $(VENV)/installed-for-tests  ## changes what decides, one place at a time; lists what no test notices
+	$(BIN)/mutmut run
+	$(BIN)/mutmut results
+
+reference: $(VENV)/installed-for-tests  ## docs/reference and web/openapi.json, made from the code
+	$(BIN)/python -m web.openapi
+	$(BIN)/python -m station.reference docs/reference
+
 lock: $(VENV)/installed-for-tests  ## newest versions that fit, with hashes
 	deploy/lock $(BIN)
 
@@ -43,13 +53,17 @@ clean:
 	rm -rf $(VENV) web/static web/ui/node_modules
 
 $(VENV)/bin/python:
+	@echo "Making a virtual environment in $(VENV)"
 	deploy/python-venv $(PYTHON) $(VENV)
 
 $(VENV)/installed: deploy/requirements.lock pyproject.toml $(PAGE) | $(VENV)/bin/python
-	$(BIN)/python -m pip install --quiet --require-hashes -r deploy/requirements.lock
-	$(BIN)/python -m pip install --quiet --no-deps --editable .
+	@echo "Installing the station: 1 of 2, libraries (a minute)"
+	$(PIP) install --require-hashes -r deploy/requirements.lock
+	@echo "Installing the station: 2 of 2, the station and its page (a minute; Node.js is fetched if there is none)"
+	$(PIP) install --no-deps --editable .
 	touch $@
 
 $(VENV)/installed-for-tests: tests/requirements.lock $(VENV)/installed
-	$(BIN)/python -m pip install --quiet --require-hashes -r tests/requirements.lock
+	@echo "Installing what tests and checks need (a minute)"
+	$(PIP) install --require-hashes -r tests/requirements.lock
 	touch $@

@@ -2,7 +2,7 @@
 
 import os
 
-__version__ = "0.1.0"
+__version__ = "0.2.0"
 
 # Matrices here have a dozen columns: handing them to threads takes longer than multiplying them, three
 # times as long where the cores are shared.  Must be said before numpy is loaded; who has said otherwise wins.

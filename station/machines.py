@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, Literal, Protocol, Self
 
 import numpy as np
 
@@ -22,14 +22,38 @@ from station.records import (
     Columns,
     Measurements,
     Real,
+    Sections,
     WeakDirection,
     read_measurements,
     with_guesses,
 )
 from station.serial_arm import ARM_MODEL, Arm, SerialArm
 
-AnyRobot = Robot | Arm
-AnyMechanism = FiveBar | SerialArm
+
+class AnyRobot(Protocol):
+    """A robot file of any model."""
+
+    @property
+    def model(self) -> str:
+        """`[robot] model` of its file."""
+        ...
+
+    @property
+    def serial(self) -> str:
+        """Of the robot."""
+        ...
+
+    @classmethod
+    def from_dict(cls, data: Sections, *, source: str = "robot") -> Self:
+        """From the sections of a robot file.  :raises InputRefused:"""
+        ...
+
+    def to_json(self) -> Sections:
+        """The sections of its file; `from_dict` reads them back."""
+        ...
+
+
+AnyMechanism = Mechanism
 Measured = Literal["position", "range"]
 
 
@@ -37,7 +61,7 @@ Measured = Literal["position", "range"]
 class MachineKind:
     """What is particular to one kind of machine."""
 
-    robot: type[Robot] | type[Arm]
+    robot: type[AnyRobot]
     """Its robot file."""
     mechanism: Callable[[Any, Measurements], AnyMechanism]
     """The robot under these readings."""
@@ -86,7 +110,7 @@ def read_robot(path: Path | None) -> AnyRobot:
     return robot_of(read_sections(path), source=str(path))
 
 
-def robot_of(data: dict[str, Any], *, source: str = "robot") -> AnyRobot:
+def robot_of(data: Sections, *, source: str = "robot") -> AnyRobot:
     """From a robot file's sections.  :raises InputRefused: an unknown model, or as the robot's own file."""
     section = data.get("robot")
     model = section.get("model") if isinstance(section, dict) else None

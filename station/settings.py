@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import os
 import tomllib
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Self
+from typing import Annotated, Any, Self
 
-import platformdirs
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, SerializeAsAny, ValidationError, model_validator
 from pydantic_core import ErrorDetails
 
+from drivers.driver import DriverSettings
 from drivers.scaling import JointScaling
 from station.errors import InputRefused
 
@@ -22,21 +22,34 @@ class _Section(BaseModel):
 
 
 class ScaleSettings(_Section):
-    """`[scale]`: the readout of the linear scale."""
+    """`[scale]`: the readout of the linear scale.  All options but `protocol` belong to its driver."""
 
     protocol: str
-    url: str
-    timeout_s: Annotated[float, Field(gt=0, le=10)] = 1.0
+    """Which driver: see the sections of the drivers below."""
+    options: SerializeAsAny[DriverSettings]
+
+    @model_validator(mode="before")
+    @classmethod
+    def _options_of_its_driver(cls, data: Any) -> Any:
+        # Here, not above: drivers load serial and Modbus libraries, which only a file with devices needs.
+        from drivers.scales import SCALES
+
+        return _with_options(data, "protocol", {name: driver.settings for name, driver in SCALES.items()})
 
 
 class JointSettings(_Section):
     """`[[servo.joint]]`: one drive and how its pulses become a joint angle."""
 
     unit: Annotated[int, Field(ge=1, le=247)]
+    """Address of the drive on its line."""
     sign: Annotated[int, Field(ge=-1, le=1, multiple_of=1)] = 1
+    """1 if the joint angle grows with the pulses of the drive, else -1."""
     zero_at_deg: Finite
+    """Joint angle at the zero of the drive."""
     counts_per_rev: Annotated[int, Field(gt=0)] = 10_000
+    """Pulses per revolution of the motor."""
     ratio: Annotated[float, Field(gt=0, allow_inf_nan=False)] = 20.0
+    """Revolutions of the motor per revolution of the joint."""
     reach_deg: Annotated[float, Field(gt=0, le=180)] = 60.0
     """How far from `zero_at_deg` the joint may be sent."""
 
@@ -55,12 +68,20 @@ DEFAULT_JOINTS = (JointSettings(unit=1, zero_at_deg=0.0), JointSettings(unit=2, 
 
 
 class ServoSettings(_Section):
-    """`[servo]`: the line of the two drives."""
+    """`[servo]`: the line of the two drives.  Options but `profile` and `joint` belong to their driver."""
 
     profile: str
-    url: str
-    timeout_s: Annotated[float, Field(gt=0, le=10)] = 0.3
+    """Which driver: see the sections of the drivers below."""
+    options: SerializeAsAny[DriverSettings]
     joint: tuple[JointSettings, JointSettings] = DEFAULT_JOINTS
+
+    @model_validator(mode="before")
+    @classmethod
+    def _options_of_their_driver(cls, data: Any) -> Any:
+        from drivers.servos import SERVOS  # here, not above: as of the scale
+
+        known = {name: driver.settings for name, driver in SERVOS.items()}
+        return _with_options(data, "profile", known, own=("joint",))
 
     @model_validator(mode="after")
     def _drives_differ(self) -> Self:
@@ -69,16 +90,35 @@ class ServoSettings(_Section):
         return self
 
 
+def _with_options(
+    data: Any, choice: str, known: Mapping[str, type[DriverSettings]], own: tuple[str, ...] = ()
+) -> Any:
+    """A section whose further options, also those in a table named after the driver, are `options`."""
+    if not isinstance(data, dict) or "options" in data or not isinstance(name := data.get(choice), str):
+        return data
+    if name not in known:
+        raise ValueError(f'{choice} "{name}" does not exist; there is {", ".join(sorted(known))}')
+    options = {key: value for key, value in data.items() if key not in (choice, name, *own)}
+    table = data.get(name, {})
+    if not isinstance(table, dict):
+        raise ValueError(f"{name} must be a table")
+    section = {key: value for key, value in data.items() if key in (choice, *own)}
+    return {**section, "options": known[name].model_validate(options | table)}
+
+
 class LimitSettings(_Section):
     """`[limits]`: how the machine is moved and when a reading is believed."""
 
     speed_deg_s: Annotated[float, Field(gt=0, le=180)] = 30.0
+    """Speed of every motion of a joint."""
     workspace_margin_mm: Annotated[float, Field(ge=0, le=50)] = 5.0
     """How far outside the workspace a stop may lie."""
     swing_mm: Annotated[float, Field(ge=0, le=200)] = 80.0
     """How far outside it the arm may swing on the way, zero offsets not yet known included."""
     settle_s: Annotated[float, Field(ge=0, le=10)] = 0.3
+    """Pause between standstill and the first sample."""
     samples: Annotated[int, Field(ge=2, le=100)] = 5
+    """Samples of the scale in one reading."""
     scale_spread_mm: Annotated[float, Field(gt=0, le=1)] = 0.05
     """Largest minus smallest sample of one reading."""
     feedback_deg: Annotated[float, Field(gt=0, le=1)] = 0.05
@@ -95,15 +135,20 @@ class ServiceSettings(_Section):
     """`[service]`: where the page and the REST interface listen."""
 
     host: str = "127.0.0.1"
+    """Address to listen at; `0.0.0.0` is every address of this computer."""
     port: Annotated[int, Field(ge=0, le=65535)] = 8000
+    """Port to listen at; 0 takes a free one."""
     database: Path | None = None
+    """File of the history; by default `station.db` in the home folder."""
     api_keys: Path | None = None
+    """Not used yet."""
 
 
 class EmulatedSettings(_Section):
     """`[emulated]`: the machine that stands in when no devices are named."""
 
     rig: Path | None = None
+    """Rig file; by default the paper's group 1."""
     speed: Annotated[float, Field(gt=0, le=1000)] = 50.0
     """How much faster than real time it lives."""
 
@@ -112,6 +157,7 @@ class Settings(_Section):
     """The whole station file; without one, the emulated rig."""
 
     name: str = "Five-bar station"
+    """Shown at the top of the page."""
     scale: ScaleSettings | None = None
     servo: ServoSettings | None = None
     limits: LimitSettings = LimitSettings()
@@ -149,8 +195,11 @@ def load_settings(path: Path | None) -> Settings:
         raise InputRefused(f"Station file {path}: {_sentence(error.errors()[0])}") from error
 
 
-def _sentence(error: ErrorDetails) -> str:
-    *section, option = ["", *(str(part) for part in error["loc"])]
+def _sentence(error: ErrorDetails, inside: tuple[int | str, ...] = ()) -> str:
+    loc = (*inside, *error["loc"])
+    if isinstance(options := error.get("ctx", {}).get("error"), ValidationError):
+        return _sentence(options.errors()[0], loc)
+    *section, option = ["", *(str(part) for part in loc)]
     where = f"[{'.'.join(section[1:])}] {option}" if len(section) > 1 else f"[{option}]" if option else ""
     message = error["msg"].removeprefix("Value error, ")
     if error["type"] == "extra_forbidden":
@@ -160,15 +209,6 @@ def _sentence(error: ErrorDetails) -> str:
     given = error["input"]
     value = f" (given: {given!r})" if not isinstance(given, dict) else ""
     return f"{where}: {message}{value}.".removeprefix(": ")
-
-
-def station_home(option: Path | None) -> Path:
-    """The folder of database, logs and backups: the option, STATION_HOME, or the platform's."""
-    if option is not None:
-        return option
-    if named := os.environ.get("STATION_HOME"):
-        return Path(named)
-    return platformdirs.user_data_path("fivebar-station")
 
 
 def database_path(settings: Settings, home: Path) -> Path:

@@ -1,9 +1,8 @@
 """Compare `identify` and `diagnose` of two revisions on every measurement file that both read.
 
-Run in a checkout with the shared data beside it: `.venv/bin/python -m tests.same_numbers REVISION [FOLDER]`.
-FOLDER keeps the documents of each revision (by default a temporary one); a document that is there already is
-not made again.
-Prints every field that differs; exit status 1 if there is one.
+Run in a checkout with the shared data beside it:
+`.venv/bin/python -m tests.same_numbers BEFORE [AFTER] [--keep FOLDER]`.  A document that is in FOLDER already
+is not made again.  Prints every field that differs, with an instance; exit status 1 if there is one.
 """
 
 from __future__ import annotations
@@ -120,28 +119,39 @@ def differences(a: object, b: object, at: str = "") -> Iterator[str]:
 def main() -> int:
     """Both revisions, side by side."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("revision", help="what to compare the work tree with")
-    parser.add_argument("folder", nargs="?", type=Path, help="keeps the documents")
+    parser.add_argument("before", help="revision to compare with")
+    parser.add_argument("after", nargs="?", help="revision that is compared; without one the work tree")
+    parser.add_argument("--keep", type=Path, help="folder for the documents of both")
     options = parser.parse_args()
-    folder = options.folder or Path(tempfile.mkdtemp())
+    folder = options.keep or Path(tempfile.mkdtemp())
     folder.mkdir(parents=True, exist_ok=True)
-    before = folder / "checkout"
-    if not before.exists():
-        subprocess.run(["git", "worktree", "add", "--detach", before, options.revision], cwd=ROOT, check=True)
+    sides = {
+        name: _checkout(folder / f"{name}-checkout", getattr(options, name)) for name in ("before", "after")
+    }
     todo = list(cases(folder))
-    for checkout, out in ((before, folder / "before"), (ROOT, folder / "after")):
+    for name, checkout in sides.items():
+        out = folder / name
         out.mkdir(exist_ok=True)
         with ThreadPoolExecutor(2) as pool:
             list(pool.map(lambda case, c=checkout, o=out: run(c, case, o), todo))
-    differ = 0
+    differ: dict[str, list[str]] = {}
     for case in todo:
-        name = f"{case.name}.json"
-        a, b = (json.loads((folder / side / name).read_text("utf-8")) for side in ("before", "after"))
+        a, b = (json.loads((folder / side / f"{case.name}.json").read_text("utf-8")) for side in sides)
         for line in differences(a, b):
-            differ += 1
-            print(f"{case.name}{line}")
-    print(f"{len(todo)} documents compared, {differ} fields differ; kept in {folder}")
+            differ.setdefault(line.partition(": ")[0].partition("[")[0], []).append(f"{case.name}{line}")
+    for field, lines in sorted(differ.items()):
+        print(f"{field}: {len(lines)} differences, for instance {lines[0]}")
+    print(f"{len(todo)} documents compared; kept in {folder}")
     return 1 if differ else 0
+
+
+def _checkout(folder: Path, revision: str | None) -> Path:
+    """A work tree of a revision; the one that this script stands in for None."""
+    if revision is None:
+        return ROOT
+    if not folder.exists():
+        subprocess.run(["git", "worktree", "add", "--detach", folder, revision], cwd=ROOT, check=True)
+    return folder
 
 
 if __name__ == "__main__":

@@ -1,14 +1,16 @@
-"""A call that may hang, on a thread of its own: it can neither hold up the event loop nor use up its pool."""
+"""A call that may hang, on a thread that nothing else waits for."""
 
 from __future__ import annotations
 
-import asyncio
+import math
 from collections.abc import Callable
-from concurrent.futures import Future
-from threading import Thread
 from typing import TypeVar
 
+from anyio import CapacityLimiter, fail_after, to_thread
+
 T = TypeVar("T")
+_UNLIMITED = CapacityLimiter(math.inf)
+"""Calls that hang must not use up the threads of the others."""
 
 
 async def aside(function: Callable[[], T], *, timeout_s: float | None = None) -> T:
@@ -16,14 +18,5 @@ async def aside(function: Callable[[], T], *, timeout_s: float | None = None) ->
 
     :raises TimeoutError: it has not come back; its thread is left to itself.
     """
-    future: Future[T] = Future()
-
-    def work() -> None:
-        future.set_running_or_notify_cancel()
-        try:
-            future.set_result(function())
-        except Exception as error:  # noqa: BLE001 - handed to whoever awaits
-            future.set_exception(error)
-
-    Thread(target=work, name="aside", daemon=True).start()
-    return await asyncio.wait_for(asyncio.wrap_future(future), timeout_s)
+    with fail_after(timeout_s):
+        return await to_thread.run_sync(function, abandon_on_cancel=True, limiter=_UNLIMITED)

@@ -4,15 +4,35 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field, JsonValue, StringConstraints
+from pydantic import (
+    AfterValidator,
+    BaseModel,
+    ConfigDict,
+    Field,
+    JsonValue,
+    StringConstraints,
+    WithJsonSchema,
+)
 
 from station.five_bar import Robot as RobotFile
-from station.records import CalibrationSummary, MemorySummary, PlanName, Reading, Record, Sections
+from station.plans import PLANS
+from station.records import CalibrationSummary, MemorySummary, Reading, Record, Sections
 
 Serial = Annotated[
     str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64, pattern=r"^[\w.\-/]+$")
 ]
 Name = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64)]
+
+
+def _known_plan(name: str) -> str:
+    if name not in PLANS:
+        raise ValueError(f"must be one of {', '.join(PLANS)}")
+    return name
+
+
+Plan = Annotated[
+    str, AfterValidator(_known_plan), WithJsonSchema({"type": "string", "enum": [*PLANS], "title": "Plan"})
+]
 
 
 class CalibrationBody(BaseModel):
@@ -21,7 +41,7 @@ class CalibrationBody(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
     robot_serial: Serial
-    plan: PlanName
+    plan: Plan
     operator: Name
     work_order: Name | None = None
     metadata: dict[str, JsonValue] = Field(default_factory=dict)

@@ -2,8 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
+from drivers.driver import ScaleDriver
+from drivers.scales import heidenhain_nd
 from drivers.scales.heidenhain_nd import HeidenhainND
 
+SCALES: Mapping[str, ScaleDriver[Any]] = {"heidenhain-nd": heidenhain_nd.DRIVER}
+"""By `[scale] protocol` of the station file."""
+
 __all__ = [
+    "SCALES",
     "HeidenhainND",
 ]

@@ -10,6 +10,7 @@ else is on the line, and the display itself raises no doubt about it.
 
 from __future__ import annotations
 
+import logging
 import re
 import time
 from collections.abc import Callable
@@ -19,8 +20,11 @@ from typing import TypeVar
 
 from tenacity import Retrying, retry_if_exception_type, stop_after_attempt
 
+from drivers.driver import DriverSettings, ScaleDriver, Seconds
 from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
 from drivers.lines import SerialLine, Trace
+
+log = logging.getLogger(__name__)
 
 _ASK_VALUE = b"\x02"
 _STX, _NAK = b"\x02", b"\x15"
@@ -49,6 +53,13 @@ class Indicator(IntEnum):
     DARK = 0
     LIT = 1
     BLINKING = 2
+
+
+class HeidenhainSettings(DriverSettings):
+    """Options of `protocol = "heidenhain-nd"`."""
+
+    timeout_s: Seconds = 1.0
+    """How long a reply may take."""
 
 
 class HeidenhainND:
@@ -309,3 +320,13 @@ class HeidenhainND:
 
 def _printable(text: bytes) -> bool:
     return re.fullmatch(rb"[ -~]*", text) is not None
+
+
+def _make(settings: HeidenhainSettings) -> HeidenhainND:
+    scale = HeidenhainND(settings.url, timeout_s=settings.timeout_s)
+    if scale.notice:
+        log.warning("%s", scale.notice)
+    return scale
+
+
+DRIVER = ScaleDriver(HeidenhainSettings, _make)

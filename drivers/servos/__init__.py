@@ -2,8 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from typing import Any
+
+from drivers.driver import ServoDriver
+from drivers.servos import leadshine_el7
 from drivers.servos.leadshine_el7 import LeadshineEL7
 
+SERVOS: Mapping[str, ServoDriver[Any]] = {"leadshine-el7": leadshine_el7.DRIVER}
+"""By `[servo] profile` of the station file."""
+
 __all__ = [
+    "SERVOS",
     "LeadshineEL7",
 ]

@@ -7,15 +7,20 @@ word first.  A move is one frame: the path-0 block 6200h..6207h, whose last word
 
 from __future__ import annotations
 
+import logging
 import math
 import time
+from collections.abc import Sequence
 from contextlib import suppress
 from enum import IntFlag
 
+from drivers.driver import Drive, DriverSettings, Seconds, ServoDriver
 from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
 from drivers.lines import ModbusBus, UnansweredWrite
 from drivers.protocols import AxisStatus
 from drivers.scaling import JointScaling
+
+log = logging.getLogger(__name__)
 
 CONTROL_MODE = 0x0003
 ALARM_RESET = 0x0033
@@ -57,6 +62,13 @@ class MotionStatus(IntFlag):
     COMMAND_COMPLETE = 1 << 4
     PATH_COMPLETE = 1 << 5
     HOMED = 1 << 6
+
+
+class LeadshineSettings(DriverSettings):
+    """Options of `profile = "leadshine-el7"`."""
+
+    timeout_s: Seconds = 0.3
+    """The longest time that a drive on this line takes to reply."""
 
 
 class LeadshineEL7:
@@ -290,3 +302,13 @@ def _words(value: int) -> tuple[int, int]:
 def _signed(words: list[int]) -> int:
     value = words[0] << 16 | words[1]
     return value - (1 << 32) if value & (1 << 31) else value
+
+
+def _make(settings: LeadshineSettings, drives: Sequence[Drive]) -> tuple[LeadshineEL7, ...]:
+    bus = ModbusBus(settings.url, timeout_s=settings.timeout_s)
+    if bus.notice:
+        log.warning("%s", bus.notice)
+    return tuple(LeadshineEL7(bus, drive.unit, drive.scaling, name=drive.name) for drive in drives)
+
+
+DRIVER = ServoDriver(LeadshineSettings, _make)

@@ -10,30 +10,30 @@ import click
 
 from station import __version__
 from station.errors import InputRefused, NotFound
-from station.settings import station_home
+from station.home import station_home
 
-_MODULES = {
-    "apply": "apply",
-    "backup": "archive",
-    "bench": "studies",
-    "calibrate": "calibrate",
-    "confusion": "confusion",
-    "diagnose": "diagnosis",
-    "export": "archive",
-    "identify": "numerics",
-    "import": "importing",
-    "memory": "history",
-    "plan": "numerics",
-    "real-robot": "real_robot",
-    "reproduce": "studies",
-    "rollback": "apply",
-    "runs": "history",
-    "serve": "serve",
-    "show": "history",
-    "solve": "diagnosis",
-    "transfer": "diagnosis",
+_COMMANDS = {
+    "apply": ("apply", "Write the zero offsets of a passed run to the drives and verify them."),
+    "backup": ("archive", "A copy of the whole history in one new file, made while the station works."),
+    "bench": ("studies", "Figures of speed and size, beside those of others where they are installed."),
+    "calibrate": ("calibrate", "One calibration run, with live progress."),
+    "confusion": ("confusion", "The diagnosis judged on random emulated machines."),
+    "diagnose": ("diagnosis", "Trace what the model leaves over to its cause."),
+    "export": ("archive", "The readings of one run as a measurement file."),
+    "identify": ("identify", "Zero offsets with uncertainty from a measurement file."),
+    "import": ("importing", "Keep a measurement file as a finished run, with its diagnosis."),
+    "memory": ("history", "What a robot's next run knows of its geometry and mechanism."),
+    "plan": ("plan", "The positions of a plan, their order and the accuracy they predict."),
+    "real-robot": ("real_robot", "The closed loop on logs of a real arm, as figures and drawings."),
+    "reproduce": ("studies", "The paper's tables and figures, computed again beside ours."),
+    "rollback": ("apply", "Put the zeros back that the drives had before a run was applied."),
+    "runs": ("history", "The runs, newest first."),
+    "serve": ("serve", "The service with the operator's page."),
+    "show": ("history", "One run."),
+    "solve": ("diagnosis", "Joint commands for target positions under the identified model."),
+    "transfer": ("diagnosis", "Apply the effects learned on one log, unchanged, to another log."),
 }
-"""Where each command is; imported when it is asked for, since the numerics take a second to load."""
+"""Module and purpose of each command; imported when it is asked for, since the numerics take long to load."""
 
 
 class Refusal(click.ClickException):
@@ -49,13 +49,19 @@ class StationGroup(click.Group):
     """Whatever refuses the input, the person at the terminal reads one sentence."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
-        return sorted(_MODULES)
+        return sorted(_COMMANDS)
+
+    def format_commands(self, ctx: click.Context, formatter: click.HelpFormatter) -> None:
+        with formatter.section("Commands"):
+            formatter.write_dl([(name, _COMMANDS[name][1]) for name in self.list_commands(ctx)])
 
     def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
-        if cmd_name not in _MODULES:
+        if cmd_name not in _COMMANDS:
             return None
-        module = import_module(f"{__name__}.{_MODULES[cmd_name]}")
+        module = import_module(f"{__name__}.{_COMMANDS[cmd_name][0]}")
         command: click.Command = getattr(module, f"{cmd_name.replace('-', '_')}_command")
+        if not any(option.name == "home" for option in command.params):
+            command.params.append(_home(expose_value=False, callback=_set_home))
         return command
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
@@ -77,14 +83,27 @@ def _refusal(error: Exception) -> click.ClickException:
     return Refusal(error.format_message() if isinstance(error, click.UsageError) else str(error))
 
 
+def _home(**how: Any) -> click.Option:
+    return click.Option(
+        ["--home"],
+        type=click.Path(file_okay=False, path_type=Path),
+        help="Folder of database and logs; else STATION_HOME, else the platform's data folder.",
+        **how,
+    )
+
+
+def _set_home(context: click.Context, _option: click.Parameter, home: Path | None) -> None:
+    """After the command's name, too."""
+    if home is not None:
+        context.obj = station_home(home)
+
+
 @click.group(cls=StationGroup)
 @click.version_option(__version__)
-@click.option(
-    "--home",
-    type=click.Path(file_okay=False, path_type=Path),
-    help="Folder of database and logs; else STATION_HOME, else the platform's data folder.",
-)
 @click.pass_context
 def main(context: click.Context, home: Path | None) -> None:
     """Calibrate the zero offsets of a five-bar robot."""
     context.obj = station_home(home)
+
+
+main.params.append(_home())

@@ -2,36 +2,30 @@
 
 from __future__ import annotations
 
-from contextlib import closing
 from pathlib import Path
 
 import click
 
+from station.cli.kept import config_option, kept
 from station.records import readings_to_csv
-from station.settings import database_path, load_settings
-from station.store import Store
-
-_config = click.option(
-    "--config", type=click.Path(path_type=Path), help="Station file that names the database."
-)
 
 
 @click.command("export")
 @click.argument("calibration_id", metavar="ID", type=click.IntRange(1, 2**63 - 1))
-@_config
+@config_option
 @click.pass_obj
 def export_command(home: Path, calibration_id: int, config: Path | None) -> None:
     """One run's readings as a measurement file on standard output."""
-    with closing(Store(database_path(load_settings(config), home))) as store:
+    with kept(home, config) as store:
         click.echo(readings_to_csv(store.readings(calibration_id)), nl=False)
 
 
 @click.command("backup")
 @click.argument("file", type=click.Path(dir_okay=False, path_type=Path))
-@_config
+@config_option
 @click.pass_obj
 def backup_command(home: Path, file: Path, config: Path | None) -> None:
     """Copy the database to a new FILE, also while the service runs."""
-    with closing(Store(database_path(load_settings(config), home))) as store:
+    with kept(home, config) as store:
         store.backup(file)
     click.echo(f"Backed up to {file}.")

@@ -4,20 +4,20 @@ from __future__ import annotations
 
 import getpass
 from pathlib import Path
-from typing import get_args
 
 import click
 
 from station.cli.machine_options import machine_options, read_settings
 from station.cli.one_run import one_run
 from station.five_bar import Robot
+from station.plans import PLANS
 from station.records import CalibrationRequest, PlanName
 from station.run_kinds import kind_of_plan
 from station.service import Runtime, Submitted
 
 
 @click.command("calibrate")
-@click.option("--plan", type=click.Choice(get_args(PlanName)), default="paper", show_default=True)
+@click.option("--plan", type=click.Choice(tuple(PLANS)), default="paper", show_default=True)
 @click.option("--serial", help="Of the robot; else the robot file's.")
 @click.option("--robot", "robot_file", type=click.Path(path_type=Path), help="Robot file, kept from then on.")
 @click.option("--operator", help="Who is responsible; else the user of this terminal.")

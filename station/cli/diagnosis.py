@@ -9,7 +9,7 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station.cli.numerics import check_folders, describe, measured_option, write_json, write_text
+from station.cli.files import check_folders, describe, measured_option, write_json, write_text
 from station.diagnosis import (
     Context,
     Findings,

@@ -7,7 +7,6 @@ import getpass
 import json
 import sys
 from collections.abc import Iterator
-from contextlib import closing
 from dataclasses import asdict
 from itertools import islice
 from pathlib import Path
@@ -18,8 +17,8 @@ from rich.box import SIMPLE
 from rich.console import Console
 from rich.table import Table
 
+from station.cli.kept import config_option, kept
 from station.records import State
-from station.settings import database_path, load_settings
 from station.store import Store
 
 _COLUMNS = (
@@ -50,10 +49,6 @@ _TOLD = (
 )  # fmt: skip
 _SHOWN = ("id", "created_at", "robot_serial", "plan", "state", "verdict", "dtheta1_deg", "dtheta2_deg")
 
-_config = click.option(
-    "--config", type=click.Path(path_type=Path), help="Station file that names the database."
-)
-
 
 @click.command("runs")
 @click.option("--csv", "as_csv", is_flag=True, help="All columns, comma separated, on standard output.")
@@ -61,7 +56,7 @@ _config = click.option(
 @click.option("--serial", help="Of this robot only.")
 @click.option("--state", type=click.Choice([str(state) for state in State]))
 @click.option("--verdict", type=click.Choice(["pass", "fail"]))
-@_config
+@config_option
 @click.pass_obj
 def runs_command(
     home: Path,
@@ -73,7 +68,7 @@ def runs_command(
     config: Path | None,
 ) -> None:
     """The runs, newest first."""
-    with closing(Store(database_path(load_settings(config), home))) as store:
+    with kept(home, config) as store:
         rows = _every(store, robot_serial=serial, state=state, verdict=verdict)
         if as_csv:
             writer = csv.DictWriter(sys.stdout, _COLUMNS)
@@ -120,11 +115,11 @@ def _cell(value: object) -> str:
 @click.command("show")
 @click.argument("calibration_id", metavar="ID", type=click.IntRange(1, 2**63 - 1))
 @click.option("--json", "as_json", is_flag=True, help="Everything, readings and events included, as JSON.")
-@_config
+@config_option
 @click.pass_obj
 def show_command(home: Path, calibration_id: int, as_json: bool, config: Path | None) -> None:
     """One run."""
-    with closing(Store(database_path(load_settings(config), home))) as store:
+    with kept(home, config) as store:
         calibration = store.calibration(calibration_id)
         readings = store.readings(calibration_id)
         events = store.events(calibration_id)
@@ -158,12 +153,12 @@ def show_command(home: Path, calibration_id: int, as_json: bool, config: Path | 
 @click.command("memory")
 @click.argument("serial")
 @click.option("--clear", is_flag=True, help="The next run starts without it.")
-@_config
+@config_option
 @click.pass_obj
 def memory_command(home: Path, serial: str, clear: bool, config: Path | None) -> None:
     """What a robot's next run knows of its geometry and mechanism."""
     console = Console(highlight=False)
-    with closing(Store(database_path(load_settings(config), home))) as store:
+    with kept(home, config) as store:
         store.robot(serial)
         if clear:
             store.forget(serial, getpass.getuser())

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import click
 
+from station.cli.kept import new_history
 from station.errors import InputRefused
 from station.five_bar import Robot
 from station.records import CalibrationRequest
@@ -40,8 +41,12 @@ def import_command(
     learned = _read(data)
     fresh = _read(fresh_file) if fresh_file else None
     request = CalibrationRequest(serial, "import", operator)
-    with closing(Store(database_path(load_settings(config), context.obj))) as store:
+    path = database_path(load_settings(config), context.obj)
+    new = new_history(path)
+    with closing(Store(path)) as store:
         run = store.summary(import_dataset(store, request, learned, fresh).id)
+    if new:
+        click.echo(new, err=True)
     click.echo(f"Run {run.id}: {run.verdict}. {run.reason}")
     context.exit(0 if run.verdict == "pass" else 1)
 

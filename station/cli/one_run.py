@@ -13,12 +13,13 @@ from typing import NoReturn
 import click
 from rich.console import Console
 
+from station.cli.kept import new_history
 from station.cli.machine_options import logging_to
 from station.cli.progress import progress
 from station.errors import NotApplicable
 from station.records import Calibration, State
 from station.service import Runtime, Submitted
-from station.settings import Settings
+from station.settings import Settings, database_path
 
 _STOP_LIMIT_S = 15.0
 
@@ -31,9 +32,12 @@ def one_run(
     :raises InputRefused: the station cannot be opened or refuses the run.
     :raises click.UsageError: the offsets it is about cannot be written or taken back.
     """
+    new = new_history(database_path(settings, home))
     logs = logging_to(home, terminal=logging.ERROR)
     with _interruptible(), logs, Runtime.open(settings, home, emulate) as runtime:
         console = Console(highlight=False)
+        if new:
+            click.echo(new, err=True)
         with progress(console, runtime.orchestrator):
             try:
                 calibration_id = submit(runtime).id

@@ -12,9 +12,11 @@ from types import FrameType
 import click
 import uvicorn
 
+from station.cli.kept import new_history
 from station.cli.machine_options import logging_to, machine_options, read_settings
 from station.errors import InputRefused
 from station.service import Orchestrator, Runtime
+from station.settings import database_path
 from web.app import create_app
 
 _GRACE_S = 3
@@ -37,9 +39,12 @@ def serve_command(
 ) -> None:
     """The service with the operator's page."""
     settings = read_settings(config, speed)
+    new = new_history(database_path(settings, home))
     logs = logging_to(home, terminal=logging.WARNING)
     listener = _listen(host or settings.service.host, settings.service.port if port is None else port)
     with logs, listener, Runtime.open(settings, home, emulate) as runtime:
+        if new:
+            click.echo(new, err=True)
         application = create_app(runtime)
         server = _Server(
             uvicorn.Config(

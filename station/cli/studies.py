@@ -8,8 +8,9 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station.cli.numerics import check_folders, write_json, write_text
+from station.cli.files import check_folders, write_json, write_text
 from station.studies.bench import bench
+from station.studies.engine import Engine
 from station.studies.reproduce import make_page, run_study
 
 _file = click.Path(dir_okay=False, path_type=Path)
@@ -19,12 +20,20 @@ SEEDS = 200
 @click.command("reproduce")
 @click.option("--json", "json_file", type=_file, help="Write every figure here.")
 @click.option("--html", "html_file", type=_file, help="Write tables and plots as one page here.")
+@click.option("--workers", type=click.IntRange(1), help="Processes; one for each core without it.")
+@click.option("--resume", type=click.Path(file_okay=False, path_type=Path), help="Folder to go on from.")
 @click.option("--seeds", type=click.IntRange(2), default=SEEDS, show_default=True, help="Machines a row.")
-def reproduce_command(json_file: Path | None, html_file: Path | None, seeds: int) -> None:
+def reproduce_command(
+    json_file: Path | None,
+    html_file: Path | None,
+    seeds: int,
+    workers: int | None,
+    resume: Path | None,
+) -> None:
     """The paper's tables and figures beside ours."""
     check_folders(json_file, html_file)
     console = Console()
-    content = run_study(seeds, console)
+    content = run_study(seeds, Engine(console, workers, resume))
     if json_file:
         write_json(json_file, content)
     if html_file:

@@ -1,4 +1,4 @@
-"""The closed loop: residual, cause, model, confirmation (method.md section 3)."""
+"""The closed loop: residual, cause, model, confirmation."""
 
 from __future__ import annotations
 

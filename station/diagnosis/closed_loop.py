@@ -1,4 +1,4 @@
-"""The closed loop: residual, causes, model, confirmation (method.md sections 3 and 4)."""
+"""The closed loop on one set of readings, with or without fresh ones."""
 
 from __future__ import annotations
 

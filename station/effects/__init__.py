@@ -1,4 +1,4 @@
-"""The catalogue: one small unit an effect (method.md section 3).
+"""The catalogue: one small unit an effect.
 
 A new effect is one new file and one line in the catalogue of each machine that can have it.
 """

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from scipy import stats
+from scipy.special import chdtrc, fdtrc, ndtri, stdtrit
 
 from station.fitting.least_squares import Solution
 from station.records import Measurements, NoiseOfReadings, Real
@@ -37,7 +37,7 @@ class Noise:
     @property
     def coverage_factor(self) -> float:
         """k of the 95 % interval: Student's t for the repeats' degrees of freedom (GUM, G.3)."""
-        return float(stats.t.ppf(0.975, self.dof)) if self.dof else float(stats.norm.ppf(0.975))
+        return float(stdtrit(self.dof, 0.975)) if self.dof else float(ndtri(0.975))
 
     def record(self) -> NoiseOfReadings:
         """As documents show it."""
@@ -77,9 +77,9 @@ def lack_of_fit(
     dof = len(solution.residual) - free
     ratio = float(np.sqrt(max(solution.cost / dof, 1.0)))
     if noise.source == "specification":
-        return float(stats.chi2.sf(solution.cost, dof)), ratio
+        return float(chdtrc(dof, solution.cost)), ratio
     pure, pure_dof = pure_error(measurements, solution.residual)
     lack, lack_dof = max(solution.cost - pure, 0.0), dof - pure_dof
     if lack_dof <= 0:
         return 1.0, 1.0
-    return float(stats.f.sf((lack / lack_dof) / (pure / pure_dof), lack_dof, pure_dof)), ratio
+    return float(fdtrc(lack_dof, pure_dof, (lack / lack_dof) / (pure / pure_dof))), ratio

@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
+from scipy.special import ndtri
 
 from station.errors import InputRefused
 from station.fitting.least_squares import Solution
@@ -80,7 +80,7 @@ def outliers_of_fit(mechanism: Mechanism, solution: Solution, row_sd: Real) -> t
 
 
 def _limit(t: Real) -> float:
-    return float(stats.norm.isf(SIGNIFICANCE / (2 * len(t))))
+    return float(-ndtri(SIGNIFICANCE / (2 * len(t))))
 
 
 def _named(mechanism: Mechanism, residual: Real, t: Real, scale: float, row_sd: Real) -> tuple[Outlier, ...]:

@@ -47,7 +47,7 @@ def inverse(geometry: Geometry, r: Complex) -> Real:
     """Eq. 3: joint angles theta (K, 2) that bring P to r (K,).
 
     The half-angle form of eq. 3 is solved as the triangle A_i B_i P it stands for; the paper's
-    print has the signs of D^2 and E^2 under the root exchanged (docs/method-notes.md).
+    print has the signs of D^2 and E^2 under the root exchanged (docs/explanation/method.md).
 
     :raises Unreachable: naming the first position out of reach.
     """

@@ -1,4 +1,4 @@
-"""The five-bar as a mechanism: the measurement model of method.md section 2 with its derivatives.
+"""The five-bar as a mechanism: the measurement model (docs/explanation/method.md) with its derivatives.
 
 s_k = rho(theta_fb,k + dtheta; e, L, l, dr_M) - rho_0, one rho_0 and one dr_M a mount.
 """

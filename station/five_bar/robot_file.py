@@ -7,7 +7,7 @@ multiplication by i and a unit vector u(theta) is exp(i theta).
 |---|---|---|---|
 | e_i | `e` | mm | eq. 1, Table 1 |
 | L_i, l_i | `L`, `l` | mm | eq. 1, Table 1 |
-| c, d | `c`, `d` | mm | eq. 4, Fig. 4 (signs: method.md section 1) |
+| c, d | `c`, `d` | mm | eq. 4, Fig. 4 (signs: docs/explanation/method.md) |
 | dr_M | `drm`, `drm_sd` | mm | eq. 17 |
 """
 
@@ -171,38 +171,58 @@ Sign = Literal[-1, 1]
 
 class _ToleranceSection(Section):
     e_mm: Positive = 0.03
+    """Of each coordinate of the base joints."""
     link_mm: Positive = 0.03
+    """Of each link length."""
     zero_offset_deg: Positive = 3.0
+    """Of each zero offset."""
 
 
 class _RobotSection(Section):
     serial: Annotated[str, Field(min_length=1)] = "unnamed"
+    """Serial number of the robot."""
     model: Literal["five-bar"] = "five-bar"
+    """Kind of machine."""
     e: tuple[tuple[Finite, Finite], tuple[Finite, Finite]] = Robot.e
+    """Base joints 1 and 2, (x, y), mm."""
     L: Positive | tuple[Positive, Positive] = Robot.L
+    """Proximal links, mm; one number is both."""
     l: Positive | tuple[Positive, Positive] = Robot.l  # noqa: E741
+    """Distal links, mm; one number is both."""
     tolerance: _ToleranceSection = _ToleranceSection()
 
 
 class _MechanismSection(Section):
     c: tuple[Finite, Finite] = Robot.c
+    """Mounting point of the mechanism, mm."""
     d: tuple[Finite, Finite] = Robot.d
+    """From there to the pivot of the scale, mm."""
     drm_mm: tuple[Finite, Finite] = Robot.drm
+    """Expected mounting error, mm."""
     drm_sd_mm: Positive | tuple[Positive, Positive] = Robot.drm_sd
+    """How well it is known, mm."""
     mounts: dict[str, tuple[Finite, Finite]] = Field(default_factory=dict)
+    """Further mounting points c by the `mount` id of the measurement file, mm."""
 
 
 class _WorkspaceSection(Section):
     x: tuple[Finite, Finite] = Robot.workspace_x
+    """From, to, mm."""
     y: tuple[Finite, Finite] = Robot.workspace_y
+    """From, to, mm."""
 
 
 class _JointsSection(Section):
     counts_per_rev: Annotated[int, Field(gt=0)] = Robot.counts_per_rev
+    """Pulses per revolution of the motor."""
     ratio: Positive = Robot.ratio
+    """Revolutions of the motor per revolution of the joint."""
     zero_at_deg: tuple[Finite, Finite] = Robot.zero_at_deg
+    """Joint angles at the zeros of the drives."""
     sign: Sign | tuple[Sign, Sign] = Robot.sign  # type: ignore[assignment]
+    """1 if a joint angle grows with the pulses of its drive, else -1; one number is both."""
     feedback_sd_deg: Annotated[float, Field(ge=0, allow_inf_nan=False)] | None = None
+    """What the feedback leaves open of the true angle; by default the unresolved part of one pulse."""
 
 
 class RobotFile(Section):

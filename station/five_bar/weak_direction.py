@@ -2,7 +2,7 @@
 
 The distance leaves three directions exactly blind (both base joints and the mechanism shifted
 together in x or y; the whole robot turned about O_1) and the remains of the third weak: both arms
-together with a sideways error of the mechanism (method.md section 1).
+together with a sideways error of the mechanism.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ BLIND = (
     "the whole robot turned about the mechanism's joint on the base",
 )
 KNOWN_DRM_SD_MM = 0.02
-"""What a careful measurement of the mechanism reaches (method.md section 2)."""
+"""What a careful measurement of the mechanism reaches."""
 SECOND_MOUNT_MM = 200.0
 
 

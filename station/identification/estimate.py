@@ -7,7 +7,7 @@ optionally what earlier runs know.  Out: parameters with uncertainty, residuals,
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Generic, TypeVar, overload
+from typing import Any, Generic, TypeVar, overload
 
 import numpy as np
 
@@ -33,7 +33,6 @@ from station.machines import AnyMechanism, AnyRobot, kind_of, mechanism_of
 from station.mechanism import by_reading, reference_of
 from station.model import Fit, Model, fit
 from station.records import Measurements, PositionError, Quantity, Real, WeakDirection
-from station.serial_arm import Arm, SerialArm
 
 LACK_OF_FIT_P = 1e-3
 M = TypeVar("M", bound=AnyMechanism)
@@ -123,9 +122,13 @@ class Identification(Generic[M_co]):
         return Memory(names, self.p[kept], self.covariance[np.ix_(kept, kept)])
 
     def quantities(self) -> tuple[Quantity, ...]:
-        """Every parameter in shown units with its standard uncertainty, never more than its tolerance."""
-        tolerance = [p.prior_sd for p in self.mechanism.parameters]
-        sd = np.minimum(np.sqrt(np.diag(self.covariance)), tolerance)
+        """Every parameter in shown units with its standard uncertainty.
+
+        Without repeats everything grows by the misfit, so what a tolerance alone determines stays at it.
+        """
+        sd = np.sqrt(np.diag(self.covariance))
+        if not self.mechanism.needs_repeats:
+            sd = np.minimum(sd, [p.prior_sd for p in self.mechanism.parameters])
         return tuple(
             Quantity(p.name, float(x * p.shown), float(s * p.shown), p.unit)
             for p, x, s in zip(self.mechanism.parameters, self.p, sd, strict=True)
@@ -165,11 +168,11 @@ def identify(
 ) -> Identification[FiveBar]: ...
 @overload
 def identify(
-    robot: Arm, measurements: Measurements, memory: Memory | None = ...
-) -> Identification[SerialArm]: ...
+    robot: AnyRobot, measurements: Measurements, memory: Memory | None = ...
+) -> Identification[AnyMechanism]: ...
 def identify(
     robot: AnyRobot, measurements: Measurements, memory: Memory | None = None
-) -> Identification[FiveBar] | Identification[SerialArm]:
+) -> Identification[Any]:
     """Fit the measurement model to readings, outlying ones found, named and left out.
 
     `memory`, already aged, is what earlier calibrations of this robot and mechanism know; readings that
@@ -180,7 +183,7 @@ def identify(
     """
     mechanism = mechanism_of(robot, measurements)
     mechanism.check()
-    return _identify(mechanism, memory)  # type: ignore[return-value]
+    return _identify(mechanism, memory)
 
 
 def _identify(everything: M, memory: Memory | None) -> Identification[M]:
@@ -212,7 +215,7 @@ def _identify(everything: M, memory: Memory | None) -> Identification[M]:
 def _without(mechanism: M, left_out: tuple[Outlier, ...]) -> M:
     named = {o.reading for o in left_out}
     m = mechanism.measurements
-    return mechanism.of(m.take(np.array([i not in named for i in m.ids])))  # type: ignore[return-value]
+    return mechanism.of(m.take(np.array([i not in named for i in m.ids])))
 
 
 def _check_enough(mechanism: AnyMechanism) -> None:
@@ -239,7 +242,7 @@ def _at_noise(mechanism: M, prior: Prior, left_out: tuple[Outlier, ...]) -> Iden
         mechanism=mechanism,
         fit=found,
         noise=noise,
-        sd_factor=ratio if p_value < LACK_OF_FIT_P else 1.0,
+        sd_factor=ratio if p_value < LACK_OF_FIT_P or not mechanism.needs_repeats else 1.0,
         lack_of_fit_p=p_value,
         outliers=left_out,
         gate=None,

@@ -10,7 +10,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
+from scipy.special import chdtrc
 
 from station.fitting import Prior, Solution
 from station.mechanism import Parameter
@@ -87,4 +87,4 @@ def contradiction_p(solution: Solution, prior: Prior, parameters: tuple[Paramete
     if not can_tell.any():
         return 1.0
     square = (U[:, can_tell].T @ misfit) ** 2 / (1.0 + sigma[can_tell] ** 2)
-    return float(stats.chi2.sf(square.sum(), int(can_tell.sum())))
+    return float(chdtrc(int(can_tell.sum()), square.sum()))

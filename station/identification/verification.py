@@ -5,9 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
 from scipy.linalg import null_space
-from scipy.stats import qmc
+from scipy.special import chdtrc
 
 from station.five_bar import FiveBar, inverse
 from station.identification.estimate import Identification
@@ -38,6 +37,8 @@ def fresh_stops(
 
     :param count: a power of two
     """
+    from scipy.stats import qmc  # here, because it takes a second to load and only a run needs it
+
     robot = fit.mechanism.robot
     low = (robot.workspace_x[0] + FRESH_INSET_MM, robot.workspace_y[0] + FRESH_INSET_MM)
     high = (robot.workspace_x[1] - FRESH_INSET_MM, robot.workspace_y[1] - FRESH_INSET_MM)
@@ -86,7 +87,7 @@ def verify(fit: Identification[FiveBar], fresh: Measurements, *, offset_known: b
     rest, its_covariance = told.T @ residual, told.T @ covariance @ told
     square = float(rest @ np.linalg.solve(its_covariance, rest))
     sd = np.sqrt(np.diag(told @ its_covariance @ told.T))
-    return Verification(told @ rest, sd, float(stats.chi2.sf(square, len(rest))))
+    return Verification(told @ rest, sd, float(chdtrc(len(rest), square)))
 
 
 def result_of(

@@ -35,6 +35,11 @@ def explanation(group: Group, id: str) -> str:
     return "" if isinstance(entry, str) else entry["text"]
 
 
+def reasons() -> dict[str, str]:
+    """The sentence of every reason, by its code."""
+    return {code: text for code, text in _texts()["reasons"].items() if isinstance(text, str)}
+
+
 def reason_text(code: str, params: dict[str, float | int | str]) -> str:
     """A reason in a sentence.  :raises KeyError: an unknown code, or a parameter that its sentence needs."""
     template = _texts()["reasons"][code]

@@ -74,8 +74,10 @@ class EmulatedRig:
         joints = settings.servo.joint if settings.servo else DEFAULT_JOINTS
         return settings.model_copy(
             update={
-                "scale": ScaleSettings(protocol="heidenhain-nd", url=self.scale_url),
-                "servo": ServoSettings(profile="leadshine-el7", url=self.servo_url, joint=joints),
+                "scale": ScaleSettings.model_validate({"protocol": "heidenhain-nd", "url": self.scale_url}),
+                "servo": ServoSettings.model_validate(
+                    {"profile": "leadshine-el7", "url": self.servo_url, "joint": joints}
+                ),
             }
         )
 

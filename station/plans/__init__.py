@@ -1,17 +1,27 @@
-"""Measurement plans: which positions, in which order, and the accuracy that they predict."""
+"""Measurement plans: which positions, in which order, and the accuracy that they predict.
+
+Each plan is a module that registers itself.  Importing the package registers them all.
+"""
 
 from __future__ import annotations
 
+from station.plans import boundary, diagnostic_sequence, full  # noqa: F401 - they register themselves
 from station.plans.diagnostic_sequence import FRESH_PLACES, SIDES, diagnostic_fresh_stops
 from station.plans.drawing import plan_as_text, plan_page
-from station.plans.plans import make_plan, predict
+from station.plans.plan import PLANS, PlanDesign, Visits, each_once, make_plan, register
+from station.plans.prediction import predict
 
 __all__ = [
     "FRESH_PLACES",
+    "PLANS",
     "SIDES",
+    "PlanDesign",
+    "Visits",
     "diagnostic_fresh_stops",
+    "each_once",
     "make_plan",
     "plan_as_text",
     "plan_page",
     "predict",
+    "register",
 ]

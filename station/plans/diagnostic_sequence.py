@@ -1,4 +1,4 @@
-"""Where to read to find the cause of a residual: a grid there and back, and fresh places afterwards.
+"""Plan `diagnostic`: a grid there and back that shows the cause of a residual, and fresh places afterwards.
 
 There and back shows most places from both sides, ten places read before and twice afterwards from the
 same side show the noise and what time does.
@@ -10,6 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.five_bar import Robot, inverse
+from station.plans.full import INSET_MM
+from station.plans.plan import PlanDesign, Visits, register
 from station.records import Complex, Real, Stop
 
 COLUMNS, ROWS = 9, 5
@@ -49,3 +51,11 @@ def diagnostic_fresh_stops(robot: Robot, dtheta: Real, seed: int) -> tuple[Stop,
         Stop(f"F{k + 1}", (float(x[k]), float(y[k])), (float(theta[k, 0]), float(theta[k, 1])))
         for k in range(FRESH_PLACES)
     )
+
+
+def there_and_back(robot: Robot) -> Visits:
+    """The grid, its places and their approaches."""
+    return Visits(diagnostic_grid(robot, INSET_MM), *diagnostic_visits())
+
+
+DIAGNOSTIC = register(PlanDesign("diagnostic", there_and_back, run_kind="diagnose"))

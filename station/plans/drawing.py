@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 
 from station.five_bar import Robot
-from station.plans.plans import Plan
+from station.plans.plan import Plan
 from station.report import Chart, Page, Section, Table, place_map
 
 COLUMNS, ROWS = 61, 13

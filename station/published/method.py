@@ -18,8 +18,8 @@ from station.records import Complex, Real
 def distance_rows(geometry: Geometry, theta: Real, drm: complex = 0j) -> Real:
     """(K, 12) g'_k of eq. 21, columns L dtheta; with the MAEMM known so far, along f of eq. 30.
 
-    f = lambda - dr_M: the minus sign is the one that agrees with the paper's own kappa_m
-    (method.md section 1); as printed, with a plus, the modification leads away.
+     f = lambda - dr_M: the minus sign is the one that agrees with the paper's own kappa_m
+    ; as printed, with a plus, the modification leads away.
     """
     at = pose(Geometry(geometry.e, geometry.L, geometry.l, geometry.cd + drm), theta)
     rows = distance_jacobian(geometry, at)
@@ -33,7 +33,7 @@ def identification_matrix(geometry: Geometry, theta: Real, drm: complex = 0j) ->
 
 
 def full_identification_matrix(geometry: Geometry, theta: Real) -> Real:
-    """G' (K-1, 12) of eq. 24.  Its rank is 9 for any K, not 12 as printed (method.md section 1)."""
+    """G' (K-1, 12) of eq. 24.  Its rank is 9 for any K, not 12 as printed."""
     return np.diff(distance_rows(geometry, theta), axis=0)
 
 

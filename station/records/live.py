@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Literal, get_args
+from typing import Literal
 
 from station.records.calibration import CalibrationSummary
 from station.records.record import Record
@@ -20,7 +20,7 @@ class StationInfo(Record):
     emulated: bool
     limits: dict[str, float]
     """The options of `[limits]` in the station file."""
-    plans: tuple[PlanName, ...] = get_args(PlanName)
+    plans: tuple[PlanName, ...]
     """Plans that this station can run."""
 
 

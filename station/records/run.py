@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Any, Literal
+from typing import Any
 
 
 class State(StrEnum):
@@ -25,8 +25,8 @@ class State(StrEnum):
         return self not in (State.QUEUED, State.RUNNING)
 
 
-PlanName = Literal["paper", "rapid", "full", "diagnostic"]
-
+PlanName = str
+"""A name of `station.plans.PLANS`."""
 
 _LABELS = {"separate": "separating", "import": "dataset"}
 """Kinds of run whose `plan` had another name before kinds had names."""

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from station.run_kinds import apply, calibrate, diagnose, import_file, separate
+from station.run_kinds import apply, calibrate, diagnose, import_file, separate  # noqa: F401 - they register themselves
 from station.run_kinds.diagnose import diagnosed
 from station.run_kinds.import_file import Upload, import_dataset
 from station.run_kinds.kind import RUN_KINDS, Continued, RunKind, Start, kind_of_plan
 from station.run_kinds.separate import planned
 from station.run_kinds.zero_state import application
-
-_MODULES = (apply, calibrate, diagnose, import_file, separate)
-"""Imported for what they register."""
 
 __all__ = [
     "RUN_KINDS",

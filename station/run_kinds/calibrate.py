@@ -77,4 +77,4 @@ def fit_of(
     )
 
 
-CALIBRATE = register(RunKind("calibrate", calibrate, plans=("paper", "rapid", "full"), offsets=True))
+CALIBRATE = register(RunKind("calibrate", calibrate, offsets=True))

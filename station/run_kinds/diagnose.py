@@ -106,4 +106,4 @@ def _seed(walk: Measurements) -> int:
     return zlib.crc32(np.ascontiguousarray(walk.distance).tobytes())
 
 
-DIAGNOSE = register(RunKind("diagnose", lambda start: diagnostic(start.robot), plans=("diagnostic",)))
+DIAGNOSE = register(RunKind("diagnose", lambda start: diagnostic(start.robot)))

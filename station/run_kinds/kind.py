@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from station.five_bar import Robot
+from station.plans import PLANS
 from station.records import CalibrationRequest, PlanName, Procedure, Reading
 from station.store import Store
 
@@ -61,8 +62,6 @@ class RunKind:
 
     :raises InputRefused: it cannot be made for this robot.
     """
-    plans: tuple[PlanName, ...] = ()
-    """Plans that are measured by this kind; a start request that names one of them is of this kind."""
     check: Callable[[Store, CalibrationRequest], None] = _nothing_to_check
     """Before anything is stored.  :raises NotApplicable: the earlier run does not allow it; says why."""
     done_by: Callable[[Store, int], int | None] | None = None
@@ -72,6 +71,11 @@ class RunKind:
     offsets: bool = False
     """Whether the zero offsets of a pass may be written to the drives."""
 
+    @property
+    def plans(self) -> tuple[PlanName, ...]:
+        """Plans that this kind measures by; a start request that names one of them is of this kind."""
+        return tuple(plan.name for plan in PLANS.values() if plan.run_kind == self.name)
+
 
 _KINDS: dict[str, RunKind] = {}
 RUN_KINDS: Mapping[str, RunKind] = MappingProxyType(_KINDS)
@@ -79,14 +83,13 @@ RUN_KINDS: Mapping[str, RunKind] = MappingProxyType(_KINDS)
 
 
 def register(kind: RunKind) -> RunKind:
-    """Make a kind known.  :raises ValueError: its name or one of its plans is taken."""
-    taken = {plan for other in _KINDS.values() for plan in other.plans}
-    if kind.name in _KINDS or taken & set(kind.plans):
-        raise ValueError(f"the run kind {kind.name} or one of its plans is registered already")
+    """Make a kind known.  :raises ValueError: its name is taken."""
+    if kind.name in _KINDS:
+        raise ValueError(f"the run kind {kind.name} is registered already")
     _KINDS[kind.name] = kind
     return kind
 
 
 def kind_of_plan(plan: PlanName) -> str:
     """The name of the kind that measures by a plan."""
-    return next(kind.name for kind in _KINDS.values() if plan in kind.plans)
+    return PLANS[plan].run_kind

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from station.serial_arm.mechanism import SerialArm
-from station.serial_arm.robot_file import ARM_MODEL, Arm
+from station.serial_arm.robot_file import ARM_MODEL, Arm, ArmFile
 
 __all__ = [
     "ARM_MODEL",
     "Arm",
+    "ArmFile",
     "SerialArm",
 ]

@@ -10,7 +10,6 @@ from __future__ import annotations
 from functools import cached_property
 
 import numpy as np
-from scipy.spatial.transform import Rotation
 
 from station.errors import InputRefused
 from station.fitting import NotConvergedError, Prior, solve
@@ -214,11 +213,15 @@ class SerialArm:
         nominal = np.zeros(6 * self.robot.joints + 3)
         at = self._reach(nominal, self.theta).end
         seen = self.measured.reshape(-1, 3)
+        from scipy.spatial.transform import Rotation
+
         turn, _ = Rotation.align_vectors(seen - seen.mean(axis=0), at - at.mean(axis=0))
         return np.asarray(turn.as_matrix())
 
     def _turned(self, turns: Real) -> tuple[Real, list[Real]]:
         """Base orientation Rx Ry Rz R_0 at turns (3,), rad, and the axis of each of the three."""
+        from scipy.spatial.transform import Rotation  # here, because a five-bar never needs it
+
         x, y, z = (Rotation.from_euler(axis, turns[k]).as_matrix() for k, axis in enumerate("xyz"))
         return x @ y @ z @ self._base_frame, [np.eye(3)[0], x[:, 1], (x @ y)[:, 2]]
 

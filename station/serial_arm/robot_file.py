@@ -104,29 +104,43 @@ class Arm:
 
 class _ToleranceSection(Section):
     zero_offset_deg: Positive = ArmTolerances.zero_offset_deg
+    """Of each zero offset."""
     length_mm: Positive = ArmTolerances.length_mm
+    """Of each length of a link."""
     angle_deg: Positive = ArmTolerances.angle_deg
+    """Of each angle between links."""
 
 
 class _RobotSection(Section):
     serial: Annotated[str, Field(min_length=1)] = "unnamed"
+    """Serial number of the robot."""
     model: Literal["serial-dh"]
+    """Kind of machine."""
     convention: Convention = "standard"
+    """Order of the Denavit-Hartenberg steps: theta and d first, or `modified` (Craig)."""
     a_mm: Annotated[list[Finite], Field(min_length=2)]
+    """Link lengths, one per joint."""
     d_mm: list[Finite]
+    """Link offsets, one per joint."""
     alpha_deg: list[Finite]
+    """Link twists, one per joint."""
     offset_deg: list[Finite] | None = None
+    """Joint angles at the zeros of the drives; by default 0."""
     gravity: tuple[Finite, Finite, Finite] = Arm.gravity
+    """Direction of gravity in the frame of the base."""
     tolerance: _ToleranceSection = _ToleranceSection()
 
 
 class _ToolSection(Section):
     position_mm: tuple[Finite, Finite, Finite] = Arm.tool_mm
+    """Of the target, in the frame of the last link."""
     sd_mm: Positive = Arm.tool_sd_mm
+    """How well that is known."""
 
 
 class _InstrumentSection(Section):
     sd_mm: Positive = Arm.reading_sd_mm
+    """Of one coordinate or distance: instrument and repeatability of the arm together."""
 
 
 class ArmFile(Section):

@@ -22,6 +22,7 @@ from station.errors import Busy, InputRefused, KeyReused, NotFound, StepFailed
 from station.five_bar import Robot
 from station.messages import display_name
 from station.motion import Cancelled, Devices, Listener, Listeners, LiveEvent, Machine, Walker, Zeroing
+from station.plans import PLANS
 from station.records import (
     CalibrationRequest,
     CalibrationResult,
@@ -213,6 +214,7 @@ class Orchestrator:
                 name=self._settings.name,
                 emulated=self._machine.devices.emulated,
                 limits=self._settings.limits.model_dump(),
+                plans=tuple(PLANS),
             ),
             devices=self._machine.device_views(),
             interlocks=self._machine.interlocks(),

@@ -7,6 +7,7 @@ its readings.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
@@ -14,9 +15,12 @@ import numpy as np
 from drivers.emulated.spec import MachineSpec
 from drivers.emulated.virtual import VirtualReading, VirtualRig
 from station.five_bar import Robot, inverse
+from station.plans import diagnostic_fresh_stops, make_plan
 from station.records import Complex, Measurements, Real, Stop, number
 
 ROOM_C = 20.0
+RUN_UP_DEG = 0.5
+"""As `overshoot_deg` of a station file."""
 Servo = Literal["exact", "whole pulses", "continuous"]
 """Where servos rest: on the commanded pulse; beside it on a whole pulse (eq. 35); beside it anywhere."""
 
@@ -39,6 +43,7 @@ class SimulatedMachine:
         noise: bool = True,
     ) -> None:
         self.truth = truth
+        self._stands = robot.zero_at_deg
         dtheta = np.degrees(truth[:2])
         self._rig = VirtualRig(
             MachineSpec.model_validate(
@@ -65,14 +70,45 @@ class SimulatedMachine:
     def visit(self, theta_deg: Real, labels: Sequence[str] | None = None, samples: int = 1) -> Measurements:
         """Readings at drive angles theta_deg (K, 2), in order, each the mean of `samples` of the head."""
         taken = self._taken(theta_deg, samples)
-        places = labels if labels is not None else [str(k) for k in range(len(taken))]
+        return self._measurements(taken, labels or [str(k) for k in range(len(taken))], samples)
+
+    def run(self, stops: Sequence[Stop], samples: int = 1) -> Measurements:
+        """Readings at stops, approached as the station does: where a side is asked for, with a run-up."""
+        taken = []
+        for stop in stops:
+            before = [
+                angle - sense * RUN_UP_DEG for angle, sense in zip(stop.theta_deg, stop.approach, strict=True)
+            ]
+            if any(stop.approach) and not self._comes_from(stop):
+                self._taken(np.array([before]))
+            taken += self._taken(np.array([stop.theta_deg]), samples)
+            self._stands = stop.theta_deg
+        return self._measurements(taken, [stop.position for stop in stops], samples)
+
+    def diagnostic_run(self, robot: Robot, seed: int) -> tuple[Measurements, Measurements]:
+        """The diagnostic sequence and the fresh readings after it, as a run of that plan measures them."""
+        sequence = self.run(make_plan("diagnostic", robot).stops)
+        fresh = self.run(diagnostic_fresh_stops(robot, self.truth[:2], seed))
+        numbers = tuple(range(len(sequence) + 1, len(sequence) + len(fresh) + 1))
+        return sequence, replace(fresh, ids=numbers)
+
+    def _comes_from(self, stop: Stop) -> bool:
+        """The way there ends with the wanted senses by itself, as `station.motion` decides it."""
+        return all(
+            not sense or sense * (target - here) >= RUN_UP_DEG
+            for sense, target, here in zip(stop.approach, stop.theta_deg, self._stands, strict=True)
+        )
+
+    def _measurements(
+        self, taken: Sequence[VirtualReading], labels: Sequence[str], samples: int
+    ) -> Measurements:
         return Measurements(
             ids=tuple(range(1, len(taken) + 1)),
             t_s=np.array([r.t_s for r in taken]),
             theta=np.radians([r.theta_deg for r in taken]),
             approach=np.array([r.approach for r in taken], dtype=np.int8),
             distance=np.array([r.scale_mm for r in taken]),
-            position=number(places)[0],
+            position=number(labels)[0],
             mount=np.zeros(len(taken), dtype=np.intp),
             samples=np.full(len(taken), samples, dtype=np.intp),
             temperature_c=np.array([ROOM_C + r.temperature_rise_k for r in taken]),

@@ -39,10 +39,8 @@ class Case:
     """An emulated machine with an effect that the station was not told of."""
 
     rig: str
-    cause: str
-    """As the reason of the run names it."""
     name: str
-    """As the page names it."""
+    """As the page names it, in the reason of the run too."""
     size: str
     """As the page shows it, a pattern."""
     remedy: str
@@ -54,26 +52,23 @@ class Case:
 CASES = [
     Case(
         "backlash",
-        "backlash of joint 2",
-        "backlash of joint 2",
-        r"width 0\.0(49|50)\d* ± 0\.0000\d+ °",
+        "Backlash of joint 2",
+        r"Width 0\.0(49|50)\d* ± 0\.0000\d+\s°",
         "Adjust or",
         "Approach 2",
     ),
     Case(
         "gear_ripple",
-        "gear cyclic of joint 1",
-        "gear ripple of joint 1",
-        r"amplitude 0\.0(099|100)\d* ± 0\.000\d+ °.*cycles per revolution (20\.0|19\.9)\d+ ± ",
+        "Gear ripple of joint 1",
+        r"Amplitude 0\.0(099|100)\d* ± 0\.000\d+\s°.*Cycles per turn (20\.0|19\.9)\d+ ± ",
         "Check the reducer stage",
         "Joint 1",
     ),
     # slow enough for the warming to bend: a straight one could as well be a drift
     Case(
         "warm_up",
-        "thermal growth",
-        "thermal growth",
-        r"growth of the links \d+(\.\d+)? ± .* µm/m",
+        "Thermal growth of the links",
+        r"Growth of the links \d+(\.\d+)? ± .*\sµm/m",
         "Warm up",
         "Time",
         speed=100.0,
@@ -92,11 +87,13 @@ def test_an_undeclared_effect_is_named_confirmed_and_its_removal_shown(
     causes = page.get_by_role("region", name="Causes")
     expect(causes).to_be_visible(timeout=WALK_LIMIT_MS)
     verdict = page.locator(".summary .verdict")
-    # the robot may not be used as it is
-    expect(verdict).to_contain_text("FAIL")
-    expect(verdict).to_contain_text(f"{case.cause}")
+    # a defect is to be repaired, whatever else was right with the run
+    expect(verdict).to_contain_text("REPAIR")
+    expect(verdict).not_to_contain_text("PASS")
+    expect(verdict).to_contain_text(f"{case.name} explained")
     expect(verdict).to_contain_text("predicts fresh readings")
     assert violations(page) == []
+    assert no_identifiers(page)
     page.get_by_role("link", name="Diagnosis", exact=True).click()
     expect(page.get_by_role("heading", level=1)).to_have_text("Diagnosis of run 2")
     expect(causes.locator(".effect dd")).to_have_text(case.name)
@@ -110,15 +107,21 @@ def test_an_undeclared_effect_is_named_confirmed_and_its_removal_shown(
     for row in page.get_by_role("region", name="Before and after").locator("tbody tr").all():
         _, before, after = numbers(row)
         assert after < before
-    expect(page.get_by_role("region", name="Not found")).to_contain_text("scale hysteresis")
+    expect(page.get_by_role("region", name="Not found")).to_contain_text("Scale hysteresis")
     residual = page.get_by_role("region", name="Residual")
     residual.get_by_role("button", name=case.ordering, exact=True).click()
     expect(residual.locator(".chart svg")).to_have_count(2)
     assert f"by={case.ordering.lower().replace(' ', '')}" in page.url
     assert stop.get_attribute("data-mine") == "yes"
     assert violations(page) == []
+    assert no_identifiers(page)
     page.get_by_role("link", name="Report").click()
     expect(page.get_by_role("heading", level=1)).to_have_text("Diagnosis of run 2, robot FB-D")
+
+
+def no_identifiers(page: Page) -> bool:
+    """Nothing that only the program calls so, such as `gear_cyclic`, is on the page."""
+    return not re.findall(r"\b[a-zA-Z]+_\w+|\br[MW][xy]\b", page.locator("main").inner_text())
 
 
 def numbers(row: Locator) -> list[float]:
@@ -191,8 +194,8 @@ def test_what_no_effect_accounts_for_is_said_to_be_unexplained(page: Page, serve
     find_cause(page, station)
     expect(page.get_by_role("region", name="Hints")).to_be_visible(timeout=WALK_LIMIT_MS)
     verdict = page.locator(".summary .verdict")
-    expect(verdict).to_contain_text("FAIL")
-    expect(verdict).to_contain_text(re.compile(r"(un|not )explained: .*the residual depends on"))
+    expect(verdict).to_contain_text("UNEXPLAINED Verdict: FAIL")
+    expect(verdict).to_contain_text(re.compile(r"(Une|Not e)xplained: .*depends on"))
     expect(page.get_by_role("region", name="Causes")).not_to_contain_text("Remedy")
     assert violations(page) == []
 
@@ -213,43 +216,50 @@ def station_with_look_alikes(serve: Serve, tmp_path: Path) -> Station:
     """
     rig = (RIGS / "warm_up.toml").read_text().replace("rise_k = 8.0", "rise_k = 6.0")
     body = {"robot_serial": "FB-D", "plan": "diagnostic", "operator": "ada"}
-    for tau_s in (15.0, 30.0, 60.0):
-        home = tmp_path / f"tau-{tau_s:.0f}"
+    shortest, longest = 10.0, 90.0
+    for number in range(5):
+        tau_s = math.sqrt(shortest * longest)
+        home = tmp_path / f"try-{number}"
         home.mkdir()
         (home / "rig.toml").write_text(rig.replace("tau_s = 20.0", f"tau_s = {tau_s}"))
         station = serve(home, speed=500.0, rig=home / "rig.toml")
         station.api.post("/calibrations", json=body).raise_for_status()
         while station.get("/calibrations/1")["state"] in ("queued", "running"):
             pass
-        if station.get("/calibrations/1/separating")["apart"] == ["drift"]:
+        alternatives = station.get("/calibrations/1/separating")["apart"]
+        if alternatives == ["drift"]:
             return station
         station.close()
-    pytest.fail("every warming was told from a drift by the walk alone")
+        # a warming so straight that it is taken for a drift, or one so bent that it cannot be
+        if alternatives:
+            longest = tau_s
+        else:
+            shortest = tau_s
+    pytest.fail("no warming was found that could as well be a drift")
 
 
+@pytest.mark.timeout(300)
 def test_look_alikes_are_told_apart_by_the_motion_that_is_offered(
     page: Page, serve: Serve, tmp_path: Path
 ) -> None:
     station = station_with_look_alikes(serve, tmp_path)
     page.goto(f"{station.url}/diagnosis/1")
     causes = page.get_by_role("region", name="Causes")
-    expect(causes).to_contain_text("drift")
+    expect(causes).to_contain_text("Drift")
     offer = page.get_by_role("region", name="Alternative explanations")
     expect(offer).to_contain_text(
         re.compile(r"\d+ more readings.* from drift\. Then 40 fresh .* about \d+ min")
     )
     expect(offer.get_by_role("img", name="planned positions")).to_be_visible()
-    run = offer.get_by_role("button", name="Run the separating experiment", exact=True)
+    run = offer.get_by_role("button", name="Start the further diagnosis", exact=True)
     expect(run).to_be_disabled()
     offer.get_by_label("Operator").fill("ada")
     assert violations(page) == []
     run.click()
     offer.get_by_role("button", name="Confirm").click()
-    expect(page.get_by_role("heading", level=1)).to_have_text(
-        "Result of run 2: Separating experiment (run 1)"
-    )
+    expect(page.get_by_role("heading", level=1)).to_have_text("Result of run 2: Further diagnosis (run 1)")
     expect(causes).to_be_visible(timeout=WALK_LIMIT_MS)
-    expect(page.locator(".summary .verdict")).to_contain_text("thermal growth of the links explains")
+    expect(page.locator(".summary .verdict")).to_contain_text("Thermal growth of the links explained")
     expect(page.locator(".summary .verdict")).to_contain_text("predicts fresh readings")
     expect(causes).to_contain_text("no other effect of the catalogue")
     expect(offer).to_have_count(0)

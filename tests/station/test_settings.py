@@ -6,10 +6,12 @@ from pathlib import Path
 
 import pytest
 
+from drivers.scales.heidenhain_nd import HeidenhainSettings
 from drivers.scaling import JointScaling
 from station.errors import InputRefused
+from station.home import station_home
 from station.motion.devices import build_devices
-from station.settings import Settings, load_settings, station_home
+from station.settings import Settings, load_settings
 
 REAL = """
 name = "Line 3"
@@ -75,6 +77,8 @@ def test_without_a_file_the_defaults_name_no_devices() -> None:
         (("sign = -1", "sign = 0"), r"sign must be 1 or -1"),
         (("unit = 2", "unit = 1"), r"\[servo\].*different units"),
         (('url = "modbus+rtu:///dev/ttyUSB1?baud=38400&format=8N2"', ""), r"\[servo\] url is missing"),
+        (('format=7E2"', 'format=7E2"\naddress = 3'), r"\[scale\] address is not an option"),
+        (('format=8N2"', 'format=8N2"\ntimeout_s = 20'), r"\[servo\] timeout_s: .*10.*given: 20"),
         (("zero_at_deg = 180", "zero_at_deg = nan"), r"\[servo.joint.1\] zero_at_deg"),
         (('name = "Line 3"', "name = "), "is not valid TOML"),
     ],
@@ -86,6 +90,15 @@ def test_what_is_wrong_is_named_with_section_option_bounds_and_value(
     with pytest.raises(InputRefused, match=sentence) as refused:
         load(tmp_path, REAL.replace(*change))
     assert "\n" not in str(refused.value)
+
+
+def test_options_of_a_driver_may_stand_in_a_table_of_its_own(tmp_path: Path) -> None:
+    table = "[scale.heidenhain-nd]\ntimeout_s = 2.5\n[servo]\nprofile"
+    settings = load(tmp_path, REAL.replace("[servo]\nprofile", table))
+    assert settings.scale is not None
+    assert settings.scale.options == HeidenhainSettings(
+        url="serial:///dev/ttyUSB0?baud=9600&format=7E2", timeout_s=2.5
+    )
 
 
 def test_half_a_machine_is_refused(tmp_path: Path) -> None:
@@ -101,8 +114,8 @@ def test_a_file_that_is_not_there_is_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("change", "sentence"),
     [
-        (("heidenhain-nd", "abacus"), r'\[scale\] protocol "abacus" does not exist; there is heidenhain-nd'),
-        (("leadshine-el7", "mule"), r'\[servo\] profile "mule" does not exist; there is leadshine-el7'),
+        (("heidenhain-nd", "abacus"), r'\[scale\]: protocol "abacus" does not exist; there is heidenhain-nd'),
+        (("leadshine-el7", "mule"), r'\[servo\]: profile "mule" does not exist; there is leadshine-el7'),
         (("format=7E2", "format=9X9"), "9X9"),
         (("modbus+rtu:", "modbus+smoke:"), r"must begin with modbus\+rtu:"),
     ],

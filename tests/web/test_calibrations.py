@@ -20,7 +20,7 @@ def test_a_start_is_accepted_and_says_where_the_run_is(service: Service) -> None
     assert (run["state"], run["verdict"], run["reason"]) == (
         "succeeded",
         "pass",
-        "Converged in 2 passes, mu = 0.0100°.",
+        "Converged in 2 passes; the compensation accuracy is 0.0100°.",
     )
     assert run["zero_offsets"] == [
         {"joint": 1, "value_deg": 0.5, "sd_deg": 0.1},

@@ -91,7 +91,7 @@ class Source:
     def snapshot(self) -> StationView:
         nowhere = float("nan")
         return StationView(
-            station=StationInfo(name="source", emulated=True, limits={}),
+            station=StationInfo(name="source", emulated=True, limits={}, plans=()),
             devices=(),
             interlocks=(),
             machine=MachineView(

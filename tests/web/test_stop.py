@@ -29,6 +29,7 @@ def test_a_drive_that_is_not_connected_has_not_confirmed(service: Service) -> No
     nothing = LinkLost("axis 1: nothing answers")
     service.rig.script.fail("axis 1 connect", nothing)
     service.rig.script.fail("axis 1 status", nothing)
+    service.rig.script.fail("axis 1 quick_stop", nothing)
     deadline = time.monotonic() + 10.0
     while service.device("axis 1")["state"] != "lost":
         assert time.monotonic() < deadline

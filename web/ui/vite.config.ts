@@ -9,5 +9,9 @@ export default defineConfig({
     assetsInlineLimit: 0,
     chunkSizeWarningLimit: 700,
   },
-  server: { proxy: { "/api": { target: "http://127.0.0.1:8000", ws: true } } },
+  server: {
+    // the message file that the page shares with the service
+    fs: { allow: ["../.."] },
+    proxy: { "/api": { target: "http://127.0.0.1:8000", ws: true } },
+  },
 });

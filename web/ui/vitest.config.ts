@@ -3,7 +3,7 @@ import { defineConfig } from "vitest/config";
 export default defineConfig({
   // as tsconfig.json has it
   oxc: { jsx: { runtime: "automatic", importSource: "preact" } },
-  // the catalogue of effects, for which the page must have names
+  // the message file and the catalogue of effects of the service
   server: { fs: { allow: ["../.."] } },
   test: {
     environment: "happy-dom",

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from station.studies.confusion.machines import draw
-from station.studies.confusion.matrix import KINDS, markdown, run
+from station.studies.confusion.matrix import KINDS, figures, markdown, run
 
 __all__ = [
     "KINDS",
     "draw",
+    "figures",
     "markdown",
     "run",
 ]

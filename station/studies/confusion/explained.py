@@ -16,7 +16,7 @@ import numpy as np
 
 from station.diagnosis import ExplanationSet, explain
 from station.five_bar import FiveBar, Robot, inverse
-from station.studies.confusion.machines import CATALOGUE, FRESH, NAMES, OUTSIDE, PAIRS, Drawn, draw, walk_of
+from station.studies.confusion.machines import CATALOGUE, NAMES, OUTSIDE, PAIRS, Drawn, draw
 from station.studies.simulation import SimulatedMachine
 
 Cause = tuple[str, int | None]
@@ -98,7 +98,6 @@ def machine(kind: str, seed: int) -> tuple[Drawn, set[Cause]]:
         return drawn, {(NAMES.get(e, e), j) for e, j in drawn.truth if e not in OUTSIDE}
     rng = np.random.default_rng(seed)
     effects, truth = natural(kind, rng)
-    places, labels = walk_of(robot, rng)
     p = np.concatenate(
         [
             rng.uniform(-0.035, 0.035, 2),
@@ -107,10 +106,8 @@ def machine(kind: str, seed: int) -> tuple[Drawn, set[Cause]]:
         ]
     )
     made = SimulatedMachine(robot, p, "whole pulses", seed, effects)
-    everything = made.visit(np.degrees(inverse(robot.geometry, places)), labels)
-    walked = len(places) - FRESH
-    rows = np.arange(len(places))
-    return Drawn(everything.take(rows[:walked]), everything.take(rows[walked:]), (), (99.0,), made), truth
+    walk, fresh = made.diagnostic_run(robot, seed)
+    return Drawn(walk, fresh, (), (99.0,), made), truth
 
 
 def natural(kind: str, rng: np.random.Generator) -> tuple[list[dict[str, Any]], set[Cause]]:

@@ -14,17 +14,14 @@ from typing import Any
 import numpy as np
 
 from station.fitting import NotConvergedError, tolerance_prior
-from station.five_bar import FiveBar, Robot, inverse
+from station.five_bar import FiveBar, Robot
 from station.mechanism import reference_of
 from station.model import Model, fit
-from station.records import Complex, Measurements, Real
+from station.plans import make_plan
+from station.records import Measurements, Real
 from station.studies.simulation import SimulatedMachine
 
 SMALLEST_UM, LARGEST_UM = 1.0, 30.0
-GRID = (9, 5)
-REPEATED = 10
-FRESH = 40
-INSET_MM = 8.0
 SCATTER_UM = 1.117
 """Noise of a reading."""
 
@@ -72,7 +69,6 @@ class Drawn:
 def draw(robot: Robot, kinds: tuple[str, ...], seed: int) -> Drawn:
     """A machine with one effect of each kind, at random sizes, joints, phases and moments."""
     rng = np.random.default_rng(seed)
-    places, labels = walk_of(robot, rng)
     truth = np.concatenate(
         [
             rng.uniform(-np.radians(2.0), np.radians(2.0), 2),
@@ -80,13 +76,15 @@ def draw(robot: Robot, kinds: tuple[str, ...], seed: int) -> Drawn:
             [rng.normal(1.0, 0.06), rng.normal(0.5, 0.04)],
         ]
     )
-    theta_deg = np.degrees(inverse(robot.geometry, places))
 
     def with_effects(effects: list[Table], *, noise: bool = True) -> SimulatedMachine:
         return SimulatedMachine(robot, truth, "whole pulses", seed, effects, noise=noise)
 
+    stops = make_plan("diagnostic", robot).stops
+
     def left(make: Make, amplitude: float) -> float:
-        return _left_um(robot, with_effects([make(amplitude)], noise=False).visit(theta_deg, labels))
+        silent = with_effects([make(amplitude)], noise=False)
+        return _left_um(robot, silent.run(stops))
 
     made, names, sizes = [], [], []
     for kind in kinds:
@@ -96,32 +94,8 @@ def draw(robot: Robot, kinds: tuple[str, ...], seed: int) -> Drawn:
         names.append((NAMES.get(kind, kind), made[-1].get("joint")))
         sizes.append(size)
     machine = with_effects(made)
-    everything = machine.visit(theta_deg, labels)
-    walked = len(places) - FRESH
-    return Drawn(
-        everything.take(np.arange(walked)),
-        everything.take(np.arange(walked, len(places))),
-        tuple(names),
-        tuple(sizes),
-        machine,
-    )
-
-
-def walk_of(robot: Robot, rng: np.random.Generator) -> tuple[Complex, list[str]]:
-    """The diagnostic walk (a grid there and back, ten places three times over) and fresh places after it."""
-    (x0, x1), (y0, y1) = robot.workspace_x, robot.workspace_y
-    grid = []
-    for row, y in enumerate(np.linspace(y1 - INSET_MM, y0 + INSET_MM, GRID[1])):
-        xs = np.linspace(x0, x1, GRID[0])
-        grid += [complex(x, y) for x in (xs if row % 2 == 0 else xs[::-1])]
-    every = list(range(len(grid)))
-    some = rng.choice(len(grid), REPEATED, replace=False)
-    order = [*rng.permutation(some), *every, *every[::-1], *rng.permutation(some)]
-    fresh = rng.uniform(x0 + INSET_MM, x1 - INSET_MM, FRESH) + 1j * rng.uniform(
-        y0 + INSET_MM, y1 - INSET_MM, FRESH
-    )
-    places = np.concatenate([np.array([grid[k] for k in order]), fresh])
-    return places, [str(k) for k in order] + [f"fresh{k}" for k in range(FRESH)]
+    walk, fresh = machine.diagnostic_run(robot, seed)
+    return Drawn(walk, fresh, tuple(names), tuple(sizes), machine)
 
 
 def _scaled(left_um: Callable[[float], float], size_um: float) -> float:
@@ -137,10 +111,9 @@ def _scaled(left_um: Callable[[float], float], size_um: float) -> float:
 
 def _left_um(robot: Robot, walked: Measurements) -> float:
     """Residual RMS of a noise-free walk under the base model."""
-    readings = walked.take(np.arange(len(walked) - FRESH))
-    mechanism = FiveBar(robot, readings)
+    mechanism = FiveBar(robot, walked)
     try:
-        base = fit(Model(mechanism, reference_of(readings)), tolerance_prior(mechanism), mechanism.row_sd)
+        base = fit(Model(mechanism, reference_of(walked)), tolerance_prior(mechanism), mechanism.row_sd)
     except NotConvergedError:
         return LARGEST_UM * 10.0  # far too large: the next amplitude will be smaller
     residual: Real = base.residual_mm

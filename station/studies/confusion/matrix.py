@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import os
 from collections import Counter
-from collections.abc import Callable
-from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, field, replace
-from multiprocessing import get_context
 
 import numpy as np
+from pydantic import JsonValue
 
 from station.diagnosis import WeighedFindings, weighed
 from station.errors import InputRefused
@@ -17,6 +14,7 @@ from station.five_bar import Robot
 from station.records import Real
 from station.studies.confusion.errors import BeforeAndAfter, before_and_after
 from station.studies.confusion.machines import CATALOGUE, OUTSIDE, PAIRS, SCATTER_UM, Drawn, draw
+from station.studies.engine import Engine
 
 CLEAR_SDS = 3.0
 """An effect counts as clearly visible when its projected RMS is this many times the noise."""
@@ -63,21 +61,35 @@ class Row:
     """Of the clear ones; of causes in the catalogue those that are explained and confirmed."""
 
 
-def run(machines: int, seed: int = 1, progress: Callable[[], None] = lambda: None) -> list[Row]:
-    """`machines` of every kind, on all cores."""
-    # matrices of a few hundred rows: threads within a process only stand in each other's way
-    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    kinds = [kind for kind in KINDS for _ in range(machines)]
-    seeds = [seed * 1_000_003 + k for _ in KINDS for k in range(machines)]
+def run(machines: int, seed: int, engine: Engine) -> list[Row]:
+    """`machines` of every kind."""
+    drawn = [(kind, seed * 1_000_003 + k) for kind in KINDS for k in range(machines)]
     rows = {kind: Row(" + ".join(kind) or CLEAN) for kind in KINDS}
-    with ProcessPoolExecutor(mp_context=get_context("spawn")) as pool:
-        for kind, outcome in zip(kinds, pool.map(_one, kinds, seeds, chunksize=8), strict=True):
-            _count(rows[kind], outcome)
-            progress()
+    for (kind, _), outcome in zip(drawn, engine.each(_one, drawn, "Confusion"), strict=True):
+        _count(rows[kind], outcome)
     return list(rows.values())
 
 
-def _one(kinds: tuple[str, ...], seed: int) -> Outcome:
+def figures(rows: list[Row]) -> list[dict[str, JsonValue]]:
+    """Plain numbers of every kind, for a digest and for other programs."""
+    return [
+        {
+            "kind": row.kind,
+            "machines": row.machines,
+            "clear": row.clear,
+            "right": row.right,
+            "alone": row.alone,
+            "explained": row.explained,
+            "explained_of_all_sizes": row.explained_at_all,
+            "hinted": row.hinted,
+            "said": dict(sorted(row.said.items())),
+        }
+        for row in rows
+    ]
+
+
+def _one(drawn_by: tuple[tuple[str, ...], int]) -> Outcome:
+    kinds, seed = drawn_by
     robot = Robot.default()
     drawn = draw(robot, kinds, seed)
     try:
@@ -133,8 +145,10 @@ def _count(row: Row, outcome: Outcome) -> None:
 PAGE = """# The diagnosis against random machines
 
 `station confusion --markdown FILE` makes this page: {machines} machines of each kind, seed {seed}.
-Every machine has random zero offsets, geometric errors, joints, phases, moments and sizes (1 to 30 um of
-projected RMS, evenly in the logarithm); the emulator's physics share nothing with the catalogue.
+Every machine is measured as a run of plan `diagnostic` measures it: 120 readings with their run-ups, then
+40 fresh ones with the zero offsets taken off the commands, one sample a reading.  It has random
+zero offsets, geometric errors, joints, phases, moments and sizes (1 to 30 um of projected RMS, evenly in the
+logarithm); the emulator's physics share nothing with the catalogue.
 
 - *clear*: more than three times the noise of 1.1 um.
 - *right*: explained and confirmed on 40 fresh readings, every cause within the alias set of a finding and

@@ -12,9 +12,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from station.diagnosis import fit_readings
-from station.five_bar import Robot, inverse
+from station.five_bar import Robot
+from station.plans import diagnostic_fresh_stops, make_plan
 from station.records import Measurements, Real
-from station.studies.confusion.machines import FRESH, walk_of
 from station.studies.simulation import SimulatedMachine
 
 Rows = tuple[int | str, ...]
@@ -64,7 +64,6 @@ def measured(seed: int, *, play: bool = False, effects: tuple[dict[str, object],
     """A machine of the paper's robot, drawn at random, without a mistake."""
     rng = np.random.default_rng(seed)
     robot = Robot.default()
-    places, labels = walk_of(robot, rng)
     truth = np.concatenate(
         [
             rng.uniform(-np.radians(2.0), np.radians(2.0), 2),
@@ -75,11 +74,10 @@ def measured(seed: int, *, play: bool = False, effects: tuple[dict[str, object],
     if play:
         effects = (*effects, {"kind": "backlash", "joint": int(rng.integers(1, 3)), "width_deg": 0.01})
     machine = SimulatedMachine(robot, truth, "whole pulses", seed, effects)
-    theta_deg = np.degrees(inverse(robot.geometry, places))
-    taken = _as_written(machine.visit(theta_deg, labels))
-    count = len(taken) - FRESH
-    files = Files(robot, taken.take(np.arange(count)), taken.take(np.arange(count, len(taken))))
-    return Measured(files, (theta_deg[:count], theta_deg[count:]))
+    walk, fresh = (_as_written(m) for m in machine.diagnostic_run(robot, seed))
+    commanded = [stop.theta_deg for stop in make_plan("diagnostic", robot).stops]
+    afterwards = [stop.theta_deg for stop in diagnostic_fresh_stops(robot, truth[:2], seed)]
+    return Measured(Files(robot, walk, fresh), (np.array(commanded), np.array(afterwards)))
 
 
 def _as_written(m: Measurements) -> Measurements:

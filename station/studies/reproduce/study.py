@@ -5,17 +5,16 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from rich.console import Console
 
 from station import __version__
 from station.five_bar import Robot
+from station.studies.engine import Engine, digest
 from station.studies.reproduce import printed
 from station.studies.reproduce.accuracy import accuracy
 from station.studies.reproduce.bound import DEFINITION, bounds
 from station.studies.reproduce.coverage import coverage_of, coverage_summary, positions_of, positions_summary
 from station.studies.reproduce.errata import errata
 from station.studies.reproduce.figures import fig5, fig8
-from station.studies.reproduce.parallel import each
 from station.studies.reproduce.tables import NOISES, Trials, fig9, fig12, tables
 from station.studies.reproduce.trial import PAPER, PAPER_FEEDBACK, Conditions, Outcome, by_ours, by_paper
 from station.studies.simulation import Servo
@@ -25,19 +24,19 @@ MACHINES_PER_SEED = 5
 """The coverage study draws five machines for every seed of the tables: 1,000 for 200."""
 
 
-def run_study(seeds: int, console: Console) -> dict[str, Any]:
+def run_study(seeds: int, engine: Engine) -> dict[str, Any]:
     """What `station reproduce --json` writes."""
     robot = Robot.default()
     kinds = [*_kinds("exact"), *_kinds("whole pulses", *SAMPLES), *_kinds("continuous")]
     jobs = [(conditions, seed) for conditions in kinds for seed in range(seeds)]
-    trials = _by_variant(kinds, each(calibrate, jobs, "Calibrating", console), seeds)
-    limits = dict(zip(kinds, each(bounds, kinds, "Bounds", console), strict=True))
+    trials = _by_variant(kinds, engine.each(calibrate, jobs, "Calibrating"), seeds)
+    limits = dict(zip(kinds, engine.each(bounds, kinds, "Bounds"), strict=True))
     machines = range(MACHINES_PER_SEED * seeds)
-    covered = each(coverage_of, machines, "Coverage", console)
-    placed = each(positions_of, machines, "Choice of places", console)
+    covered = engine.each(coverage_of, machines, "Coverage")
+    placed = engine.each(positions_of, machines, "Choice of places")
     by_noise = {(c.group, c.servo): trials[c] for c in kinds if c.samples == 1 and c.servo in NOISES}
     at_three = fig8(robot)[0]
-    return {
+    figures = {
         "schema": "station.reproduction/1",
         "version": __version__,
         "seeds": seeds,
@@ -60,6 +59,7 @@ def run_study(seeds: int, console: Console) -> dict[str, Any]:
         "coverage": coverage_summary(covered),
         "positions": positions_summary(placed),
     }
+    return {**figures, "digest": digest(figures)}
 
 
 def _kinds(servo: Servo, *samples: int) -> list[Conditions]:

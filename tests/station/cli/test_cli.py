@@ -64,6 +64,7 @@ def test_runs_as_csv_is_complete_and_filtered(home: Path) -> None:
 
 
 def test_runs_without_any(tmp_path: Path) -> None:
+    Store(tmp_path / "station.db").close()
     assert station(tmp_path, "runs").output == "No runs.\n"
 
 
@@ -87,7 +88,7 @@ def test_import_keeps_a_file_as_a_run_and_a_robot_with_a_defect_is_no_pass(tmp_p
     for number, file in enumerate((walk, fresh), start=1):
         file.write_text(readings_to_csv(r for r in readings if r.walk == number))
     confirmed = station(tmp_path, "import", str(walk), "--confirm", str(fresh), "--serial", "FB-5")
-    assert (confirmed.exit_code, confirmed.output[:33]) == (1, "Run 1: fail. backlash of joint 1 ")
+    assert (confirmed.exit_code, confirmed.stdout[:33]) == (1, "Run 1: fail. backlash of joint 1 ")
     alone = station(tmp_path, "import", str(walk), "--serial", "FB-5")
     assert alone.exit_code == 1
     assert "No fresh readings confirm it" in alone.output
@@ -157,6 +158,9 @@ def process(home: Path, *arguments: str) -> Iterator[subprocess.Popen[str]]:
             child.kill()
 
 
+NEW = "A new history begins at {}/station.db.\n"
+
+
 def readline(child: subprocess.Popen[str]) -> str:
     assert child.stdout is not None
     return child.stdout.readline()
@@ -165,7 +169,7 @@ def readline(child: subprocess.Popen[str]) -> str:
 def test_calibrate_runs_on_the_emulated_rig_and_tells_the_result(tmp_path: Path) -> None:
     with process(tmp_path, "calibrate", "--serial", "R1", "--operator", "ada", "--speed", "200") as child:
         output, complaints = child.communicate(timeout=30)
-    assert (child.returncode, complaints) == (0, "")
+    assert (child.returncode, complaints) == (0, NEW.format(tmp_path))
     lines = output.splitlines()
     assert lines[0] == "Measuring, pass 1"
     assert any(line.startswith("Run 1 PASS: ") for line in lines)
@@ -179,7 +183,7 @@ def test_ctrl_c_stops_the_machine_and_stores_the_abort(tmp_path: Path, sig: sign
             assert child.poll() is None
         child.send_signal(sig)
         output, complaints = child.communicate(timeout=30)
-    assert (child.returncode, complaints) == (1, "")
+    assert (child.returncode, complaints) == (1, NEW.format(tmp_path))
     assert "ABORTED: Stopped by the operator at the terminal." in output
     store = Store(tmp_path / "station.db")
     assert store.calibration(1).state == "aborted"

@@ -14,7 +14,7 @@ from station.five_bar.mechanism import FiveBar
 from station.five_bar.robot_file import Robot
 from station.identification import identification_document
 from station.identification.estimate import identify
-from station.plans.plans import make_plan
+from station.plans import make_plan
 from station.records import read_measurements
 from tests.station.asking import start_procedure
 from tests.station.groups import DATA, calibrate, group, measure, needs_data, value_and_sd
@@ -144,7 +144,7 @@ def test_the_result_says_what_is_weak_and_blind() -> None:
 @pytest.mark.parametrize("plan", ["rapid", "full"])
 def test_measured_and_verified_calibration(plan: str) -> None:
     truth = group(1)
-    result = calibrate(start_procedure(plan, ROBOT), ROBOT, truth, seed=4)  # type: ignore[arg-type]
+    result = calibrate(start_procedure(plan, ROBOT), ROBOT, truth, seed=4)
     value, sd = value_and_sd(result)
     assert result.verdict == "pass", result.reason
     assert (np.abs(np.array(value) - np.degrees(truth[:2])) < 3 * np.array(sd)).all()

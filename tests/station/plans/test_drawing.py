@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from station.five_bar.robot_file import Robot
+from station.plans import make_plan
 from station.plans.drawing import plan_as_text, plan_page
-from station.plans.plans import make_plan
 
 ROBOT = Robot.default()
 

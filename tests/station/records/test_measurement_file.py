@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from station.cli.numerics import identify_command
+from station.cli.identify import identify_command
 from station.errors import InputRefused
 from station.five_bar.robot_file import Robot
 from station.identification.estimate import identify

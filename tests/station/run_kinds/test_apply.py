@@ -3,15 +3,19 @@
 from __future__ import annotations
 
 import math
+import sqlite3
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
+import numpy as np
 import pytest
 
 from drivers.errors import DeviceFault, LinkLost
 from station.errors import Busy, NotApplicable, NotFound
 from station.five_bar.robot_file import Robot
-from station.records import Application, PlanName, Procedure, State
+from station.identification.verification import Verification
+from station.records import Application, Measurements, PlanName, Procedure, State
 from station.run_kinds.zero_state import application
 from station.service.orchestrator import Orchestrator
 from station.store.store import Store
@@ -365,3 +369,38 @@ def test_a_robot_that_never_passed_the_model_still_walks(start: Start, store: St
     outcome = store.calibration(apply(orchestrator, calibration))
     assert (outcome.state, outcome.verdict) == ("failed", None)
     assert known(store, calibration).state == "unwritten"
+
+
+def test_a_zero_is_in_the_journal_on_disk_before_its_drive_is_told(
+    station: Orchestrator, store: Store, rig: Rig
+) -> None:
+    calibration = calibrate(station)
+    seen: list[tuple[int, int | None]] = []
+
+    def look(joint: int) -> None:
+        with sqlite3.connect(store.path) as other:  # a connection of its own sees what is committed alone
+            rows = other.execute("SELECT joint, taken FROM zero_writes ORDER BY id").fetchall()
+        other.close()
+        seen.append(rows[-1])
+        assert rows[-1] == (joint, None), "told before it was written down"
+
+    for joint in (1, 2):
+        rig.script.do(f"axis {joint} preset", partial(look, joint))
+    assert store.calibration(apply(station, calibration)).verdict == "pass"
+    assert seen == [(1, None), (2, None)]
+
+
+def test_a_check_that_is_no_number_takes_the_zeros_back(
+    station: Orchestrator, store: Store, rig: Rig, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    calibration = calibrate(station)
+    checks = iter([1.0, float("nan")])
+
+    def verified(fit: object, fresh: Measurements, *, offset_known: bool) -> Verification:
+        return Verification(np.zeros(len(fresh)), np.ones(len(fresh)), next(checks))
+
+    monkeypatch.setattr("station.run_kinds.apply.verify", verified)
+    outcome = store.calibration(apply(station, calibration))
+    assert (outcome.verdict, outcome.outcome) == ("fail", "not_verified")
+    assert offsets(rig) == pytest.approx(OFFSETS, abs=1e-6)
+    assert known(store, calibration).state == "rolled back"

@@ -13,8 +13,8 @@ from click.testing import CliRunner
 from station.cli import main
 from station.errors import InputRefused, NotApplicable, NotFound
 from station.five_bar.robot_file import Robot
+from station.plans import make_plan
 from station.plans.diagnostic_sequence import FRESH_PLACES, diagnostic_fresh_stops
-from station.plans.plans import make_plan
 from station.records import CalibrationResult, PlanName, Procedure, Reading, State, Walk
 from station.run_kinds.zero_state import application, check_apply
 from station.store.store import Store

@@ -70,7 +70,11 @@ def test_a_run_walks_reads_stores_and_succeeds(start: Start, store: Store, rig: 
     events: list[LiveEvent] = []
     orchestrator.subscribe(events.append)
     run = run_to_end(orchestrator)
-    assert outcome(store, run) == ("succeeded", "pass", "Converged in 2 passes, mu = 0.0100°.")
+    assert outcome(store, run) == (
+        "succeeded",
+        "pass",
+        "Converged in 2 passes; the compensation accuracy is 0.0100°.",
+    )
     readings = store.readings(run)
     assert [(r.reading, r.walk, r.position) for r in readings] == [
         (1, 1, "p1"),
@@ -123,7 +127,7 @@ def test_a_failed_verdict_is_a_run_that_succeeded(start: Start, store: Store) ->
     assert outcome(store, run_to_end(start(fails))) == (
         "succeeded",
         "fail",
-        "The compensation did not settle: mu did not fall below 0.1° in 8 passes.",
+        "The compensation did not settle: its accuracy was not better than 0.1° after 8 passes.",
     )
 
 

@@ -39,6 +39,18 @@ export function measured(value: number | null, u: number | null): string {
   return `${fixed(value, digits)} ± ${fixed(u, digits)}`;
 }
 
+/** Value ± U with its unit, from the standard uncertainty; it does not break before the unit. */
+export const quantity = (value: number | null, sd: number | null, unit: string) =>
+  `${measured(value, expanded(sd))}${unit && "\u00a0"}${unit}`;
+
+/** A probability or a share; never 0 or 100 % unless it is. */
+export function percent(part: number | null | undefined): string {
+  if (part == null || !Number.isFinite(part)) return MISSING;
+  if (part > 0 && part < 0.01) return "< 1 %";
+  if (part < 1 && part > 0.99) return "> 99 %";
+  return `${fixed(100 * part, 0)} %`;
+}
+
 const pad = (part: number) => String(part).padStart(2, "0");
 
 export function timeOfDay(time: Date): string {

@@ -1,74 +1,127 @@
 /** Display names of what the service calls by an identifier. */
 import { t } from "./messages";
-import type { EffectAt } from "./types";
+import type { EffectAt, Plan, RunKind } from "./types";
 
 interface Entry {
   name: string;
-  explanation: string;
+  text: string;
 }
 
-const entry = (entries: Record<string, Entry>, id: string): Entry | undefined =>
-  Object.hasOwn(entries, id) ? entries[id] : undefined;
+function own<T>(entries: Record<string, T>, id: string): T | undefined {
+  return Object.hasOwn(entries, id) ? entries[id] : undefined;
+}
 
 /** Better than nothing for what has no display name yet. */
-const plain = (id: string): Entry => ({ name: id.replaceAll("_", " "), explanation: "" });
+const plain = (id: string): Entry => ({ name: capital(id.replaceAll("_", " ")), text: "" });
 
-const effectEntry = (id: string) => entry(t.effects, id) ?? plain(id);
+/** As the first word of a sentence. */
+export const capital = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
 
-export const effectExplanation = (id: string) => effectEntry(id).explanation;
+/** As in the middle of a sentence; abbreviations keep their capitals. */
+export const inSentence = (name: string) =>
+  /^[A-Z][^A-Z]/.test(name) ? name.charAt(0).toLowerCase() + name.slice(1) : name;
 
-export function effectName({ effect, joint }: EffectAt): string {
+const PLACEHOLDERS: Record<string, string> = { n: "(\\d+)", axis: "([xyz])" };
+const PLACEHOLDER = /\{(\w+)\}/;
+
+/** The entry of an identifier, also where it has a number or an axis that the entry leaves open. */
+function find<T>(entries: Record<string, T>, id: string): { entry: T; at: string } | undefined {
+  const exact = own(entries, id);
+  if (exact !== undefined) return { entry: exact, at: "" };
+  for (const [key, entry] of Object.entries(entries)) {
+    const form = key.replace(PLACEHOLDER, (_, kind: string) => PLACEHOLDERS[kind]!);
+    const at = form === key ? null : new RegExp(`^${form}$`).exec(id);
+    if (at) return { entry, at: at[1]! };
+  }
+  return undefined;
+}
+
+const filled = (text: string, at: string) => text.replace(PLACEHOLDER, at);
+
+function word(entries: Record<string, string>, id: string): string | undefined {
+  const found = find(entries, id);
+  return found && filled(found.entry, found.at);
+}
+
+const partName = (part: string) => word(t.parts, part) ?? part;
+
+/** What a residual depends on. */
+export const dependence = (on: string) => word(t.dependences, on) ?? on;
+
+const effectEntry = (id: string) => own<Entry>(t.effects, id) ?? plain(id);
+
+export const effectExplanation = (id: string) => effectEntry(id).text;
+
+export function effectName({ effect, joint, part, label, depends_on }: EffectAt): string {
   const { name } = effectEntry(effect);
+  if (depends_on) return t.effectAt.dependent(name, dependence(depends_on));
+  if (part) return t.effectAt.part(name, partName(part));
+  // only the label has the link or the curve
+  if (label) return labelName(label);
   return joint === null ? name : t.effectAt.joint(name, joint);
 }
 
 /** `gear_cyclic of joint 1`, `link_length L1`, `thermal_growth of the links`. */
 const LABEL =
-  /^(?<effect>\w+?)(?<curve> curve)?(?: of joint (?<joint>\d+)|(?<links> of the links)| (?<link>[Ll]\d+))?$/;
+  /^(?<effect>\w+?)(?<curve> curve)?(?: of joint (?<joint>\d+)| of the (?<part>links)| (?<link>[Ll]\d+))?$/;
 
 /** Of an effect that the service names by its label alone. */
 export function labelName(label: string): string {
-  const { effect = label, curve, joint, links, link } = LABEL.exec(label)?.groups ?? {};
+  const { effect = label, curve, joint, part, link } = LABEL.exec(label)?.groups ?? {};
   const { name } = effectEntry(effect);
   const whole = curve ? t.effectAt.curve(name) : name;
   if (joint) return t.effectAt.joint(whole, joint);
-  if (links) return t.effectAt.links(whole);
-  // the parameter names the link and the error
-  return link ? parameter(link).name : whole;
+  const acting = part ?? link;
+  return acting ? t.effectAt.part(whole, partName(acting)) : whole;
 }
+
+/** Identifiers of effects within a sentence; with blanks, as older versions wrote them, only where one acts on something. */
+const MENTIONED = new RegExp(
+  Object.keys(t.effects)
+    .flatMap((id) => {
+      const at = "(?: of joint \\d+| of the links| [Ll]\\d+)";
+      const acting = `\\b${id.replaceAll("_", "[_ ]")}(?: curve)?${at}\\b`;
+      return id.includes("_") ? [acting, `\\b${id}(?: curve)?\\b`] : [acting];
+    })
+    .join("|"),
+  "g",
+);
+
+/** What stands between backquotes is the identifier of a plan. */
+const QUOTED = /`(\w+)`/g;
+
+/** A text of the service with display names in place of identifiers. */
+export const withNames = (text: string) =>
+  text
+    .replace(MENTIONED, (label) => {
+      const id = Object.keys(t.effects).find((one) => label.replaceAll(" ", "_").startsWith(one))!;
+      return inSentence(labelName(id + label.slice(id.length)));
+    })
+    .replace(QUOTED, (_, id: string) => planOf(id)?.name ?? id);
+
+/** The same as a sentence. */
+export const readable = (text: string) => capital(withNames(text));
 
 /** A model on the way from the simplest one: one of three by name, or one with one more effect. */
 export function stageName(model: string): string {
-  if (model.startsWith("+ ")) return t.added(labelName(model.slice(2)));
-  return (entry(t.stages, model) ?? plain(model)).name;
+  if (model.startsWith("+ ")) return t.added(inSentence(labelName(model.slice(2))));
+  return (own<Entry>(t.stages, model) ?? plain(model)).name;
 }
 
-/** What a run does: its plan, or what else a run can be. */
-export const runKind = (plan: string): Entry =>
-  entry(t.plans, plan) ?? entry(t.runKinds, plan) ?? plain(plan);
+/** What a run does. */
+export const runKind = (kind: RunKind | (string & {})): Entry => own<Entry>(t.runKinds, kind) ?? plain(kind);
 
-export const methodName = (method: string) => (entry(t.methods, method) ?? plain(method)).name;
+/** The plan that a run measures by; none of what measures by no plan. */
+export const planOf = (plan: Plan | (string & {})): Entry | undefined => own<Entry>(t.plans, plan);
 
-/** With the number of a joint, link or wave, or an axis: `L1`, `e1x`, `amplitude_2_deg`, `per_rev_2`, `tool_x`. */
-const NUMBERED = [
-  /^(dtheta|L|l|alpha|beta|a|b|d)(\d+)()$/,
-  /^(tool|origin|base)_([xyz])()$/,
-  /^(base_r)([xyz])()$/,
-  /^(e)(\d+)([xy])$/,
-  /^(amplitude|per_rev)_(\d+)(|_deg)$/,
-];
+export const methodName = (method: string) => own<Entry>(t.methods, method)?.name ?? withNames(method);
 
 /** Name and explanation of a parameter, whatever its number or mount. */
 export function parameter(id: string): Entry {
   const [bare = id, mount] = id.split("@");
-  const found = entry(t.parameters, bare) ?? numbered(bare) ?? plain(bare);
-  return mount === undefined ? found : { ...found, name: t.numbered(found.name, mount) };
-}
-
-function numbered(id: string): Entry | undefined {
-  const [, before = "", number = "", after = ""] = NUMBERED.map((form) => form.exec(id)).find(Boolean) ?? [];
-  const found = entry(t.parameters, before + after);
-  return found && { ...found, name: t.numbered(found.name, number) };
+  const found = find<Entry>(t.parameters, bare);
+  const { name, text } = found ? { ...found.entry, name: filled(found.entry.name, found.at) } : plain(bare);
+  return { name: mount === undefined ? name : t.mounted(name, mount), text };
 }
 
 interface Sized {
@@ -83,7 +136,7 @@ const IN_UM = new Set(["amplitude_mm", "width_mm", "mm_at_100_mm", "mm_per_hour"
 const UM = 1000;
 
 /** A parameter as the page shows it: display name, and the page's one unit for its quantity. */
-export function shown({ name, value, sd, unit }: Sized): Sized & { explanation: string } {
+export function shown({ name, value, sd, unit }: Sized): Sized & { text: string } {
   const um = IN_UM.has(name);
   const scaled = (size: number | null) => (um && size !== null ? UM * size : size);
   const units: Record<string, string> = t.units;

@@ -31,8 +31,31 @@ export type Problem = Schemas["Problem"];
 
 /** One message of the live feed, by its type. */
 export type LiveMessage = Schemas["LiveMessage"];
-export type LiveEvent = LiveMessage extends infer M ? (M extends LiveMessage ? Pick<M, "type" | "data"> : never) : never;
+export type LiveEvent = LiveMessage extends infer M
+  ? M extends LiveMessage
+    ? Pick<M, "type" | "data">
+    : never
+  : never;
 
-/** An effect of the catalogue, and the joint it belongs to. */
-export type EffectAt = Pick<Schemas["EffectName"], "effect" | "joint">;
+export type RunKind = "calibrate" | "diagnose" | "separate" | "apply" | "rollback" | "import";
+export type Outcome = NonNullable<Summary["outcome"]>;
+
+/** An effect of the catalogue, or an unnamed error, and where it acts. */
+export type EffectAt = Pick<Schemas["EffectName"], "effect" | "joint"> & {
+  part?: string | null;
+  label?: string;
+  depends_on?: string | null;
+};
+
 export type Diagnosis = Schemas["DiagnosisDocument"];
+export type DiagnosisVerdict = Diagnosis["verdict"];
+export type Finding = Diagnosis["findings"][number];
+export type Explanation = Diagnosis["explanations"][number];
+/** An error of an explanation, with its size. */
+export type Held = Explanation["effects"][number];
+export type Experiment = Diagnosis["experiments"][number];
+/** Where only a label of the file is wrong: what, and in which rows. */
+export type Mistake = NonNullable<Diagnosis["mistake"]>;
+
+/** Of the position over the workspace, mm. */
+export type PositionError = Schemas["PositionError"];

@@ -7,6 +7,8 @@ import {
   MISSING,
   measured,
   micrometres,
+  percent,
+  quantity,
   signed,
   signedMicrometres,
   timeOfDay,
@@ -82,3 +84,18 @@ it.each([
   [605, "10 min 05 s"],
   [null, MISSING],
 ])("a duration of %s s reads %s", (seconds, text) => expect(duration(seconds)).toBe(text));
+
+it.each([
+  [0, "0 %"],
+  [0.004, "< 1 %"],
+  [0.625, "63 %"],
+  [0.996, "> 99 %"],
+  [1, "100 %"],
+  [Number.NaN, MISSING],
+  [null, MISSING],
+])("the probability %s is %s", (part, text) => expect(percent(part)).toBe(text));
+
+it("a quantity does not break before its unit, and has none without one", () => {
+  expect(quantity(1.5, 0.05, "mm")).toBe("1.50 ± 0.10\u00a0mm");
+  expect(quantity(20, 0.05, "")).toBe("20.00 ± 0.10");
+});

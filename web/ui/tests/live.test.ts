@@ -136,8 +136,14 @@ describe("numbered events", () => {
   });
 
   it("change one device, the interlocks and the machine", () => {
-    const device = { name: "scale", kind: "scale", address: "a", state: "lost" as const, text: "unplugged" };
-    const interlock = { id: "door", text: "Door closed", ok: false, detail: null };
+    const device = {
+      name: "scale",
+      kind: "scale" as const,
+      address: "a",
+      state: "lost" as const,
+      text: "unplugged",
+    };
+    const interlock = { id: "door", text: "Door closed", ok: false, detail: "the door is open" };
     const machine = { theta1_deg: 1, theta2_deg: 2, x_mm: 3, y_mm: 4, scale_mm: 5, age_s: 0.5 };
     const now = events(
       { type: "device", data: device },

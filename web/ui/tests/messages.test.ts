@@ -1,14 +1,19 @@
 import { describe, expect, it } from "vitest";
+import openapi from "../../openapi.json";
 import { type Messages, t } from "../src/messages";
+import { parameter } from "../src/names";
+
+/** Of a template. */
+const FIELD = /\{\w+(:[^}]*)?\}/g;
 
 /** Every text with its path; functions are asked with a value that can be found again. */
 function texts(node: unknown, path = ""): [string, string][] {
-  if (typeof node === "string") return [[path, node]];
+  if (typeof node === "string") return [[path, node.replace(FIELD, "7")]];
   if (typeof node === "function") return [[path, String(node(...sample(node)))]];
   return Object.entries(node as object).flatMap(([key, value]) => texts(value, `${path}.${key}`));
 }
 
-const LISTS = new Set<unknown>([t.listed]);
+const LISTS = new Set<unknown>([t.listed, t.both]);
 const sample = (message: { length: number }) =>
   LISTS.has(message) ? [["7"]] : Array.from({ length: message.length }, () => "7");
 
@@ -27,8 +32,8 @@ describe("texts", () => {
   });
 
   it("explain in whole sentences", () => {
-    const explanations = all.filter(([path]) => path.endsWith(".explanation"));
-    expect(explanations.length).toBeGreaterThan(60);
+    const explanations = all.filter(([path]) => path.endsWith(".text") && path !== "");
+    expect(explanations.length).toBeGreaterThan(90);
     expect(explanations.filter(([, text]) => !/^[A-Z0-9].*\.$/.test(text))).toEqual([]);
   });
 
@@ -57,9 +62,26 @@ describe("the catalogue of effects", () => {
   const ids = Object.values(sources).flatMap((source) =>
     [...source.matchAll(/^ {4}id = "(\w+)"$/gm)].map(([, id]) => id),
   );
+  const BESIDE = ["outliers", "reading_step", "unnamed"];
 
   it("has a display name for each effect, and no name without one", () => {
     expect(ids.length).toBeGreaterThan(10);
-    expect(Object.keys(t.effects).toSorted()).toEqual([...new Set(ids)].toSorted());
+    expect(Object.keys(t.effects).toSorted()).toEqual([...new Set([...ids, ...BESIDE])].toSorted());
+  });
+
+  it("has a display name for each parameter", () => {
+    const named = Object.values(sources).flatMap((source) =>
+      [...source.matchAll(/(?:Quantity|scaled|amplitude_and_phase)\("(\w+)"/g)].map(([, id]) => id!),
+    );
+    expect(named.length).toBeGreaterThan(10);
+    expect(named.filter((id) => !parameter(id).text)).toEqual([]);
+  });
+});
+
+describe("outcomes and kinds of run", () => {
+  it("of the message file are those of the service", () => {
+    const { outcome } = openapi.components.schemas.CalibrationSummary.properties;
+    const ids = outcome.anyOf.flatMap((one) => one.enum ?? []);
+    expect(Object.keys(t.outcomes).toSorted()).toEqual(ids.toSorted());
   });
 });

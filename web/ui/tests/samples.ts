@@ -1,22 +1,35 @@
 /** Answers of the service, as small as the page can use them. */
-import type { Diagnosis, ResidualRow, Run, RunReading, Station, Summary } from "../src/types";
+import type {
+  Calibration,
+  Diagnosis,
+  Finding,
+  ResidualRow,
+  Run,
+  RunReading,
+  Station,
+  Summary,
+} from "../src/types";
 
 export const summary = (given: Partial<Summary> = {}): Summary => ({
   id: 1,
   robot_serial: "FB-1",
+  kind: "calibrate",
   plan: "paper",
   of: null,
   operator: "ada",
   work_order: null,
   state: "succeeded",
   verdict: "pass",
+  outcome: "good",
   reason: null,
+  reason_code: null,
+  reason_params: {},
   step: 4,
   steps: 4,
   created_at: "2024-03-05T07:00:00Z",
   started_at: null,
   ended_at: null,
-  zero_offsets: null,
+  zero_offsets: [],
   ...given,
 });
 
@@ -40,6 +53,7 @@ export const run = (given: Partial<Run> = {}): Run => ({
   id: 2,
   state: "running",
   robot_serial: "FB-1",
+  kind: "calibrate",
   plan: "paper",
   of: null,
   operator: "ada",
@@ -86,28 +100,85 @@ export const row = (given: Partial<ResidualRow> = {}): ResidualRow => ({
   ...given,
 });
 
-type Finding = Diagnosis["findings"][number];
-
 export const finding = (given: Partial<Finding> = {}): Finding => ({
   effect: "backlash",
   joint: 2,
+  part: null,
+  label: "backlash of joint 2",
   parameters: [{ name: "width_deg", value: 0.0496, sd: 0.0001, unit: "deg" }],
   share: 0.97,
-  alias_set: [{ effect: "backlash", joint: 2 }],
+  p_value: 1e-9,
+  probability: null,
+  alias_set: [{ effect: "backlash", joint: 2, part: null }],
   remedy: "Adjust the reducer.",
   separating_experiment: null,
   ...given,
 });
 
+const stage = {
+  model: "base",
+  unknowns: 8,
+  fit_rms_mm: 0.012,
+  holdout_rms_mm: 0.013,
+  holdout_max_mm: 0.03,
+  confirm_rms_mm: null,
+  confirm_max_mm: null,
+  predicted_position_error_mm: { rms: 0.1, max: 0.2, bound_95: null },
+  true_position_error_mm: null,
+};
+
+const weak_direction = {
+  singular_ratio: null,
+  text: "",
+  sd_deg: null,
+  blind: [],
+  remedies: [],
+  remedy: null,
+};
+
+/** What `station solve` needs; the page shows none of it. */
+const model = {} as Diagnosis["model"];
+
 export const diagnosed = (given: Partial<Diagnosis> = {}): Diagnosis => ({
+  schema: "station.diagnosis/1",
+  data: { file: "a.csv", readings: 120, sha256: "", guessed: [] },
+  noise: { sigma_mm: 0.002, source: "repeats", dof: 60 },
   verdict: "explained",
   confirmed: true,
   sentence: "",
-  noise: { sigma_mm: 0.002, source: "repeats", dof: 60 },
-  outliers: [],
+  parameters: [],
+  weak_direction,
   findings: [finding()],
+  curves: [],
   stages: [],
+  before: stage,
+  after: stage,
   hints: [],
   invisible: [],
+  outliers: [],
+  outlier_reasons: [],
+  fresh_outliers: [],
+  explanations: [],
+  experiments: [],
+  mistake: null,
+  model,
+  ...given,
+});
+
+export const calibration = (given: Partial<Calibration> = {}): Calibration => ({
+  ...summary(),
+  metadata: {},
+  method: "published",
+  zero_offset_tolerance_deg: 1,
+  parameters: [],
+  weak_direction: null,
+  application: null,
+  memory: null,
+  lack_of_fit: null,
+  before: null,
+  after: null,
+  iterations: [],
+  residuals: [],
+  findings: [],
   ...given,
 });

@@ -13,13 +13,11 @@ from station.diagnosis.explanations.family import Family, Hidden, Part, nothing
 from station.diagnosis.explanations.frame import Frame, frame
 from station.diagnosis.explanations.noise_level import NoiseLevel, specified
 from station.diagnosis.explanations.situation import Action, Situation
-from station.five_bar.kinematics import inverse
 from station.five_bar.mechanism import FiveBar
 from station.five_bar.robot_file import Robot
 from station.mechanism.conditions import Reference, reference_of
 from station.records.measurements import Measurements
 from station.records.types import Real
-from station.studies.confusion.machines import FRESH, walk_of
 from station.studies.simulation import SimulatedMachine
 
 ROBOT = Robot.default()
@@ -29,12 +27,8 @@ TRUTH = np.array([0.02, -0.012, 0.01, -0.02, 0.02, 0.01, 0.01, -0.01, 0.02, -0.0
 @cache
 def walked(seed: int, *effects: tuple[tuple[str, Any], ...]) -> tuple[Measurements, Measurements]:
     """The diagnostic sequence and fresh readings of a machine with these effects."""
-    rng = np.random.default_rng(seed)
-    places, labels = walk_of(ROBOT, rng)
     machine = SimulatedMachine(ROBOT, TRUTH, "whole pulses", seed, [dict(e) for e in effects])
-    every = machine.visit(np.degrees(inverse(ROBOT.geometry, places)), labels)
-    rows = np.arange(len(places))
-    return every.take(rows[:-FRESH]), every.take(rows[-FRESH:])
+    return machine.diagnostic_run(ROBOT, seed)
 
 
 def effect(**table: Any) -> tuple[tuple[str, Any], ...]:

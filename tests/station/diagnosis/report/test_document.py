@@ -263,6 +263,6 @@ def test_page_of_the_unexplained_says_on_what_it_depends(unexplained: Run) -> No
 
 
 def test_every_effect_is_documented() -> None:
-    text = (Path(__file__).parents[4] / "docs" / "diagnosis.md").read_text(encoding="utf-8")
+    text = (Path(__file__).parents[4] / "docs/reference/names.md").read_text(encoding="utf-8")
     for effect in five_bar_catalogue():
         assert f"| `{effect.id}` |" in text

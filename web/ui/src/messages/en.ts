@@ -1,15 +1,26 @@
 /**
  * Every text of the page in English.
  *
- * Names of effects and parameters are written as they stand in the middle of a sentence; where one stands
- * alone, the style sheet writes its first letter large.  Another language is another file of the same shape.
+ * What the page shares with the service (effects, parameters, plans, states, verdicts, outcomes, kinds of run,
+ * reasons) is written once, in `station/messages`; here is only what is the page's own.  Another language is
+ * another pair of files of the same shape.
  */
-import type { ApplicationState, Device, Diagnosis, Plan, State, Verdict } from "../types";
+import shared from "../../../../station/messages/en.json";
+import type {
+  ApplicationState,
+  Device,
+  DiagnosisVerdict,
+  Outcome,
+  Plan,
+  RunKind,
+  State,
+  Verdict,
+} from "../types";
 
 /** How a thing is called, and what it is in one sentence. */
 interface Entry {
   name: string;
-  explanation: string;
+  text: string;
 }
 
 export const en = {
@@ -17,156 +28,22 @@ export const en = {
   title: "Calibration station",
   listed: (parts: string[]) => parts.join(", "),
 
-  /** By the identifier of the catalogue. */
-  effects: {
-    backlash: {
-      name: "backlash",
-      explanation:
-        "Play between gear and arm: the angle depends on the direction from which the joint arrives.",
-    },
-    gear_cyclic: {
-      name: "gear ripple",
-      explanation:
-        "Teeth and bearings of the gear repeat an angle error several times per revolution of the joint.",
-    },
-    encoder_eccentricity: {
-      name: "encoder eccentricity",
-      explanation:
-        "The encoder disc is off-centre: the angle error repeats once per revolution of the joint.",
-    },
-    transmission_gain: {
-      name: "transmission ratio error",
-      explanation: "The joint turns more or less than the drive counts, in proportion to the angle.",
-    },
-    compliance: {
-      name: "drive train compliance",
-      explanation: "The drive train yields to gravity: the arm sags most when it is horizontal.",
-    },
-    count_slip: {
-      name: "lost counts",
-      explanation:
-        "A belt jumped, a coupling slipped or counts were lost: the angle has a step at one moment.",
-    },
-    link_length: {
-      name: "link length error",
-      explanation: "The length of a link differs from its nominal value by more than the tolerance.",
-    },
-    joint_clearance: {
-      name: "passive joint clearance",
-      explanation:
-        "The pin of a passive joint moves within its bearing to the side to which the load pulls it.",
-    },
-    scale_gain: {
-      name: "scale gain error",
-      explanation: "The graduation of the scale is too long or too short.",
-    },
-    scale_bow: {
-      name: "bent scale guide",
-      explanation: "The guide of the scale is bent: the error grows with the square of the travel.",
-    },
-    scale_cyclic: {
-      name: "periodic scale error",
-      explanation:
-        "The graduation, its interpolation or a rolling element repeats an error along the travel.",
-    },
-    scale_hysteresis: {
-      name: "scale hysteresis",
-      explanation: "The reading depends on the direction of the last motion of the slider.",
-    },
-    drift: {
-      name: "drift",
-      explanation: "The reading changes in proportion to time.",
-    },
-    thermal_growth: {
-      name: "thermal growth",
-      explanation: "Links or scale grow while the machine warms up.",
-    },
-  } satisfies Record<string, Entry>,
+  /** By the identifier of the catalogue; `unnamed` is an error outside it. */
+  effects: shared.effects satisfies Record<string, Entry>,
   /** An effect and where it acts. */
   effectAt: {
     joint: (effect: string, joint: string | number) => `${effect} of joint ${joint}`,
-    links: (effect: string) => `${effect} of the links`,
+    part: (effect: string, part: string) => `${effect} of ${part}`,
     curve: (effect: string) => `${effect} curve`,
+    dependent: (effect: string, on: string) => `${effect} that depends on ${on}`,
   },
-
-  /** By the identifier without the number of a joint, link or wave. */
-  parameters: {
-    width_deg: { name: "width", explanation: "Angle between the two directions of approach." },
-    width_mm: { name: "width", explanation: "Distance between the two directions of motion." },
-    amplitude_deg: { name: "amplitude", explanation: "Largest angle error of the wave." },
-    amplitude_mm: { name: "amplitude", explanation: "Largest error of the wave." },
-    phase_deg: { name: "phase", explanation: "Phase of the wave at the origin." },
-    per_rev: { name: "cycles per revolution", explanation: "Number of waves per revolution of the joint." },
-    rms_deg: { name: "RMS", explanation: "Root mean square of the angle error over the range of the joint." },
-    period_mm: { name: "period", explanation: "Travel of the scale after which the error repeats." },
-    ppm: { name: "relative error", explanation: "Error in millionths of the angle or of the travel." },
-    deg_at_horizontal: {
-      name: "sag when horizontal",
-      explanation: "Angle by which the horizontal arm sags.",
-    },
-    deg_at_horizontal_per_kg: {
-      name: "sag per payload when horizontal",
-      explanation: "Angle by which the horizontal arm sags per kilogram of payload.",
-    },
-    deg_at_full_reach: {
-      name: "sag at full reach",
-      explanation: "Angle by which the outstretched arm sags.",
-    },
-    step_deg: { name: "step", explanation: "Angle by which the joint has shifted." },
-    from_s: { name: "time of the step", explanation: "Time since the first reading." },
-    mm: { name: "clearance", explanation: "Displacement of the pin in its bearing." },
-    mm_at_100_mm: { name: "error at 100 mm", explanation: "Error at 100 mm of travel from the centre." },
-    mm_per_hour: { name: "rate", explanation: "Change of the reading per hour." },
-    links_um_per_m: { name: "growth of the links", explanation: "Growth per length when warm." },
-    links_um_per_m_per_K: {
-      name: "growth of the links",
-      explanation: "Growth per length and temperature rise.",
-    },
-    scale_um_per_m: { name: "growth of the scale", explanation: "Growth per travel when warm." },
-    scale_um_per_m_per_K: {
-      name: "growth of the scale",
-      explanation: "Growth per travel and temperature rise.",
-    },
-    mounting_mm: { name: "shift of the scale mounting", explanation: "Shift of the reading when warm." },
-    mounting_um_per_K: {
-      name: "shift of the scale mounting",
-      explanation: "Shift of the reading per temperature rise.",
-    },
-    tau_s: { name: "time constant", explanation: "Time after which 63 % of the growth is reached." },
-    dtheta: {
-      name: "zero offset",
-      explanation: "Difference between the zero of the drive and that of the joint.",
-    },
-    L: { name: "length error of proximal link", explanation: "Deviation from the length in the robot file." },
-    l: { name: "length error of distal link", explanation: "Deviation from the length in the robot file." },
-    ex: { name: "error in x of base joint", explanation: "Deviation from the position in the robot file." },
-    ey: { name: "error in y of base joint", explanation: "Deviation from the position in the robot file." },
-    rho0: { name: "reading offset", explanation: "Reading of the scale at distance zero." },
-    alpha: { name: "twist angle error of link", explanation: "Deviation from the angle in the robot file." },
-    beta: { name: "parallelism error of joint", explanation: "Deviation from the angle in the robot file." },
-    a: { name: "length error of link", explanation: "Deviation from the length in the robot file." },
-    b: { name: "lateral offset error of link", explanation: "Deviation from the offset in the robot file." },
-    d: { name: "offset error of link", explanation: "Deviation from the offset in the robot file." },
-    tool: {
-      name: "tool position",
-      explanation: "Position of the measured point in the frame of the flange.",
-    },
-    origin: {
-      name: "instrument position",
-      explanation: "Position of the instrument in the frame of the robot.",
-    },
-    base: { name: "base position", explanation: "Position of the robot in the frame of the instrument." },
-    base_r: { name: "base rotation", explanation: "Rotation of the robot in the frame of the instrument." },
-    rMx: {
-      name: "mounting error of the mechanism, x",
-      explanation: "Offset of the measuring mechanism from its nominal position, in x.",
-    },
-    rMy: {
-      name: "mounting error of the mechanism, y",
-      explanation: "Offset of the measuring mechanism from its nominal position, in y.",
-    },
-  } satisfies Record<string, Entry>,
-  numbered: (name: string, number: string) => `${name} ${number}`,
+  /** By the identifier, with {n} for the number of a joint, link or wave and {axis} for x, y or z. */
+  parameters: shared.parameters satisfies Record<string, Entry>,
+  parts: shared.parts satisfies Record<string, string>,
+  dependences: shared.dependences satisfies Record<string, string>,
+  mounted: (name: string, mount: string) => `${name} (mount ${mount})`,
+  both: (names: string[]) =>
+    names.length < 2 ? names.join("") : `${names.slice(0, -1).join(", ")} and ${names.at(-1)}`,
   /** By the unit that the service states. */
   units: {
     deg: "°",
@@ -177,105 +54,52 @@ export const en = {
     "1/rev": "",
   } satisfies Record<string, string>,
 
-  plans: {
-    paper: {
-      name: "Paper",
-      explanation: "The published method: it identifies the zero offsets in several passes.",
-    },
-    rapid: { name: "Rapid", explanation: "Few readings; it uses the stored parameters of the robot." },
-    full: {
-      name: "Full",
-      explanation: "24 positions from both sides; it also identifies geometry and mounting.",
-    },
-    diagnostic: {
-      name: "Find the cause",
-      explanation:
-        "120 readings that identify the cause of the residual, and 40 fresh readings that check it.",
-    },
-  } satisfies Record<Plan, Entry>,
-  /** What else a run can be. */
-  runKinds: {
-    apply: {
-      name: "Apply to drives",
-      explanation: "The zero offsets are written to the drives and verified.",
-    },
-    rollback: { name: "Roll back", explanation: "The earlier zero offsets are written to the drives." },
-    separating: {
-      name: "Separating experiment",
-      explanation: "More readings distinguish the alternative explanations of a diagnosis.",
-    },
-    dataset: { name: "Imported measurements", explanation: "The readings come from a file." },
-  } satisfies Record<string, Entry>,
+  plans: shared.plans satisfies Record<Plan, Entry>,
+  runKinds: shared.run_kinds satisfies Record<RunKind, Entry>,
   methods: {
     published: {
       name: "Published method",
-      explanation: "Linear equations of the paper, solved pass by pass.",
+      text: "Linear equations of the paper, solved pass by pass.",
     },
     "measurement model": {
       name: "Measurement model",
-      explanation: "Least squares over zero offsets, geometry and mounting, with their tolerances.",
+      text: "Least squares over zero offsets, geometry and mounting, with their tolerances.",
     },
     diagnosis: {
       name: "Diagnosis",
-      explanation: "The measurement model, extended by effects of the catalogue.",
+      text: "The measurement model, extended by effects of the catalogue.",
     },
   } satisfies Record<string, Entry>,
 
-  states: {
-    queued: { name: "waiting", badge: "WAITING", explanation: "The run has not started yet." },
-    running: { name: "running", badge: "RUNNING", explanation: "The run is in progress." },
-    succeeded: { name: "completed", badge: "NO VERDICT", explanation: "The run was completed." },
-    failed: { name: "failed", badge: "FAILED", explanation: "The run ended with an error." },
-    aborted: { name: "aborted", badge: "ABORTED", explanation: "An operator ended the run." },
-    interrupted: {
-      name: "interrupted",
-      badge: "INTERRUPTED",
-      explanation: "The station was restarted during the run. The run does not continue.",
-    },
-  } satisfies Record<State, Entry & { badge: string }>,
-  verdicts: {
-    pass: { name: "pass", badge: "PASS", explanation: "The result meets its limits." },
-    fail: { name: "fail", badge: "FAIL", explanation: "The result does not meet its limits." },
-  } satisfies Record<Verdict, Entry & { badge: string }>,
-  diagnoses: {
-    adequate: { name: "adequate", explanation: "The model fits the readings. No effect is missing from it." },
-    explained: { name: "explained", explanation: "With the effects found, the model fits the readings." },
-    ambiguous: {
-      name: "not certain",
-      explanation: "Several explanations fit the readings, and these readings cannot distinguish them.",
-    },
-    partly_explained: {
-      name: "partly explained",
-      explanation: "The effects found reduce the residual, but it is still larger than the noise.",
-    },
-    unexplained: {
-      name: "unexplained",
-      explanation: "The residual is larger than the noise, and no effect of the catalogue explains it.",
-    },
-  } satisfies Record<Diagnosis["verdict"], Entry>,
+  states: shared.states satisfies Record<State, Entry>,
+  /** Of a run and of a diagnosis. */
+  verdicts: shared.verdicts satisfies Record<Verdict | DiagnosisVerdict, Entry>,
+  outcomes: shared.outcomes satisfies Record<Outcome, Entry>,
+  /** Templates with the values of `reason_params`. */
+  reasons: shared.reasons satisfies Record<string, string>,
   applications: {
-    unwritten: { name: "old zero offset", explanation: "The drive has not been written." },
-    applied: { name: "new zero offset", explanation: "The drive has accepted the new zero offset." },
-    partly: { name: "partly written", explanation: "Only some of the drives have the new zero offset." },
-    "in doubt": { name: "unknown", explanation: "It is unknown whether the drive accepted its new zero." },
+    unwritten: { name: "old zero offset", text: "The drive has not been written." },
+    applied: { name: "new zero offset", text: "The drive has accepted the new zero offset." },
+    partly: { name: "partly written", text: "Only some of the drives have the new zero offset." },
+    "in doubt": { name: "unknown", text: "It is unknown whether the drive accepted its new zero." },
     "rolled back": {
       name: "old zero offset restored",
-      explanation: "The drive has its old zero offset again.",
+      text: "The drive has its old zero offset again.",
     },
-    superseded: { name: "changed since", explanation: "A later run has written the drive." },
+    superseded: { name: "changed since", text: "A later run has written the drive." },
   } satisfies Record<ApplicationState, Entry>,
   devices: {
-    ok: { name: "ok", explanation: "The device responds." },
-    unknown: { name: "not checked yet", explanation: "The device has not been asked yet." },
-    lost: { name: "lost", explanation: "The device does not respond." },
-    fault: { name: "fault", explanation: "The device reports a fault." },
+    ok: { name: "ok", text: "The device responds." },
+    unknown: { name: "not checked yet", text: "The device has not been asked yet." },
+    lost: { name: "lost", text: "The device does not respond." },
+    fault: { name: "fault", text: "The device reports a fault." },
   } satisfies Record<Device["state"], Entry>,
 
   /** By the name of the stage; the others are effects. */
   stages: {
-    paper: { name: "published model", explanation: "Zero offsets and mounting; the geometry is nominal." },
-    nominal: { name: "nominal model", explanation: "Base and tool; the geometry is nominal." },
-    base: { name: "base model", explanation: "Zero offsets, geometry and mounting, without effects." },
+    paper: { name: "Published model", text: "Zero offsets and mounting; the geometry is nominal." },
+    nominal: { name: "Nominal model", text: "Base and tool; the geometry is nominal." },
+    base: { name: "Base model", text: "Zero offsets, geometry and mounting, without effects." },
   } satisfies Record<string, Entry>,
   added: (effect: string) => `+ ${effect}`,
 
@@ -300,6 +124,8 @@ export const en = {
     outside: "◆ outside",
     stepOf: (step: number, steps: number | string) => `step ${step} of ${steps}`,
     waiting: "Waiting to start",
+    noVerdict: "No verdict",
+    verdict: (verdict: string) => `Verdict: ${verdict}`,
   },
 
   refusals: {
@@ -317,8 +143,6 @@ export const en = {
     connected: "connected",
     connecting: "connecting …",
     notConnected: "CONNECTING",
-    running: "RUNNING",
-    waiting: "WAITING",
     notReady: "◆ NOT READY",
     ready: "READY",
     device: (name: string, state: string) => `▲ ${name}: ${state}`,
@@ -383,6 +207,7 @@ export const en = {
     headingOf: (id: number, kind: string, of: number) => `Result of run ${id}: ${kind} (run ${of})`,
     none: "No run has ended yet.",
     waiting: "Waiting for the station …",
+    kind: "Kind of run",
     plan: "Plan",
     workOrder: "Work order",
     started: "Started",
@@ -451,8 +276,8 @@ export const en = {
     cause: "Cause",
     checkModel: "Check the model for missing effects",
     misfit: "◆ The model does not fit these readings",
-    misfitOffsets: (lack: string) =>
-      `An effect is missing from the model. The zero offsets may be in error by more than their uncertainty: ${lack}.`,
+    misfitOffsets:
+      "An effect is missing from the model. The zero offsets may be in error by more than their uncertainty.",
     misfitNone:
       "No robot within its tolerances gives these readings. An effect is missing from the model, or the robot file belongs to another robot.",
     findCauseNote:
@@ -471,6 +296,7 @@ export const en = {
     fresh: "Residual of fresh readings, RMS, µm",
     position: "Predicted position error, RMS, mm",
     largest: "Predicted position error, largest, mm",
+    bound: "Position error, 95 % bound, mm",
   },
 
   diagnosis: {
@@ -483,16 +309,35 @@ export const en = {
     outliers: (readings: string) => `Outliers, not used: reading ${readings}.`,
 
     causes: "Causes",
+    possible: "Possible causes",
     tried: "Effects tested; none of them is the cause",
     noEffect: "The model contains no effect of the catalogue.",
     effect: (rank: number) => `Effect ${rank}`,
     size: "Size ± U",
     share: "Share of the residual",
+    probability: "Probability",
     alternatives: "Alternative explanations",
     noAlternative: "no other effect of the catalogue",
     remedy: "Remedy",
     toDistinguish: (experiment: string) => `To distinguish the alternatives: ${experiment}`,
     meaning: "Meaning of the parameters",
+
+    explanations: "Explanations",
+    explanationsTitle: "Explanations of the readings, most probable first",
+    explanation: "Explanation",
+    noError: "No error: the base model alone",
+    outsideCatalogue: "not in the catalogue",
+
+    experiments: "Experiments",
+    experimentsTitle: "Experiments that can decide, best first",
+    experiment: "Experiment",
+    decides: "Probability to decide",
+
+    mistake: "Mistake in the data",
+    mistakeTitle: "◆ Mistake in the data",
+    mistakeRows: (rows: string) => `Rows of the file: ${rows}.`,
+    mistakeRow: (row: string) => `Row of the file: ${row}.`,
+    rowsTo: (first: number, last: number) => `${first} to ${last}`,
 
     hints: "Hints",
     hintsTitle: "What the remaining residual depends on",
@@ -504,8 +349,9 @@ export const en = {
       `${count} more readings, at the positions where the models differ most, should distinguish the effect found from `,
     freshReadings: (count: number, duration: string) =>
       `. Then ${count} fresh readings check the result. Duration: about ${duration}.`,
-    continues: "The experiment continues this run. Until then, do not change scale, drives or mechanism.",
-    runSeparating: "Run the separating experiment",
+    continues:
+      "The further diagnosis continues this run. Until then, do not change scale, drives or mechanism.",
+    runSeparating: "Start the further diagnosis",
     workspace: " over its workspace.",
     planned: (count: number, left: string, right: string, bottom: string, top: string) =>
       `${count} planned positions, x from ${left} to ${right} mm, y from ${bottom} to ${top} mm`,

@@ -1,7 +1,7 @@
 /** Errors before and after: of the readings, of fresh readings, and of the position over the workspace. */
 import { fixed, micrometres } from "../format";
 import { t } from "../messages";
-import type { Calibration } from "../types";
+import type { Calibration, PositionError } from "../types";
 
 export function BeforeAfter({ result, wide }: { result: Calibration; wide?: boolean }) {
   const { before, after, method } = result;
@@ -9,7 +9,8 @@ export function BeforeAfter({ result, wide }: { result: Calibration; wide?: bool
   const words = t.accuracy;
   const um = (mm: number | null | undefined) => micrometres(mm, 2);
   const mm = (size: number | null | undefined) => fixed(size, 3);
-  const [was, is] = [before?.predicted_position_error_mm, after?.predicted_position_error_mm];
+  const was: PositionError | null | undefined = before?.predicted_position_error_mm;
+  const is: PositionError | null | undefined = after?.predicted_position_error_mm;
   const rows = [
     { text: words.readings, shown: um, before: before?.reading_rms_mm, after: after?.reading_rms_mm },
     {
@@ -20,6 +21,7 @@ export function BeforeAfter({ result, wide }: { result: Calibration; wide?: bool
     },
     { text: words.position, shown: mm, before: was?.rms, after: is?.rms },
     { text: words.largest, shown: mm, before: was?.max, after: is?.max },
+    { text: words.bound, shown: mm, before: was?.bound_95, after: is?.bound_95 },
   ];
   return (
     <section class={wide ? "panel wide" : "panel"} aria-label={words.title}>

@@ -55,7 +55,7 @@ function status(): { text: string; alarm?: "act" | "warn" } {
   if (!now) return { text: t.header.notConnected };
   const lost = now.devices.find((device) => device.state === "lost" || device.state === "fault");
   if (lost) return { text: t.header.device(lost.name, t.devices[lost.state].name), alarm: "act" };
-  if (now.run) return { text: now.run.state === "queued" ? t.header.waiting : t.header.running };
+  if (now.run) return { text: t.states[now.run.state].name.toUpperCase() };
   if (now.interlocks.some((interlock) => !interlock.ok)) return { text: t.header.notReady, alarm: "warn" };
   return { text: t.header.ready };
 }

@@ -1,13 +1,14 @@
-/** The verdict in one line: word, shape, reason.  Colour only where something is wrong. */
+/** How a run ended, in one line: shape, word, reason.  Colour only where something is wrong. */
 import { t } from "../messages";
-import type { State, Summary } from "../types";
+import { reasonText } from "../reason";
+import type { Outcome, State, Summary, Verdict } from "../types";
 
 interface Look {
   shape: string;
   alarm: "" | "act" | "warn";
 }
 
-const LOOKS: Record<State, Look> = {
+const STATES: Record<State, Look> = {
   queued: { shape: "○", alarm: "" },
   running: { shape: "▶", alarm: "" },
   succeeded: { shape: "◆", alarm: "warn" },
@@ -16,28 +17,56 @@ const LOOKS: Record<State, Look> = {
   interrupted: { shape: "◆", alarm: "warn" },
 };
 
-type Ended = Pick<Summary, "state" | "verdict">;
+const OUTCOMES: Record<Outcome, Look> = {
+  good: { shape: "✓", alarm: "" },
+  repair: { shape: "◆", alarm: "warn" },
+  ambiguous: { shape: "◆", alarm: "warn" },
+  unexplained: { shape: "▲", alarm: "act" },
+  not_accurate_enough: { shape: "◆", alarm: "warn" },
+  not_verified: { shape: "◆", alarm: "warn" },
+  failed: { shape: "▲", alarm: "act" },
+  aborted: { shape: "◆", alarm: "warn" },
+  interrupted: { shape: "◆", alarm: "warn" },
+};
 
-/** The verdict where the run has come to one, else its state. */
-export function verdictOf({ state, verdict }: Ended): Look & { word: string; explanation: string } {
-  const { badge, explanation } = t.states[state];
-  const looks = { ...LOOKS[state], word: badge, explanation };
-  if (state !== "succeeded" && state !== "failed") return looks;
-  if (verdict === "pass" && state === "succeeded") return { ...worded("pass"), shape: "✓", alarm: "" };
-  return verdict === "fail" ? { ...worded("fail"), shape: "▲", alarm: "act" } : looks;
+type Ended = Pick<Summary, "state" | "verdict"> & Partial<Pick<Summary, "outcome">>;
+
+interface Worded extends Look {
+  word: string;
+  text: string;
+  /** Beside an outcome; empty where the word is the verdict already. */
+  verdict: string;
 }
 
-function worded(verdict: "pass" | "fail") {
-  const { badge, explanation } = t.verdicts[verdict];
-  return { word: badge, explanation };
+/** The outcome where the run has come to one, else its verdict, else its state; never better than any of them. */
+export function outcomeOf({ state, verdict, outcome }: Ended): Worded {
+  if (state !== "succeeded") return worded(t.states[state], STATES[state]);
+  if (outcome && outcome !== "good") {
+    return worded(t.outcomes[outcome], OUTCOMES[outcome], verdict === "fail" ? verdict : null);
+  }
+  if (verdict === "pass" && outcome === "good") return worded(t.outcomes.good, OUTCOMES.good, verdict);
+  if (verdict === "pass") return worded(t.verdicts.pass, OUTCOMES.good);
+  if (verdict === "fail") return worded(t.verdicts.fail, STATES.failed);
+  return worded({ name: t.shared.noVerdict, text: t.states.succeeded.text }, STATES.succeeded);
 }
+
+const upper = (name: string) => name.toUpperCase();
+const worded = (entry: { name: string; text: string }, look: Look, beside: Verdict | null = null) => ({
+  ...look,
+  word: upper(entry.name),
+  text: entry.text,
+  verdict: beside ? upper(t.verdicts[beside].name) : "",
+});
 
 export function Badge({ run }: { run: Ended }) {
-  const { word, shape, alarm } = verdictOf(run);
+  const { word, shape, alarm, verdict } = outcomeOf(run);
   return (
-    <strong class={`badge ${alarm && `alarm ${alarm}`}`}>
-      <span aria-hidden="true">{shape}</span> {word}
-    </strong>
+    <span class="badges">
+      <strong class={`badge ${alarm && `alarm ${alarm}`}`}>
+        <span aria-hidden="true">{shape}</span> {word}
+      </strong>{" "}
+      {verdict && <span class="beside">{t.shared.verdict(verdict)}</span>}
+    </span>
   );
 }
 
@@ -46,7 +75,7 @@ export function VerdictLine({ run }: { run: Summary }) {
   return (
     <p class="verdict">
       <Badge run={run} /> <span class="serial">{run.robot_serial}</span>
-      <span>{run.reason ?? progress}</span>
+      <span>{reasonText(run) ?? progress}</span>
     </p>
   );
 }

@@ -13,7 +13,7 @@ const device = (state: Device["state"]): Device => ({
   state,
   text: "",
 });
-const door = { id: "door", text: "Door closed", ok: false, detail: null };
+const door = { id: "door", text: "Door closed", ok: false, detail: "" };
 
 const drawn = () => {
   const place = document.createElement("div");
@@ -35,7 +35,7 @@ describe("the state of the station", () => {
     expect(status({})).toBe("READY");
     expect(status({ interlocks: [door] })).toBe("◆ NOT READY");
     expect(status({ interlocks: [door], run: run() })).toBe("RUNNING");
-    expect(status({ run: run({ state: "queued" }) })).toBe("WAITING");
+    expect(status({ run: run({ state: "queued" }) })).toBe("QUEUED");
     expect(status({ run: run(), devices: [device("lost")] })).toBe("▲ scale: lost");
     expect(status({ devices: [device("fault")] })).toBe("▲ scale: fault");
     now.value += 60_000;

@@ -1,16 +1,19 @@
 /** The causes that a diagnosis found, by rank, and what an unexplained residual depends on. */
-import { expanded, fixed, K, measured } from "../../format";
+import { fixed, K, percent, quantity } from "../../format";
 import { t } from "../../messages";
-import { effectExplanation, effectName, shown } from "../../names";
-import type { Diagnosis } from "../../types";
+import { effectExplanation, effectName, readable, shown } from "../../names";
+import type { Diagnosis, Finding } from "../../types";
 
-type Finding = Diagnosis["findings"][number];
+/** Whether the effects found are no more than an attempt. */
+export const isTried = ({ verdict, confirmed }: Pick<Diagnosis, "verdict" | "confirmed">) =>
+  verdict === "unexplained" || (verdict === "partly_explained" && confirmed === false);
 
-export function Causes({ found: { findings, verdict, confirmed } }: { found: Diagnosis }) {
-  const tried = verdict === "unexplained" || (verdict === "partly_explained" && confirmed === false);
+export function Causes({ found }: { found: Diagnosis }) {
+  const { findings, verdict } = found;
+  const tried = isTried(found);
   return (
     <section class="panel wide causes" aria-label={t.diagnosis.causes}>
-      <h2>{tried ? t.diagnosis.tried : t.diagnosis.causes}</h2>
+      <h2>{title(tried, verdict)}</h2>
       {findings.length === 0 && <p>{t.diagnosis.noEffect}</p>}
       {findings.map((finding, rank) => (
         <Cause key={`${rank} ${effectName(finding)}`} finding={finding} rank={rank + 1} tried={tried} />
@@ -20,12 +23,17 @@ export function Causes({ found: { findings, verdict, confirmed } }: { found: Dia
   );
 }
 
+function title(tried: boolean, verdict: Diagnosis["verdict"]): string {
+  if (tried) return t.diagnosis.tried;
+  return verdict === "ambiguous" ? t.diagnosis.possible : t.diagnosis.causes;
+}
+
 /** Size, share, alternative explanations and remedy of one effect. */
 function Cause({ finding, rank, tried }: { finding: Finding; rank: number; tried: boolean }) {
-  const { share, alias_set, remedy, separating_experiment } = finding;
+  const { share, probability, alias_set, remedy, separating_experiment } = finding;
   const parameters = finding.parameters.map(shown);
   return (
-    <dl>
+    <dl class={probability == null ? "" : "probable"}>
       <div class="effect">
         <dt>{t.diagnosis.effect(rank)}</dt>
         <dd>{effectName(finding)}</dd>
@@ -34,7 +42,7 @@ function Cause({ finding, rank, tried }: { finding: Finding; rank: number; tried
         <dt>{t.diagnosis.size}</dt>
         {parameters.map(({ name, value, sd, unit }) => (
           <dd key={name}>
-            {name} {measured(value, expanded(sd))} {unit}
+            {name} {quantity(value, sd, unit)}
           </dd>
         ))}
       </div>
@@ -42,6 +50,12 @@ function Cause({ finding, rank, tried }: { finding: Finding; rank: number; tried
         <dt>{t.diagnosis.share}</dt>
         <dd>{fixed(100 * share, 1)} %</dd>
       </div>
+      {probability != null && (
+        <div>
+          <dt>{t.diagnosis.probability}</dt>
+          <dd>{percent(probability)}</dd>
+        </div>
+      )}
       <div>
         <dt>{t.diagnosis.alternatives}</dt>
         <dd>{t.listed(alias_set.slice(1).map(effectName)) || t.diagnosis.noAlternative}</dd>
@@ -52,9 +66,9 @@ function Cause({ finding, rank, tried }: { finding: Finding; rank: number; tried
           <details>
             <summary>{t.diagnosis.meaning}</summary>
             <ul>
-              {parameters.map(({ name, explanation }) => (
+              {parameters.map(({ name, text }) => (
                 <li key={name}>
-                  <strong>{name}</strong>: {explanation}
+                  <strong>{name}</strong>: {text}
                 </li>
               ))}
             </ul>
@@ -65,7 +79,7 @@ function Cause({ finding, rank, tried }: { finding: Finding; rank: number; tried
         <div class="remedy">
           <dt>{t.diagnosis.remedy}</dt>
           <dd>
-            {remedy}
+            {readable(remedy)}
             {separating_experiment && ` ${t.diagnosis.toDistinguish(separating_experiment)}`}
           </dd>
         </div>
@@ -81,7 +95,7 @@ export function Hints({ found: { hints } }: { found: Diagnosis }) {
       <h2>{t.diagnosis.hintsTitle}</h2>
       <ul>
         {hints.map(({ text, strength }) => (
-          <li key={text}>{t.diagnosis.hint(text, fixed(100 * strength, 0))}</li>
+          <li key={text}>{t.diagnosis.hint(readable(text), fixed(100 * strength, 0))}</li>
         ))}
       </ul>
     </section>

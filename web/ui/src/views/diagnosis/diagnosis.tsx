@@ -2,13 +2,17 @@
 import { calibration, diagnosis, residuals } from "../../api";
 import { micrometres } from "../../format";
 import { t } from "../../messages";
+import { readable } from "../../names";
 import { BeforeAfter } from "../../parts/before-after";
 import { Link } from "../../parts/link";
 import { useLoaded } from "../../parts/load";
 import { VerdictLine } from "../../parts/verdict";
 import type { Calibration, Diagnosis } from "../../types";
-import { Causes, Hints } from "./causes";
+import { Causes, Hints, isTried } from "./causes";
+import { Experiments } from "./experiments";
+import { Explanations } from "./explanations";
 import { Invisible } from "./invisible";
+import { MistakeInData } from "./mistake";
 import { ResidualOrderings } from "./residual-orderings";
 import { SeparatingOffer } from "./separating";
 import { Stages } from "./stages";
@@ -28,7 +32,10 @@ export function DiagnosisView({ id }: { id: number }) {
   return (
     <div class="result">
       <DiagnosisSummary run={run} found={found} readings={left.items.length} />
+      <MistakeInData found={found} />
+      <Explanations found={found} />
       <Causes found={found} />
+      <Experiments found={found} />
       <SeparatingOffer id={id} serial={run.robot_serial} found={found} />
       <Hints found={found} />
       <ResidualOrderings id={id} residuals={left} />
@@ -39,7 +46,7 @@ export function DiagnosisView({ id }: { id: number }) {
   );
 }
 
-function DiagnosisSummary(props: { run: Calibration; found: Diagnosis; readings: number }) {
+export function DiagnosisSummary(props: { run: Calibration; found: Diagnosis; readings: number }) {
   const { run, found, readings } = props;
   const { sigma_mm, source, dof } = found.noise;
   const sigma = micrometres(sigma_mm, 2);
@@ -47,9 +54,9 @@ function DiagnosisSummary(props: { run: Calibration; found: Diagnosis; readings:
     <section class="panel summary">
       <h1>{t.diagnosis.heading(run.id)}</h1>
       <VerdictLine run={run} />
-      <p>{found.sentence}</p>
+      {run.reason === null && <p>{readable(found.sentence)}</p>}
       <p class="note">
-        {t.diagnoses[found.verdict].explanation}{" "}
+        {t.verdicts[isTried(found) ? "unexplained" : found.verdict].text}{" "}
         {source === "repeats"
           ? t.diagnosis.noiseFromRepeats(readings, sigma, dof)
           : t.diagnosis.noiseSpecified(readings, sigma)}

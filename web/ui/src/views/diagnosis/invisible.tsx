@@ -1,7 +1,7 @@
 /** What the readings could not have shown: the detection limit of every effect that was not found. */
 import { MISSING } from "../../format";
 import { t } from "../../messages";
-import { labelName, shown } from "../../names";
+import { labelName, readable, shown } from "../../names";
 import type { Diagnosis } from "../../types";
 
 export function Invisible({ found: { invisible } }: { found: Diagnosis }) {
@@ -34,7 +34,7 @@ export function Invisible({ found: { invisible } }: { found: Diagnosis }) {
                 </th>
                 <td>{limit}</td>
                 <td class="text">{name}</td>
-                <td class="text remark">{one.text}</td>
+                <td class="text remark">{one.text && readable(one.text)}</td>
               </tr>
             );
           })}

@@ -1,7 +1,7 @@
 /** The residual before and after, ordered by what may have caused it; the ordering lives in the address. */
 import { micrometres } from "../../format";
 import { t } from "../../messages";
-import { labelName } from "../../names";
+import { inSentence, labelName } from "../../names";
 import { Drawn } from "../../parts/drawn";
 import { navigate, path, query } from "../../router";
 import type { ResidualList, ResidualRow } from "../../types";
@@ -21,7 +21,7 @@ export function ResidualOrderings({
   const before: Series = { name: t.diagnosis.beforeName, of: (row) => row.before_mm };
   const after: Series = { name: t.diagnosis.afterName, of: (row) => row.after_mm };
   const contributions = effects.map((effect, k) => ({
-    name: t.diagnosis.contribution(labelName(effect)),
+    name: t.diagnosis.contribution(inSentence(labelName(effect))),
     of: (row: ResidualRow) => row.by_effect_mm[k]!,
   }));
   return (

@@ -3,7 +3,7 @@ import { newKey, separate, separating } from "../../api";
 import { duration, fixed } from "../../format";
 import { connected, station } from "../../live";
 import { t } from "../../messages";
-import { labelName } from "../../names";
+import { inSentence, labelName, readable } from "../../names";
 import { keepOperator, operator } from "../../operator";
 import { ConfirmedButton } from "../../parts/confirm";
 import { useLoaded } from "../../parts/load";
@@ -32,7 +32,7 @@ function Offer({ id, serial }: { id: number; serial: string }) {
     return (
       <section class="panel wide" aria-label={t.diagnosis.alternatives}>
         <h2>{t.diagnosis.distinguish}</h2>
-        <p role="status">{plan?.refused ?? trouble ?? t.diagnosis.planning}</p>
+        <p role="status">{(plan?.refused && readable(plan.refused)) ?? trouble ?? t.diagnosis.planning}</p>
       </section>
     );
   }
@@ -43,7 +43,7 @@ function Offer({ id, serial }: { id: number; serial: string }) {
         <div>
           <p>
             {t.diagnosis.moreReadings(plan.stops.length)}
-            <strong>{t.listed(plan.apart.map(labelName))}</strong>
+            <strong>{t.listed(plan.apart.map((label) => inSentence(labelName(label))))}</strong>
             {t.diagnosis.freshReadings(FRESH, duration(plan.duration_s))}
           </p>
           <p class="note">{t.diagnosis.continues}</p>

@@ -1,6 +1,10 @@
 import { t } from "../../messages";
 import { navigate, query } from "../../router";
+import type { Verdict } from "../../types";
 import { address, withFilter } from "./address";
+
+/** Of runs; a diagnosis has more. */
+const VERDICTS = { pass: t.verdicts.pass, fail: t.verdicts.fail } satisfies Record<Verdict, unknown>;
 
 /** A part of its own: events of the station must not take away what is being typed. */
 export function Filters() {
@@ -20,7 +24,7 @@ export function Filters() {
       <Choice
         name="verdict"
         label={t.history.verdict}
-        options={t.verdicts}
+        options={VERDICTS}
         value={filters.get("verdict") ?? ""}
       />
       <Day name="since" label={t.history.from} value={filters.get("since") ?? ""} />

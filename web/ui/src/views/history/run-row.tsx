@@ -3,6 +3,7 @@ import { t } from "../../messages";
 import { runKind } from "../../names";
 import { Link } from "../../parts/link";
 import { Badge } from "../../parts/verdict";
+import { reasonText } from "../../reason";
 import type { Summary } from "../../types";
 
 /** One run in the history. */
@@ -17,9 +18,11 @@ export function RunRow({ run }: { run: Summary }) {
       <td class="text">{dateTime(run.started_at ?? run.created_at)}</td>
       <td class="text serial">{run.robot_serial}</td>
       <td class="text outcome-cell">
-        <Badge run={run} />
-        {run.of !== null && ` ${t.history.kindOf(runKind(run.plan).name, run.of)}`}
-        {run.reason && <small>{run.reason}</small>}
+        <span class="badges">
+          <Badge run={run} />
+          <span>{whatItDid(run)}</span>
+        </span>
+        {run.reason && <small>{reasonText(run)}</small>}
       </td>
       <td>{offset(run, 1)}</td>
       <td>{offset(run, 2)}</td>
@@ -37,7 +40,14 @@ export function RunRow({ run }: { run: Summary }) {
   );
 }
 
+/** A calibration is what is expected; everything else is named. */
+function whatItDid({ kind, of }: Summary): string {
+  const { name } = runKind(kind);
+  if (of !== null) return t.history.kindOf(name, of);
+  return kind === "calibrate" ? "" : name;
+}
+
 function offset({ zero_offsets }: Summary, joint: number): string {
-  const zero = zero_offsets?.find((one) => one.joint === joint);
+  const zero = zero_offsets.find((one) => one.joint === joint);
   return zero ? `${signed(zero.value_deg, 3)} ± ${fixed(expanded(zero.sd_deg), 3)}` : MISSING;
 }

@@ -10,6 +10,7 @@ import { Link } from "../../parts/link";
 import { MotionWarning } from "../../parts/motion-warning";
 import { OperatorField } from "../../parts/operator-field";
 import { Badge } from "../../parts/verdict";
+import { reasonText } from "../../reason";
 import type { ApplicationState, Calibration, Run } from "../../types";
 
 type Drives = NonNullable<Calibration["application"]>;
@@ -110,7 +111,7 @@ function Attempts({ runs }: { runs: Drives["runs"] }) {
           <Link class="cell" to={`/result/${one.id}`}>
             {t.result.attempt(runKind(one.plan).name, one.id)}
           </Link>
-          <Badge run={one} /> <span>{one.reason}</span>
+          <Badge run={one} /> <span>{reasonText(one)}</span>
         </li>
       ))}
     </ul>

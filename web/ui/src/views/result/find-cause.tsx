@@ -2,15 +2,18 @@
 import { newKey, start } from "../../api";
 import { connected, station } from "../../live";
 import { t } from "../../messages";
+import { readable } from "../../names";
 import { keepOperator, operator } from "../../operator";
 import { ConfirmedButton } from "../../parts/confirm";
 import { MotionWarning } from "../../parts/motion-warning";
 import { OperatorField } from "../../parts/operator-field";
+import { reasonText } from "../../reason";
 import { navigate } from "../../router";
 import type { Calibration } from "../../types";
 
 export function FindCause({ result }: { result: Calibration }) {
   const { robot_serial, work_order, lack_of_fit } = result;
+  const lack = lack_of_fit && readable(lack_of_fit);
   const idle = connected.value && !station.value?.run && operator.value.trim() !== "";
   const find = async () => {
     keepOperator();
@@ -28,7 +31,8 @@ export function FindCause({ result }: { result: Calibration }) {
           <h2>
             <strong class="alarm warn">{t.result.misfit}</strong>
           </h2>
-          <p>{result.zero_offsets?.length ? t.result.misfitOffsets(lack_of_fit) : t.result.misfitNone}</p>
+          {lack !== reasonText(result) && <p>{lack}</p>}
+          <p>{result.zero_offsets.length ? t.result.misfitOffsets : t.result.misfitNone}</p>
         </>
       )}
       <p>{t.result.findCauseNote}</p>

@@ -2,6 +2,8 @@ import { diagnosis } from "../../api";
 import { t } from "../../messages";
 import { useLoaded } from "../../parts/load";
 import { Causes, Hints } from "../diagnosis/causes";
+import { Experiments } from "../diagnosis/experiments";
+import { MistakeInData } from "../diagnosis/mistake";
 import { SeparatingOffer } from "../diagnosis/separating";
 
 /** What a diagnosis found, in short; its own page has the charts. */
@@ -16,7 +18,9 @@ export function FoundCauses({ id, serial }: { id: number; serial: string }) {
   }
   return (
     <>
+      <MistakeInData found={found} />
       <Causes found={found} />
+      <Experiments found={found} />
       <SeparatingOffer id={id} serial={serial} found={found} />
       <Hints found={found} />
     </>

@@ -4,7 +4,7 @@ import type { Calibration } from "../../types";
 
 /** Pass by pass, how far each offset moved. */
 export function Iterations({ result: { iterations } }: { result: Calibration }) {
-  if (!iterations?.length) return null;
+  if (!iterations.length) return null;
   return (
     <section class="panel">
       <h2>{t.result.passes}</h2>

@@ -4,6 +4,7 @@ import { forget, robot } from "../../api";
 import { fixed } from "../../format";
 import { connected, station } from "../../live";
 import { t } from "../../messages";
+import { inSentence, readable } from "../../names";
 import { operator } from "../../operator";
 import { ConfirmedButton } from "../../parts/confirm";
 import { Link } from "../../parts/link";
@@ -40,7 +41,7 @@ function Used({ memory }: { memory: NonNullable<Calibration["memory"]> }) {
   return (
     <>
       {memory.used ? t.result.memoryUsed : <strong class="alarm warn">{t.result.memoryNotUsed}</strong>}
-      {t.result.memoryText(memory.text)}
+      {t.result.memoryText(inSentence(readable(memory.text)))}
       <Link class="cell" to={`/result/${memory.from_calibration}`}>
         {t.shared.run(memory.from_calibration)}
       </Link>

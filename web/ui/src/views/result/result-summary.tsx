@@ -1,23 +1,25 @@
 /** The head of a result: verdict, facts of the run, and where to go from here. */
 import { dateTime, duration, MISSING } from "../../format";
 import { t } from "../../messages";
-import { methodName, runKind } from "../../names";
+import { methodName, planOf, runKind } from "../../names";
 import { Link } from "../../parts/link";
-import { VerdictLine, verdictOf } from "../../parts/verdict";
+import { outcomeOf, VerdictLine } from "../../parts/verdict";
 import type { Calibration } from "../../types";
 
 export function ResultSummary({ result }: { result: Calibration }) {
   const { id, of, method } = result;
-  const kind = runKind(result.plan);
+  const kind = runKind(result.kind);
+  const plan = planOf(result.plan);
   return (
     <section class="panel summary">
       <h1>{of === null ? t.result.heading(id) : t.result.headingOf(id, kind.name, of)}</h1>
       <VerdictLine run={result} />
       <p class="note">
-        {kind.explanation} {verdictOf(result).explanation}
+        {(plan ?? kind).text} {outcomeOf(result).text}
       </p>
       <dl>
-        <Fact name={t.result.plan} value={kind.name} />
+        <Fact name={t.result.kind} value={kind.name} />
+        {plan && <Fact name={t.result.plan} value={plan.name} />}
         <Fact name={t.shared.operator} value={result.operator} />
         {result.work_order && <Fact name={t.result.workOrder} value={result.work_order} />}
         <Fact name={t.result.started} value={dateTime(result.started_at ?? result.created_at)} />

@@ -18,7 +18,7 @@ import { ZeroOffsets } from "./zero-offsets";
 /** `id` from the address, else the last run that ended or whose offsets were written. */
 export function ResultView({ id }: { id: number | null }) {
   const last = station.value?.last;
-  const shown = id ?? (last?.plan === "separating" ? last.id : (last?.of ?? last?.id)) ?? null;
+  const shown = id ?? (last?.kind === "separate" ? last.id : (last?.of ?? last?.id)) ?? null;
   if (shown === null) return <Empty text={station.value ? t.result.none : t.result.waiting} />;
   return <Result key={shown} id={shown} />;
 }
@@ -47,7 +47,7 @@ function Result({ id }: { id: number }) {
     <div class="result">
       <ResultSummary result={result} />
       {misfit && offer}
-      {result.zero_offsets?.length ? (
+      {result.zero_offsets.length ? (
         <Identified result={result} />
       ) : (
         <section class="panel">
@@ -71,7 +71,7 @@ function Identified({ result }: { result: Calibration }) {
       <WeakDirection result={result} />
       {result.of === null && !diagnosed && <Memory result={result} />}
       <Iterations result={result} />
-      <ResidualChart id={result.id} residuals={result.residuals ?? []} />
+      <ResidualChart id={result.id} residuals={result.residuals} />
     </>
   );
 }

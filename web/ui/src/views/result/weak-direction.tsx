@@ -1,5 +1,6 @@
 import { fixed } from "../../format";
 import { t } from "../../messages";
+import { readable } from "../../names";
 import type { Calibration } from "../../types";
 
 /** The combination of parameters that the readings determine least, and what would help. */
@@ -9,10 +10,10 @@ export function WeakDirection({ result: { weak_direction: weak } }: { result: Ca
     <section class="panel">
       <h2>{t.result.weakDirection}</h2>
       <p>
-        {weak.text}
+        {readable(weak.text)}
         {weak.sd_deg !== null && ` (${t.shared.standard(`${fixed(weak.sd_deg, 3)}°`)})`}
       </p>
-      {weak.remedy && <p class="note">{t.result.remedy(weak.remedy)}</p>}
+      {weak.remedy && <p class="note">{t.result.remedy(readable(weak.remedy))}</p>}
     </section>
   );
 }

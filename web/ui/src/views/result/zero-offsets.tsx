@@ -22,7 +22,7 @@ export function ZeroOffsets({ result }: { result: Calibration }) {
           </tr>
         </thead>
         <tbody>
-          {result.zero_offsets?.map(({ joint, value_deg, sd_deg }) => (
+          {result.zero_offsets.map(({ joint, value_deg, sd_deg }) => (
             <tr key={joint}>
               <th scope="row">{joint}</th>
               <td class="main">
@@ -38,7 +38,7 @@ export function ZeroOffsets({ result }: { result: Calibration }) {
         </tbody>
       </table>
       <p class="note">{t.shared.expanded(K)}</p>
-      {result.parameters?.length ? <OtherParameters parameters={result.parameters} /> : null}
+      {result.parameters.length ? <OtherParameters parameters={result.parameters} /> : null}
     </section>
   );
 }

@@ -23,7 +23,7 @@ export function Devices() {
               {ALARMS[state].shape}
               {t.devices[state].name}
             </strong>
-            {state !== "ok" && <small>{text || t.devices[state].explanation}</small>}
+            {state !== "ok" && <small>{text || t.devices[state].text}</small>}
           </li>
         ))}
       </ul>

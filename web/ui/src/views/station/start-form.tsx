@@ -4,6 +4,7 @@ import type { ComponentChildren, RefObject } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import { connected, station } from "../../live";
 import { t } from "../../messages";
+import { runKind } from "../../names";
 import { operator } from "../../operator";
 import { MotionWarning } from "../../parts/motion-warning";
 import type { Plan } from "../../types";
@@ -74,7 +75,7 @@ export function StartForm() {
         <button type="submit" class="hidden" tabIndex={-1} aria-hidden="true" />
       </form>
       <p id="plan-explanation" class="note">
-        {t.plans[plan.value].explanation}
+        {t.plans[plan.value].text}
       </p>
       <p id="trouble" class={trouble.value ? "trouble" : ""} role="alert">
         {trouble.value && `▲ ${trouble.value.text}`}
@@ -157,7 +158,7 @@ function PlanField() {
       >
         {(station.value?.station.plans ?? ["paper"]).map((name) => (
           <option key={name} value={name}>
-            {t.plans[name].name}
+            {runKind(name).name}
           </option>
         ))}
       </select>

@@ -19,25 +19,26 @@ const causes = (given?: Partial<Diagnosis>) => drawn(Causes, given).textContent;
 describe("causes", () => {
   it("have a display name, a size with expanded uncertainty and a share", () => {
     const text = causes();
-    expect(text).toContain("backlash of joint 2");
-    expect(text).toContain("width 0.04960 ± 0.00020 °");
+    expect(text).toContain("Backlash of joint 2");
+    expect(text).toContain("Width 0.04960 ± 0.00020\u00a0°");
     expect(text).toContain("97.0 %");
   });
 
   it("name the alternatives, not the effect itself, and how to distinguish them", () => {
     const alias_set = [
-      { effect: "thermal_growth", joint: null },
-      { effect: "drift", joint: null },
+      { effect: "thermal_growth", joint: null, part: null },
+      { effect: "drift", joint: null, part: null },
     ];
     const one = finding({
       effect: "thermal_growth",
       joint: null,
+      label: "thermal_growth",
       alias_set,
       separating_experiment: "Stand still.",
     });
     const place = drawn(Causes, { findings: [one] });
     const values = [...place.querySelectorAll("dl > div")].map((part) => part.textContent);
-    expect(values).toContain("Alternative explanationsdrift");
+    expect(values).toContain("Alternative explanationsDrift");
     expect(place.textContent).toContain("To distinguish the alternatives: Stand still.");
   });
 
@@ -60,8 +61,20 @@ describe("causes", () => {
 
 it("detection limits have two digits and the page's unit", () => {
   const invisible = [
-    { label: "scale_cyclic", parameter: "amplitude_mm", minimum_detectable: 0.0012345, unit: "mm", text: "" },
     {
+      effect: "scale_cyclic",
+      joint: null,
+      part: null,
+      label: "scale_cyclic",
+      parameter: "amplitude_mm",
+      minimum_detectable: 0.0012345,
+      unit: "mm",
+      text: "",
+    },
+    {
+      effect: "count_slip",
+      joint: 1,
+      part: null,
       label: "count_slip of joint 1",
       parameter: null,
       minimum_detectable: null,
@@ -73,8 +86,8 @@ it("detection limits have two digits and the page's unit", () => {
     [...one.children].map((cell) => cell.textContent),
   );
   expect(cells).toEqual([
-    ["periodic scale error", "1.2 µm", "amplitude", ""],
-    ["lost counts of joint 1", "–", "", "not shown"],
+    ["Scale ripple", "1.2 µm", "Amplitude", ""],
+    ["Slip of joint 1", "–", "", "Not shown"],
   ]);
 });
 
@@ -82,7 +95,8 @@ it("models are compared in µm, with a dash where nothing was measured afresh", 
   const errors = {
     unknowns: 12,
     fit_rms_mm: 0.00312,
-    holdout_rms_mm: null,
+    holdout_rms_mm: 0.004,
+    holdout_max_mm: 0.01,
     confirm_rms_mm: null,
     confirm_max_mm: 0.01,
   };
@@ -93,7 +107,7 @@ it("models are compared in µm, with a dash where nothing was measured afresh", 
     "+ backlash of joint 2",
     "12",
     "3.12",
-    "–",
+    "4.00",
     "–",
     "10.00",
   ]);

@@ -5,25 +5,8 @@ import type { Calibration } from "../../../src/types";
 import { statement } from "../../../src/views/result/application";
 import { ResultSummary } from "../../../src/views/result/result-summary";
 import { ZeroOffsets } from "../../../src/views/result/zero-offsets";
-import { summary } from "../../samples";
+import { calibration } from "../../samples";
 
-const calibration = (given: Partial<Calibration> = {}): Calibration => ({
-  ...summary(),
-  metadata: {},
-  method: "published",
-  zero_offset_tolerance_deg: 1,
-  parameters: null,
-  weak_direction: null,
-  application: null,
-  memory: null,
-  lack_of_fit: null,
-  before: null,
-  after: null,
-  iterations: null,
-  residuals: null,
-  findings: [],
-  ...given,
-});
 const drawn = (part: VNode) => {
   const place = document.createElement("div");
   render(part, place);
@@ -56,7 +39,7 @@ describe("zero offsets", () => {
   it("come with what else was identified, by display names", () => {
     const parameters = [{ name: "rMx", value: 1.5, sd: 0.25, unit: "mm" }];
     expect(cells(<ZeroOffsets result={calibration({ zero_offsets, parameters })} />).at(-1)).toEqual([
-      "mounting error of the mechanism, x",
+      "Mounting error of the mechanism, sideways",
       "+1.500 ± 0.500 mm",
     ]);
   });
@@ -78,7 +61,8 @@ it("before and after are in µm for residuals and in mm for positions, without w
   const before = {
     reading_rms_mm: 0.0123,
     fresh_reading_rms_mm: null,
-    predicted_position_error_mm: { rms: 1.5, max: 3 },
+    fresh_reading_max_mm: null,
+    predicted_position_error_mm: { rms: 1.5, max: 3, bound_95: null },
   };
   const after = { ...before, reading_rms_mm: 0.0021, predicted_position_error_mm: null };
   expect(cells(<BeforeAfter result={calibration({ before, after })} />)).toEqual([
@@ -98,9 +82,16 @@ describe("the head of a result", () => {
 
   it("names what a run was for", () => {
     expect(heading({ id: 4 })).toBe("Result of run 4");
-    expect(heading({ id: 5, plan: "separating", of: 4 })).toBe(
-      "Result of run 5: Separating experiment (run 4)",
+    expect(heading({ id: 5, kind: "separate", plan: "separating", of: 4 })).toBe(
+      "Result of run 5: Further diagnosis (run 4)",
     );
+  });
+
+  it("gives the plan of what measures by one", () => {
+    const facts = (given: Partial<Calibration>) =>
+      drawn(<ResultSummary result={calibration(given)} />).querySelector("dl")?.textContent;
+    expect(facts({ plan: "full" })).toContain("Kind of runCalibrationPlanFull");
+    expect(facts({ kind: "import", plan: "dataset" })).toContain("Kind of runImportOperator");
   });
 
   it("leads to the diagnosis where there is one, and to the run that it belongs to", () => {

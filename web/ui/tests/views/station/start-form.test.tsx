@@ -132,7 +132,7 @@ describe("an armed start", () => {
       select.dispatchEvent(new Event("change", { bubbles: true }));
     });
     expect(asked()).toBe(false);
-    expect(place.textContent).toContain("24 positions");
+    expect(place.textContent).toContain("eight further readings");
   });
 
   it.each([

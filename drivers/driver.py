@@ -1,0 +1,57 @@
+"""How a driver is made: the options it has in the station file, and a function from them to a device.
+
+A further driver is one module with a `DRIVER` and one line in the register of its package
+(docs/how-to/add-a-servo-drive.md).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Annotated, Generic, TypeVar
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from drivers.protocols import LinearScale, ServoAxis
+from drivers.scaling import JointScaling
+
+Seconds = Annotated[float, Field(gt=0, le=10)]
+
+
+class DriverSettings(BaseModel):
+    """Options of a driver in the station file.  Each driver adds its own; an unknown one is refused."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    url: str
+    """Of the line that the device is connected to."""
+
+
+S = TypeVar("S", bound=DriverSettings)
+
+
+@dataclass(frozen=True, slots=True)
+class Drive:
+    """One drive on a line, and how its pulses become a joint angle."""
+
+    name: str
+    unit: int
+    scaling: JointScaling
+
+
+@dataclass(frozen=True, slots=True)
+class ScaleDriver(Generic[S]):
+    """A readout that `[scale] protocol` can name."""
+
+    settings: type[S]
+    make: Callable[[S], LinearScale]
+    """Nothing is opened yet.  :raises BadUrl:"""
+
+
+@dataclass(frozen=True, slots=True)
+class ServoDriver(Generic[S]):
+    """A family of drives that `[servo] profile` can name."""
+
+    settings: type[S]
+    make: Callable[[S, Sequence[Drive]], Sequence[ServoAxis]]
+    """One axis a drive, in this order; nothing is opened yet.  :raises BadUrl:"""

@@ -1,0 +1,50 @@
+"""Files that commands read and write."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import get_args
+
+import click
+
+from station.machines import Measured
+from station.records import DataSource, Record
+
+existing = click.Path(path_type=Path)
+measured_option = click.option(
+    "--measured",
+    type=click.Choice(get_args(Measured)),
+    default="position",
+    show_default=True,
+    help="What counts of an arm's log that has both.",
+)
+
+
+def describe(path: Path, readings: int, guessed: Iterable[str] = ()) -> DataSource:
+    """What a result was made from."""
+    digest = hashlib.sha256(path.read_bytes()).hexdigest()
+    return DataSource(file=path.name, readings=readings, sha256=digest, guessed=tuple(guessed))
+
+
+def check_folders(*files: Path | None) -> None:
+    """Before minutes of work, not after.  :raises click.UsageError: there is no such folder."""
+    for file in files:
+        if file and not file.parent.is_dir():
+            raise click.UsageError(f"{file} cannot be written: there is no folder {file.parent}.")
+
+
+def write_json(path: Path, content: Record | Mapping[str, object]) -> None:
+    """Finite numbers only.  :raises click.UsageError: the file cannot be written."""
+    plain = content.model_dump(by_alias=True) if isinstance(content, Record) else content
+    write_text(path, json.dumps(plain, indent=1, allow_nan=False) + "\n")
+
+
+def write_text(path: Path, text: str) -> None:
+    """:raises click.UsageError: the file cannot be written."""
+    try:
+        path.write_text(text, encoding="utf-8")
+    except OSError as error:
+        raise click.UsageError(f"{path} cannot be written: {error.strerror}.") from error

@@ -1,0 +1,63 @@
+"""`station identify`: zero offsets from a measurement file."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from pathlib import Path
+
+import click
+from rich.console import Console
+from rich.table import Table
+
+from station.cli.files import describe, existing, measured_option, write_json
+from station.identification import Identification, identification_document, identify
+from station.machines import AnyMechanism, Measured, read_readings, read_robot
+from station.records import IdentificationDocument, Quantity
+
+
+@click.command("identify")
+@click.argument("data", type=existing)
+@click.option("--robot", "robot_file", type=existing, help="Robot file; without it the paper's Table 1.")
+@measured_option
+@click.option("--json", "json_file", type=existing, help="Write the whole result here.")
+def identify_command(data: Path, robot_file: Path | None, measured: Measured, json_file: Path | None) -> None:
+    """Zero offsets with uncertainty from a measurement file."""
+    robot = read_robot(robot_file)
+    readings = read_readings(robot, data, measured)
+    found = identify(robot, readings)
+    document = identification_document(found, describe(data, len(readings)))
+    if json_file:
+        write_json(json_file, document)
+    _print(found, document)
+
+
+def _table(quantities: Iterable[Quantity], readings: int) -> Table:
+    table = Table("parameter", "value", "sd", "unit", title=f"{readings} readings")
+    for column in table.columns[1:3]:
+        column.justify = "right"
+    for q in quantities:
+        table.add_row(q.name, f"{q.value:.4f}", f"{q.sd:.4f}", q.unit)
+    return table
+
+
+def _print(found: Identification[AnyMechanism], document: IdentificationDocument) -> None:
+    console = Console(highlight=False)
+    console.print(_table((*document.parameters, *document.modes), len(found.measurements)))
+    weak, residual = document.weak_direction, document.residual
+    console.print(
+        f"95 % interval: value ± {document.coverage_factor:.2f} sd. "
+        f"Noise {document.noise.sigma_mm * 1e3:.2f} µm ({document.noise.source}), "
+        f"residual rms {residual.rms_mm * 1e3:.2f} µm, largest {residual.max_mm * 1e3:.2f} µm."
+    )
+    console.print(f"Least determined: {weak.text}, sd {weak.sd_deg or 0.0:.4f} deg.")
+    for remedy in weak.remedies:
+        console.print(f"  {remedy.text}: sd {remedy.sd_deg:.4f} deg")
+    if weak.blind:
+        console.print("Not determined by the readings: " + "; ".join(weak.blind) + ".")
+    for outlier in found.outliers:
+        console.print(f"Left out: reading {outlier.reading}, {outlier.reason}.")
+    if found.sd_factor > 1.0:
+        console.print(
+            f"The model does not fit (p = {found.lack_of_fit_p:.1g}): each standard uncertainty is "
+            f"multiplied by {found.sd_factor:.1f}; `station diagnose` looks for the cause."
+        )

@@ -1,0 +1,37 @@
+"""The history of a data folder, for commands that only read it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import closing, contextmanager
+from pathlib import Path
+
+import click
+
+from station.errors import InputRefused
+from station.settings import database_path, load_settings
+from station.store import Store
+
+config_option = click.option(
+    "--config", type=click.Path(path_type=Path), help="Station file that names the database."
+)
+
+
+@contextmanager
+def kept(home: Path, config: Path | None) -> Iterator[Store]:
+    """The store that is there; a mistyped folder does not begin a new one.
+
+    :raises InputRefused: there is none.
+    """
+    path = database_path(load_settings(config), home)
+    if not path.exists():
+        raise InputRefused(
+            f"There is no history at {path}; check --home, STATION_HOME and --config, or measure first."
+        )
+    with closing(Store(path)) as store:
+        yield store
+
+
+def new_history(path: Path) -> str:
+    """One line for the terminal where a command is about to begin a history, else empty."""
+    return "" if path.exists() else f"A new history begins at {path}."

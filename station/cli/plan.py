@@ -1,0 +1,44 @@
+"""`station plan`: the positions of a plan, without a machine."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+from rich.console import Console
+from rich.table import Table
+
+from station.cli.files import existing, write_json, write_text
+from station.five_bar import Robot
+from station.plans import PLANS, make_plan, plan_as_text, plan_page
+from station.records import PlanName
+
+
+@click.command("plan")
+@click.option("--plan", "name", type=click.Choice(tuple(PLANS)), default="paper")
+@click.option("--robot", "robot_file", type=existing, help="Robot file; without it the paper's Table 1.")
+@click.option("--json", "json_file", type=existing, help="Write the plan here.")
+@click.option("--html", "html_file", type=existing, help="Write the plan as a page with drawings here.")
+def plan_command(
+    name: PlanName, robot_file: Path | None, json_file: Path | None, html_file: Path | None
+) -> None:
+    """The positions of a plan, their order and the accuracy they predict."""
+    robot = Robot.from_toml(robot_file) if robot_file else Robot.default()
+    plan = make_plan(name, robot)
+    if json_file:
+        write_json(json_file, plan.document())
+    if html_file:
+        write_text(html_file, plan_page(plan).to_html())
+    table = Table("stop", "position", "x mm", "y mm", "theta1 deg", "theta2 deg", "approach")
+    for k, stop in enumerate(plan.stops):
+        table.add_row(
+            str(k + 1),
+            stop.position,
+            *(f"{v:.1f}" for v in stop.target_mm),
+            *(f"{v:.4f}" for v in stop.theta_deg),
+            " ".join(f"{a:+d}" if a else "any" for a in stop.approach),
+        )
+    console = Console()
+    console.print(table)
+    click.echo(plan_as_text(plan, robot))
+    console.print(plan.summary())

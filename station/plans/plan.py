@@ -1,0 +1,122 @@
+"""What a plan is, and the register of all plans.
+
+A further plan is one module that registers itself (docs/how-to/add-a-plan.md); its texts are in
+`station.messages`.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from types import MappingProxyType
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from station.five_bar import Robot, inverse
+from station.plans.prediction import predict
+from station.records import Complex, PlanDocument, PlanName, PlannedStop, PlanPrediction, Real, Stop
+
+
+class Visits(NamedTuple):
+    """Where a plan measures, and in which order."""
+
+    positions: Complex
+    """(K,) mm in O-xy."""
+    order: NDArray[np.intp]
+    """(R,) index of the position of each reading."""
+    approach: NDArray[np.intp]
+    """(R, 2) wanted sign of each joint's last motion; 0 leaves it to the way there."""
+
+
+def each_once(positions: Complex) -> Visits:
+    """Every one of positions (K,) once, in this order, from whatever side the way there gives."""
+    count = len(positions)
+    return Visits(positions, np.arange(count), np.zeros((count, 2), dtype=np.intp))
+
+
+@dataclass(frozen=True)
+class PlanDesign:
+    """One way to choose what is measured."""
+
+    name: PlanName
+    visits: Callable[[Robot], Visits]
+    """For a robot.  :raises InputRefused: this robot cannot be measured so."""
+    run_kind: str = "calibrate"
+    """The kind of run that measures by this plan: a name of `station.run_kinds`."""
+
+
+_PLANS: dict[PlanName, PlanDesign] = {}
+PLANS: Mapping[PlanName, PlanDesign] = MappingProxyType(_PLANS)
+"""Every plan by its name."""
+
+
+def register(design: PlanDesign) -> PlanDesign:
+    """Make a plan known.  :raises ValueError: its name is taken."""
+    if design.name in _PLANS:
+        raise ValueError(f"the plan {design.name} is registered already")
+    _PLANS[design.name] = design
+    return design
+
+
+@dataclass(frozen=True)
+class Plan:
+    """Stops in measuring order and what they will tell."""
+
+    name: PlanName
+    stops: tuple[Stop, ...]
+    robot: Robot
+
+    @cached_property
+    def predicted(self) -> PlanPrediction:
+        """The accuracy that the stops promise."""
+        return predict(self.robot, np.array([complex(*stop.target_mm) for stop in self.stops]))
+
+    def document(self) -> PlanDocument:
+        """As `station plan --json` writes it."""
+        return PlanDocument(
+            plan=self.name,
+            predicted=self.predicted,
+            stops=tuple(
+                PlannedStop(
+                    stop=k + 1,
+                    position=s.position,
+                    x_mm=s.target_mm[0],
+                    y_mm=s.target_mm[1],
+                    theta1_deg=s.theta_deg[0],
+                    theta2_deg=s.theta_deg[1],
+                    approach1=s.approach[0],
+                    approach2=s.approach[1],
+                )
+                for k, s in enumerate(self.stops)
+            ),
+        )
+
+    def summary(self) -> str:
+        """The predicted accuracy in a sentence."""
+        error, sd = self.predicted.position_error_mm, self.predicted.zero_offset_sd_deg
+        return (
+            f"Predicted: zero offsets to {sd[0]:.3f} and {sd[1]:.3f} deg (sd), "
+            f"position error {error.rms:.3f} mm rms, {error.max:.3f} mm at worst."
+        )
+
+
+def make_plan(name: PlanName, robot: Robot, dtheta: Real | None = None) -> Plan:
+    """The plan for a robot; commands compensated by dtheta (2,) rad when some is known.
+
+    :raises InputRefused: this robot cannot be measured by this plan.
+    """
+    positions, order, approach = PLANS[name].visits(robot)
+    theta = np.degrees(inverse(robot.geometry, positions) - (np.zeros(2) if dtheta is None else dtheta))
+    stops = tuple(
+        Stop(
+            position=f"P{k + 1}",
+            target_mm=(float(positions[k].real), float(positions[k].imag)),
+            theta_deg=(float(theta[k, 0]), float(theta[k, 1])),
+            approach=(int(a[0]), int(a[1])),
+        )
+        for k, a in zip(order, approach, strict=True)
+    )
+    return Plan(name, stops, robot)

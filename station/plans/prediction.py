@@ -1,0 +1,66 @@
+"""The accuracy that one reading at each of some positions promises, by specification."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from station.fitting import common_sd_deg, position_error_summary, tolerance_prior
+from station.five_bar import FiveBar, Robot, inverse
+from station.records import Complex, Measurements, PlanPrediction, PredictedSd, Real
+
+FLAT_PRIOR_SD_MM = 1e4
+"""Stands for "nothing is known" of the reading offset while designing."""
+
+
+def predict(robot: Robot, places: Complex) -> PlanPrediction:
+    """Accuracy that one reading at each of places (K,) promises, by specification."""
+    mechanism = measured_at(robot, places)
+    rows = information_rows(mechanism)
+    covariance = np.linalg.inv(known_beforehand(mechanism) + rows.T @ rows)
+    mean = np.array([p.prior_mean for p in mechanism.parameters])
+    error, jacobian = mechanism.position_errors(mean)
+    sd = np.degrees(np.sqrt(np.diag(covariance)[:2]))
+    sd_mm = np.sqrt(np.einsum("gdi,ij,gdj->g", jacobian, covariance, jacobian))
+    return PlanPrediction(
+        zero_offset_sd_deg=(float(sd[0]), float(sd[1])),
+        common_sd_deg=common_sd_deg(covariance),
+        position_error_mm=position_error_summary(np.zeros_like(error), jacobian, covariance),
+        map=tuple(
+            PredictedSd(x_mm=float(r.real), y_mm=float(r.imag), sd_mm=float(s))
+            for r, s in zip(mechanism.workspace, sd_mm, strict=True)
+        ),
+    )
+
+
+def measured_at(robot: Robot, places: Complex) -> FiveBar:
+    """The mechanism as if readings had been taken at places."""
+    count = len(places)
+    return FiveBar(
+        robot,
+        Measurements(
+            ids=tuple(range(count)),
+            t_s=np.zeros(count),
+            theta=inverse(robot.geometry, places),
+            approach=np.zeros((count, 2), dtype=np.int8),
+            distance=np.zeros(count),
+            position=np.arange(count),
+            mount=np.zeros(count, dtype=np.intp),
+            samples=np.ones(count, dtype=np.intp),
+        ),
+    )
+
+
+def information_rows(mechanism: FiveBar) -> Real:
+    """(R, P) derivatives of the readings, in units of their noise."""
+    mean = np.array([p.prior_mean for p in mechanism.parameters])
+    at = mechanism.observe(mean, mechanism.theta)
+    return np.asarray(at.by_parameter / mechanism.row_sd[:, None])
+
+
+def known_beforehand(mechanism: FiveBar) -> Real:
+    """(P, P) information of the tolerances."""
+    root = tolerance_prior(mechanism).root
+    information = root.T @ root
+    flat = np.diag(information) == 0.0
+    information[flat, flat] = 1.0 / FLAT_PRIOR_SD_MM**2
+    return np.asarray(information)

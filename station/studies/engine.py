@@ -1,0 +1,96 @@
+"""The engine of all studies: machines drawn by seed, all cores, progress, resume, a digest of the figures."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+import pickle
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import ProcessPoolExecutor
+from dataclasses import dataclass
+from functools import partial
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any, TypeVar
+
+from rich.console import Console
+from rich.progress import Progress
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+
+FEW = 100
+"""Fewer items are done before processes have started."""
+CHUNK = 8
+
+
+@dataclass(frozen=True)
+class Engine:
+    """How a study is carried out; what it finds does not depend on it."""
+
+    console: Console
+    workers: int | None = None
+    """Processes; None: one for each core."""
+    resume: Path | None = None
+    """Folder that keeps what was done, so that a study that was ended goes on from there."""
+
+    def each(self, work: Callable[[Item], Result], items: Sequence[Item], title: str) -> list[Result]:
+        """work(item) for each item, in order.  Items and results must be picklable."""
+        chunks = [items[k : k + CHUNK] for k in range(0, len(items), CHUNK)]
+        done: dict[int, list[Result]] = {}
+        for k, chunk in enumerate(chunks):
+            if (kept := self._kept(title, chunk)) is not None:
+                done[k] = kept
+        missing = [k for k in range(len(chunks)) if k not in done]
+        with Progress(console=self.console, transient=True) as progress:
+            bar = progress.add_task(title, total=len(items), completed=sum(len(v) for v in done.values()))
+            for k, results in zip(missing, self._computed(work, [chunks[k] for k in missing]), strict=True):
+                done[k] = results
+                self._keep(title, chunks[k], results)
+                progress.advance(bar, len(results))
+        return [result for k in range(len(chunks)) for result in done[k]]
+
+    def _computed(
+        self, work: Callable[[Item], Result], chunks: Sequence[Sequence[Item]]
+    ) -> Iterator[list[Result]]:
+        if sum(len(chunk) for chunk in chunks) < FEW or self.workers == 1:
+            yield from (_all(work, chunk) for chunk in chunks)
+            return
+        # matrices of a few hundred rows: threads within a process only stand in each other's way
+        os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+        with ProcessPoolExecutor(self.workers, mp_context=get_context("spawn")) as pool:
+            yield from pool.map(partial(_all, work), chunks)
+
+    def _kept(self, title: str, chunk: Sequence[Item]) -> list[Any] | None:
+        file = self._file(title, chunk)
+        if file is None or not file.exists():
+            return None
+        results: list[Any] = pickle.loads(file.read_bytes())
+        return results
+
+    def _keep(self, title: str, chunk: Sequence[Item], results: list[Result]) -> None:
+        file = self._file(title, chunk)
+        if file is None:
+            return
+        file.parent.mkdir(parents=True, exist_ok=True)
+        part = file.with_suffix(".part")
+        part.write_bytes(pickle.dumps(results))
+        part.rename(file)
+
+    def _file(self, title: str, chunk: Sequence[Item]) -> Path | None:
+        """Named after what is asked for: another seed or another study is another file."""
+        if self.resume is None:
+            return None
+        name = hashlib.sha256(pickle.dumps((title, list(chunk)))).hexdigest()[:24]
+        return self.resume / f"{name}.pickle"
+
+
+def _all(work: Callable[[Item], Result], chunk: Sequence[Item]) -> list[Result]:
+    return [work(item) for item in chunk]
+
+
+def digest(figures: object) -> str:
+    """SHA-256 of figures in canonical JSON: the same on one core and on many."""
+    text = json.dumps(figures, sort_keys=True, separators=(",", ":"), allow_nan=True)
+    return hashlib.sha256(text.encode()).hexdigest()

@@ -1,0 +1,41 @@
+"""The message file has a name and a sentence for everything that a person may read."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+from typing import get_args
+
+import pytest
+
+import station
+from station.messages import Group, display_name, explanation
+from station.records import DiagnosisVerdict, Outcome, State
+from station.records.run import PlanName
+from station.run_kinds import RUN_KINDS
+
+NAMED: list[tuple[Group, tuple[str, ...]]] = [
+    ("states", tuple(State)),
+    ("outcomes", get_args(Outcome)),
+    ("verdicts", ("pass", "fail", *get_args(DiagnosisVerdict))),
+    ("plans", get_args(PlanName)),
+    ("run_kinds", tuple(RUN_KINDS)),
+]
+
+
+@pytest.mark.parametrize(
+    ("group", "id"), [(group, id) for group, ids in NAMED for id in ids], ids=lambda part: str(part)
+)
+def test_everything_that_is_shown_has_a_name_and_a_sentence(group: Group, id: str) -> None:
+    assert display_name(group, id)[0].isupper()
+    assert explanation(group, id).endswith(".")
+
+
+def test_every_reason_in_the_code_is_a_reason_of_the_message_file() -> None:
+    """`because` checks its code when it is called; here those that no test happens to call."""
+    package = Path(station.__file__).parent
+    source = "".join(path.read_text(encoding="utf-8") for path in package.rglob("*.py"))
+    codes = set(re.findall(r"\bbecause\(\s*\"(\w+)\"", source))
+    assert len(codes) > 10
+    assert codes <= set(json.loads((package / "messages/en.json").read_text(encoding="utf-8"))["reasons"])

@@ -1,0 +1,58 @@
+/** Why a run ended as it did: the template of its code, filled with its parameters. */
+import { t } from "./messages";
+import { capital, dependence, inSentence, labelName, readable, withNames } from "./names";
+import type { Summary } from "./types";
+
+type Value = string | number;
+type Params = Record<string, Value>;
+
+/** The fields of Python's `str.format` that the templates use: `{x}`, `{x:.1f}`, `{x:.1g}`. */
+const FIELD = /\{(?<name>\w+)(?::\.(?<digits>\d+)(?<kind>[fg]))?\}/g;
+
+/** Null where a value is missing or is not a number where one has to be. */
+export function formatted(template: string, params: Params): string | null {
+  let complete = true;
+  const text = template.replace(FIELD, (_, name: string, digits: string | undefined, kind: string) => {
+    const value = Object.hasOwn(params, name) ? params[name] : undefined;
+    if (value != null && digits === undefined) return String(value);
+    if (typeof value === "number" && Number.isFinite(value)) {
+      return kind === "f" ? value.toFixed(Number(digits)) : general(value, Number(digits) || 1);
+    }
+    complete = false;
+    return "";
+  });
+  return complete ? text : null;
+}
+
+/** As Python's `g`: `digits` significant ones, with an exponent where the number is small or large. */
+function general(value: number, digits: number): string {
+  const [mantissa = "", exponent = "0"] = value.toExponential(digits - 1).split("e");
+  const power = Number(exponent);
+  if (power >= -4 && power < digits) return trimmed(value.toFixed(digits - 1 - power));
+  return `${trimmed(mantissa)}e${power < 0 ? "-" : "+"}${String(Math.abs(power)).padStart(2, "0")}`;
+}
+
+const trimmed = (number: string) => (number.includes(".") ? number.replace(/\.?0+$/, "") : number);
+
+/** What the parameters of a reason name by identifiers, in words. */
+const IN_WORDS: Record<string, (value: string) => string> = {
+  causes: (labels) => t.both(labels.split(" and ").map((label) => inSentence(labelName(label)))),
+  depends_on: dependence,
+};
+
+const inWords = ([name, value]: [string, Value]): [string, Value] => {
+  const words = (Object.hasOwn(IN_WORDS, name) && IN_WORDS[name]) || withNames;
+  return [name, typeof value === "string" ? words(value) : value];
+};
+
+type Because = Pick<Summary, "reason"> & Partial<Pick<Summary, "reason_code" | "reason_params">>;
+
+/** In the page's language; runs of older versions, and reasons unknown to the page, have only the sentence. */
+export function reasonText({ reason, reason_code, reason_params }: Because): string | null {
+  const templates: Record<string, string> = t.reasons;
+  const template = reason_code && Object.hasOwn(templates, reason_code) ? templates[reason_code] : undefined;
+  const params = Object.fromEntries(Object.entries(reason_params ?? {}).map(inWords));
+  const text = template === undefined ? null : formatted(template, params);
+  if (text !== null) return capital(text);
+  return reason === null ? null : readable(reason);
+}
