@@ -22,6 +22,9 @@ from station.five_bar import FiveBar, Robot, check_places
 from station.records import DiagnosisVerdict, Measurements
 
 SURE = 0.95
+FEW_GLITCHES = 0.05
+"""Of the readings of a file; so many are left out by name and take nothing from the confirmation."""
+
 Change = Callable[[Measurements], Measurements]
 
 
@@ -46,8 +49,16 @@ class WeighedDiagnosis:
     def decision(self) -> Decision:
         """Verdict and confirmation; a file with a mistake confirms nothing."""
         decided = self.found.decision
-        confirmed = False if self.mistake is not None else decided.confirmed
-        return Decision(decided.verdict, confirmed)
+        return Decision(decided.verdict, False if self.spoilt else decided.confirmed)
+
+    @property
+    def spoilt(self) -> bool:
+        """Whether a mistake speaks against the file; any device gives a disturbed reading now and then."""
+        if self.mistake is None:
+            return False
+        readings = self.measurements if self.mistake.file == "readings" else self.fresh
+        few = FEW_GLITCHES * (len(self.mistake.rows) + (0 if readings is None else len(readings)))
+        return self.mistake.kind != "glitches" or len(self.mistake.rows) > few
 
     @property
     def verdict(self) -> DiagnosisVerdict:

@@ -31,7 +31,7 @@ def weighed_reason(
     percent = 100.0 * share
     depends_on = hints[0].depends_on if hints else display_name("dependences", "nothing")
     match d.verdict:
-        case "adequate" | "explained" if d.mistake is not None:
+        case "adequate" | "explained" if d.spoilt:
             code = f"{d.verdict}_mistake"
         case "adequate" | "explained" if d.confirmed is False:
             code = f"{d.verdict}_not_verified"
@@ -71,7 +71,7 @@ def _ambiguous(d: WeighedDiagnosis, experiments: Sequence[ExperimentRecord]) -> 
 
 
 def _unexplained(d: WeighedDiagnosis, causes: str, percent: float, depends_on: str) -> Reason:
-    mistake = d.mistake or d.entry
+    mistake = (d.mistake if d.spoilt else None) or d.entry
     if mistake is not None:
         return because("unexplained_mistake", depends_on=depends_on, text=mistake.text)
     if d.found.loudness > LOUD:

@@ -138,7 +138,9 @@ def test_hard_case_as_its_answer_says(name: str) -> None:
     decision = found.decision
     if answer["mistake_kind"] is not None:
         assert found.mistake is not None and found.mistake.kind == answer["mistake_kind"]
-        assert (decision.confirmed, decision.outcome == "good") == (False, False)
+        # few glitches are left out by name; with any other mistake nothing is confirmed
+        few = answer["mistake_kind"] == "glitches"
+        assert (decision.confirmed, decision.outcome == "good") == (few, few)
         assert (decision.verdict == "adequate") == (name in ADEQUATE)
         return
     assert found.mistake is None
