@@ -25,8 +25,8 @@ QUICK = (
     "rehomed: joint 1 by 0.3 deg", "zeros_written: in the sequence", "glitches: 7 of 0.3 mm",
     "scale_factor: half",
 )  # fmt: skip
-"""One of each kind but one: on a run with run-ups the order of the rows does not tell the approach, so missing
-columns are named on some machines only.  All of them are measured by `station.studies.confusion.mistakes`."""
+"""One of each kind but one: on a run with run-ups the order of the rows does not tell the approach, so
+missing columns are named on some machines only.  All of them are measured by `station.studies.confusion.mistakes`."""
 
 
 @cache
