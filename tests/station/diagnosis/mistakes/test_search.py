@@ -26,7 +26,8 @@ QUICK = (
     "scale_factor: half",
 )  # fmt: skip
 """One of each kind but one: on a run with run-ups the order of the rows does not tell the approach, so
-missing columns are named on some machines only.  All of them are measured by `station.studies.confusion.mistakes`."""
+missing columns are named on some machines only.  All of them
+are measured by `station.studies.confusion.mistakes`."""
 
 
 @cache
