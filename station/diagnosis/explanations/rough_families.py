@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -130,20 +131,7 @@ def _when(hidden: Hidden) -> tuple[Quantity, ...]:
 def _slip(s: Situation, target: str, joint: int | None) -> Family:
     t = _moments(s)
     hidden = tuple({"from_s": float(v)} for v in t[EDGE : len(t) - EDGE + 1])
-
-    def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
-        return [Action(target, _stepped(s.t_s, hidden))]
-
-    effect, part = ("reading_step", "reading") if joint is None else ("count_slip", None)
-    return Family(
-        "step",
-        (Part(effect, joint, part, (0,), _step_size(joint, _when)),),
-        1.0 if joint is None else 0.5,
-        sizes(0.002, 5.0) if joint is None else sizes(5e-4 * DEG, 2.0 * DEG),
-        hidden,
-        actions,
-        repeats=True,
-    )
+    return replace(_step("step", 1.0 if joint is None else 0.5, target, joint, hidden), repeats=True)
 
 
 def _both_slip(s: Situation) -> Family:
@@ -166,15 +154,22 @@ def _healing(s: Situation, target: str, joint: int | None) -> Family:
         for length in HEALING
         for k in range(EDGE, len(t) - length - EDGE, every if length > HEALING[0] else 2)
     )
+    return _step("healing step", 0.3 if joint is None else 0.15, target, joint, hidden)
+
+
+def _step(
+    name: str, weight: float, target: str, joint: int | None, hidden: tuple[dict[str, float], ...]
+) -> Family:
+    """A step of the reading (no joint) or of one joint's counts, at the moments that are tried."""
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
         return [Action(target, _stepped(s.t_s, hidden))]
 
     effect, part = ("reading_step", "reading") if joint is None else ("count_slip", None)
     return Family(
-        "healing step",
+        name,
         (Part(effect, joint, part, (0,), _step_size(joint, _when)),),
-        0.3 if joint is None else 0.15,
+        weight,
         sizes(0.002, 5.0) if joint is None else sizes(5e-4 * DEG, 2.0 * DEG),
         hidden,
         actions,

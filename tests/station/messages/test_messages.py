@@ -10,18 +10,26 @@ from typing import get_args
 import pytest
 
 import station
+from station.effects import arm_catalogue, five_bar_catalogue
 from station.messages import Group, display_name, explanation
-from station.records import DiagnosisVerdict, Outcome, State
-from station.records.run import PlanName
+from station.plans import PLANS
+from station.records import DiagnosisVerdict, Outcome, State, Verdict
 from station.run_kinds import RUN_KINDS
 
+EFFECTS = {effect.id for effect in (*five_bar_catalogue(), *arm_catalogue(6, by_range=True))}
+
 NAMED: list[tuple[Group, tuple[str, ...]]] = [
+    ("effects", tuple(sorted(EFFECTS))),
     ("states", tuple(State)),
     ("outcomes", get_args(Outcome)),
-    ("verdicts", ("pass", "fail", *get_args(DiagnosisVerdict))),
-    ("plans", get_args(PlanName)),
+    ("verdicts", (*get_args(Verdict), *get_args(DiagnosisVerdict))),
+    ("plans", tuple(PLANS)),
     ("run_kinds", tuple(RUN_KINDS)),
 ]
+
+
+def test_no_group_is_empty() -> None:
+    assert all(ids for _, ids in NAMED)
 
 
 @pytest.mark.parametrize(

@@ -20,12 +20,14 @@ QUICK = (
     "zero_at: joint 1, 20 deg", "ratio: both, 2", "robot_file: l1 of another robot",
     "mechanism: c digits exchanged", "readout_zeroed: middle", "readout_zeroed: before fresh",
     "readout_stuck: 8 rows", "pasted_block: 45 distances", "position_labels: all one",
-    "approach_sign: both", "approach_missing: play", "commanded_angles: both files",
+    "approach_sign: both", "commanded_angles: both files",
     "coarse_angles: 0.01 deg", "time: milliseconds", "same_readings: the file again",
     "rehomed: joint 1 by 0.3 deg", "zeros_written: in the sequence", "glitches: 7 of 0.3 mm",
     "scale_factor: half",
 )  # fmt: skip
-"""One of each kind at least; all of them are measured by `station.studies.confusion.mistakes`."""
+"""One of each kind but one: on a run with run-ups the order of the rows does not tell the approach, so
+missing columns are named on some machines only.  All of them
+are measured by `station.studies.confusion.mistakes`."""
 
 
 @cache

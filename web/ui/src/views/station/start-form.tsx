@@ -4,7 +4,7 @@ import type { ComponentChildren, RefObject } from "preact";
 import { useEffect, useRef } from "preact/hooks";
 import { connected, station } from "../../live";
 import { t } from "../../messages";
-import { runKind } from "../../names";
+import { planOf } from "../../names";
 import { operator } from "../../operator";
 import { MotionWarning } from "../../parts/motion-warning";
 import type { Plan } from "../../types";
@@ -158,7 +158,7 @@ function PlanField() {
       >
         {(station.value?.station.plans ?? ["paper"]).map((name) => (
           <option key={name} value={name}>
-            {runKind(name).name}
+            {planOf(name)?.name ?? name}
           </option>
         ))}
       </select>
