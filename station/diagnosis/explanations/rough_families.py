@@ -30,7 +30,7 @@ OVERSAMPLING = 2.0
 """Search steps per independent frequency."""
 EDGE = 2
 """Readings on either side of a step, at least."""
-MOST_DOUBTFUL = 12
+MOST_DOUBTFUL = 30
 HEALING = (4, 8, 16, 32)
 """Lengths of a step that heals, in readings."""
 
@@ -195,24 +195,22 @@ def _scale_cyclic(s: Situation) -> Family:
 
 
 def _hysteresis(s: Situation) -> Family:
-    """Where the slider turned round on the way, or the way is unknown, it may hang on either side.
+    """The reading lags the slider, by last motion or by net travel where these differ.
 
-    Those readings have an amplitude of their own, as large as the width.
+    Where the slider moved too little, or its way is unknown, it may hang anywhere between: those readings have
+    an amplitude of their own, as large as the width.
     """
-    moments = s.t_s[_doubtful(s)][:MOST_DOUBTFUL]
+    moments = s.t_s[s.slider[:, 0] == 0.0][:MOST_DOUBTFUL]
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
-        own = 0.5 * (s.t_s[:, None] == moments)
-        sure = np.where(own.any(axis=1), 0.0, -0.5 * s.slider[:, 1])
-        return [Action("reading", np.column_stack([sure, own])[None])]
+        last, net = s.slider.T
+        own = s.t_s[:, None] == moments
+        turned = np.where((last != net) & (last != 0.0), last, 0.0)
+        sure = np.where(own.any(axis=1) | (turned != 0.0), 0.0, net)
+        return [Action("reading", 0.5 * np.column_stack([-sure, -turned, own])[None])]
 
     part = Part("scale_hysteresis", None, None, (0,), scaled("width_mm", 1.0, "mm"))
     return Family("hysteresis", (part,), 1.0, sizes(1e-3, 0.3), ({},), actions)
-
-
-def _doubtful(s: Situation) -> NDArray[np.bool_]:
-    """(K,) readings before which last motion and net travel differ or are unknown."""
-    return np.asarray((s.slider[:, 0] != s.slider[:, 1]) | (s.slider[:, 0] == 0.0))
 
 
 def _drift() -> Family:
