@@ -103,9 +103,9 @@ def readings_before(m: Measurements, reference: Reference | None) -> Real:
 def last_motion(m: Measurements, by_joint: Real, came_from: Real) -> Real:
     """(K,) sign in which the distance last changed; 0 unknown or too short to be sure.
 
-    By the run-up where the recorded approach says that the last motion was another than the way from the reading
-    before, else by that way; a slider that turned round on it is not known, for the joints do not arrive
-    quite together.
+    By the run-up where the recorded approach says that the last motion was another than the way from the
+    reading before, else by that way; a slider that turned round on it is not known, for the joints do not
+    arrive quite together.
     """
     way = m.theta - came_from[:, :-1]
     way[np.abs(way) < SAME_PLACE_RAD] = 0.0

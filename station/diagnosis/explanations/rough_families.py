@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.diagnosis.explanations.family import (
     Family,
@@ -197,8 +196,8 @@ def _scale_cyclic(s: Situation) -> Family:
 def _hysteresis(s: Situation) -> Family:
     """The reading lags the slider, by last motion or by net travel where these differ.
 
-    Where the slider moved too little, or its way is unknown, it may hang anywhere between: those readings have
-    an amplitude of their own, as large as the width.
+    Where the slider moved too little, or its way is unknown, it may hang anywhere between: those readings
+    have an amplitude of their own, as large as the width.
     """
     moments = s.t_s[s.slider[:, 0] == 0.0][:MOST_DOUBTFUL]
 

@@ -13,7 +13,7 @@ from station.diagnosis.weighed_loop import weighed
 from station.five_bar.robot_file import Robot
 from station.studies.confusion.errors import before_and_after
 from station.studies.confusion.machines import draw
-from station.studies.confusion.matrix import judge
+from station.studies.confusion.claims import judge
 
 ROBOT = Robot.default()
 
