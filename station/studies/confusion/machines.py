@@ -46,13 +46,11 @@ class Drawn:
 def draw(robot: Robot, kinds: tuple[str, ...], seed: int) -> Drawn:
     """A machine with one effect of each kind, at random sizes, joints, phases and moments."""
     rng = np.random.default_rng(seed)
-    truth = np.concatenate(
-        [
-            rng.uniform(-np.radians(2.0), np.radians(2.0), 2),
-            rng.normal(0.0, 0.025, 8),
-            [rng.normal(1.0, 0.06), rng.normal(0.5, 0.04)],
-        ]
-    )
+    # what its file says of the robot is true: else no interval could hold what it should
+    known = robot.tolerances
+    zeros = rng.uniform(-np.radians(2.0), np.radians(2.0), 2)
+    lengths = rng.normal(0.0, [known.e_mm] * 4 + [known.link_mm] * 4)
+    truth = np.concatenate([zeros, lengths, rng.normal(robot.drm, robot.drm_sd)])
 
     def with_effects(effects: list[Table], *, noise: bool = True) -> SimulatedMachine:
         return SimulatedMachine(robot, truth, "whole pulses", seed, effects, noise=noise)

@@ -11,9 +11,9 @@ from station.cli import main
 from station.diagnosis.report.weighed_findings import WeighedFindings
 from station.diagnosis.weighed_loop import weighed
 from station.five_bar.robot_file import Robot
+from station.studies.confusion.claims import judge
 from station.studies.confusion.errors import before_and_after
 from station.studies.confusion.machines import draw
-from station.studies.confusion.claims import judge
 
 ROBOT = Robot.default()
 
