@@ -56,6 +56,8 @@ def _print(found: Identification[AnyMechanism], document: IdentificationDocument
         console.print("Not determined by the readings: " + "; ".join(weak.blind) + ".")
     for outlier in found.outliers:
         console.print(f"Left out: reading {outlier.reading}, {outlier.reason}.")
+    if not found.solution.complete:
+        console.print(f"Warning: the fit {found.solution.message}; each uncertainty includes that step.")
     if found.sd_factor > 1.0:
         console.print(
             f"The model does not fit (p = {found.lack_of_fit_p:.1g}): each standard uncertainty is "

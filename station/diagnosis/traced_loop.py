@@ -80,10 +80,11 @@ class TracedDiagnosis:
 
 def _figures(stage: Stage, check: Confirmation | None) -> StageFigures:
     fit_ratio = stage.fit.cost / max(stage.fit.dof, 1)
+    adequate = stage.adequacy.passed and stage.fit.solution.complete
     if check is None:
-        return StageFigures(stage.adequacy.passed, fit_ratio)
+        return StageFigures(adequate, fit_ratio)
     fresh_ratio = float(np.mean((check.residual_mm / check.sd_mm) ** 2))
-    return StageFigures(stage.adequacy.passed, fit_ratio, check.confirmed, check.rms_mm, fresh_ratio)
+    return StageFigures(adequate, fit_ratio, check.confirmed, check.rms_mm, fresh_ratio)
 
 
 def traced(
@@ -163,7 +164,8 @@ def _trace(mechanism: AnyMechanism, effects: Sequence[Effect]) -> Trace:
         )
     except NotConvergedError as error:
         raise InputRefused(
-            f"The identification did not converge ({error}); check that angles and distances belong together."
+            f"The identification cannot start: {error}; check the robot file and that angles and readings "
+            "belong together."
         ) from error
 
 

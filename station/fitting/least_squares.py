@@ -1,16 +1,21 @@
-"""Whitened Gauss-Newton with Levenberg-Marquardt step control, SVD inside.
+"""Whitened least squares by trust-region steps.
 
 The problem is to minimise |r(x)|^2 + |W (x - m)|^2, where r is already divided by its standard
-deviation and (m, W) is the prior.  Converged means: the last step was shorter than `TOLERANCE`
-standard deviations (each is at most a few hundredths of the one before).  Singular values and
-blind directions come with the answer.
+deviation and (m, W) is the prior.  A step is Gauss-Newton's where that is no longer than the trust
+radius, else Levenberg-Marquardt's of that length, bent along the valley it is in (More 1978; Transtrum
+and Sethna 2012).  The radius follows the gain ratio: actual over predicted reduction of the cost.
+
+The iteration ends where a Gauss-Newton step would gain next to nothing.  How it ended is `status`, in
+words `message`, and what it left undone is `gain_left`.  A solution that stopped early is an answer
+too: its covariance is widened by the step that was not made.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Literal
 
 import numpy as np
 from scipy.linalg.lapack import dposv
@@ -18,19 +23,29 @@ from scipy.linalg.lapack import dposv
 from station.records import Real
 
 TOLERANCE = 3e-8
-MAX_STEPS = 60
-MISFIT = 5.0
-"""Residuals this many standard deviations large come from a model that is wrong."""
-LOOSE = 1e-3
-"""Length of the last step then, per standard deviation of misfit."""
+"""Length of the undamped step, in standard deviations, that counts as none."""
+NEGLIGIBLE = 1e-6
+"""Distance left, per standard deviation of misfit, that is not worth a slow approach."""
+MAX_STEPS = 250
 HUNDREDS = 1.0
 """Length of the last step of hundreds of unknowns together: a twentieth of a standard deviation each."""
-CURVED_AFTER = 5
-"""Steps of Gauss-Newton before every other one is made with the full Hessian, if residuals stay large."""
-CRAWLING = 0.3
-"""Length of a step over the one before, from which on that is worth its many evaluations."""
+SLOW_AFTER = 5
+"""Steps before a slow approach is looked at."""
+SLOW = 0.3
+"""Length of a step over the one before, from which on Gauss-Newton lacks the curvature of large residuals."""
 ROUNDING = 1e-7
 """Share of the cost that double precision may get wrong: distances are known to 1e-13 mm of 600."""
+GOOD, POOR = 0.75, 0.25
+"""Gain ratios above which steps may be longer, and below which they must be shorter,"""
+LONGER, SHORTER = 2.0, 0.5
+"""by these factors."""
+NEAR = 0.2
+"""Share by which the length of a step may miss the radius."""
+MOST_ROUNDS = 30
+BEND = 0.1
+"""Share of a step after which the residual's second derivative along it is taken."""
+MOST_BEND = 0.375
+"""Of a step's length, by which it may be bent."""
 MANY = 100
 """Unknowns from which the shape of the minimum is taken from the normal matrix."""
 BLIND = 1e-10
@@ -40,8 +55,17 @@ Residuals = Callable[[Real], tuple[Real, Real]]
 """x (P,) -> whitened residual (R,) and its Jacobian (R, P)."""
 
 
+Status = Literal["converged", "slow", "rounding", "stopped"]
+MESSAGES: dict[Status, str] = {
+    "converged": "converged",
+    "slow": "the approach to the minimum is slow, and what is left of it is negligible",
+    "rounding": "double precision shows no further reduction",
+    "stopped": "stopped before the minimum was reached",
+}
+
+
 class NotConvergedError(ArithmeticError):
-    """The fit did not converge; the text says how far it came."""
+    """The model cannot be evaluated where the fit starts."""
 
 
 @dataclass(frozen=True)
@@ -87,6 +111,29 @@ class Solution:
     jacobian: Real
     """(R, P) whitened, without the prior rows."""
     steps: int
+    status: Status = "converged"
+    gain_left: float = 0.0
+    """Reduction of the cost that one more undamped step promises."""
+
+    @property
+    def complete(self) -> bool:
+        """Whether the minimum was reached; else the covariance holds what was left undone."""
+        return self.status != "stopped"
+
+    @property
+    def message(self) -> str:
+        """How the iteration ended, in words."""
+        text = MESSAGES[self.status]
+        if self.complete:
+            return text
+        return f"{text}, after {self.steps} steps; the next would reduce the cost by {self.gain_left:.2g}"
+
+    def ended(self, status: Status, undone: Real, length: float) -> Solution:
+        """The same, ended otherwise: before a step `undone` (P,) of `length` standard deviations."""
+        covariance = self.covariance
+        if status == "stopped":
+            covariance = covariance + np.outer(undone, undone)
+        return replace(self, covariance=covariance, status=status, gain_left=length**2)
 
     @property
     def blind(self) -> int:
@@ -94,96 +141,167 @@ class Solution:
         return int(np.sum(self.singular_values <= BLIND * self.singular_values[0]))
 
 
-def solve(residuals: Residuals, start: Real, prior: Prior) -> Solution:
-    """Minimise from `start` (P,).
+def solve(residuals: Residuals, start: Real, prior: Prior, most_steps: int = MAX_STEPS) -> Solution:
+    """Minimise from `start` (P,), in `most_steps` at most.
 
     Steps come from the normal equations with unit columns: their rounding only slows a step, the
     residual and its gradient decide where the iteration ends.  The answer's shape comes from the
     SVD of the stacked Jacobian itself.
 
-    :raises NotConvergedError: no convergence in `MAX_STEPS`, or not a number at the start.
+    :raises NotConvergedError: the model is not a number at the start.
     """
-    with np.errstate(invalid="ignore"):
-        return _solve(residuals, start, prior)
+    with np.errstate(invalid="ignore", over="ignore"):
+        return _solve(residuals, start, prior, most_steps)
 
 
-def _solve(residuals: Residuals, start: Real, prior: Prior) -> Solution:
+def _solve(residuals: Residuals, start: Real, prior: Prior, most_steps: int) -> Solution:
     x = start.astype(float)
     stacked, target, r, J = _stack(residuals, x, prior)
     cost = float(target @ target)
     if not math.isfinite(cost):
         raise NotConvergedError("the model cannot be evaluated at the starting values")
-    damping = 0.0
-    length = before = math.inf
-    for step in range(1, MAX_STEPS + 1):
+    radius = before = math.inf
+    ratio = 1.0
+    extent = np.zeros(len(x))
+    for step in range(1, most_steps + 2):
         gradient = stacked.T @ target
         normal: Real = stacked.T @ stacked
-        if step > CURVED_AFTER and step % 2 and cost > MISFIT**2 * len(r) and length > CRAWLING * before:
+        full = _descend(normal, gradient)
+        length = math.sqrt(max(float(full @ gradient), 0.0))
+        if length < TOLERANCE:
+            # nothing that was evaluated at x is different there
+            return _shape(x - full, stacked, r, J, cost, step)
+        rate, before = length / before, length
+        curved = False
+        if step > SLOW_AFTER and rate > SLOW and len(x) < MANY:
+            left = length / max(1.0 - rate, TOLERANCE)
+            if left < NEGLIGIBLE * max(_misfit(cost, len(r)), 1.0):
+                return _shape(x, stacked, r, J, cost, step).ended("slow", full, length)
             # with large residuals Gauss-Newton crawls: its matrix lacks their curvature
-            curved = _hessian(residuals, x, gradient, prior)
-            normal = normal if curved is None else curved
-        before = length
-        scale = np.sqrt(normal.diagonal())
-        scale[scale == 0.0] = 1.0
-        normal /= scale
-        normal /= scale[:, None]
-        gradient /= scale
+            curved = step % 2 == 1 and not ratio > GOOD
+        if step > most_steps:
+            break
+        extent = np.maximum(extent, np.sqrt(normal.diagonal()))
+        if curved:
+            normal = _hessian(residuals, x, gradient, prior)
+            full = _descend(normal, gradient)
+        trust = _TrustRegion(normal, gradient, full, extent)
         while True:
-            along = _descend(normal, gradient, damping)
-            trial = x - along / scale
-            length = math.sqrt(max(float(along @ gradient), 0.0))
-            if damping == 0.0 and length < TOLERANCE:
-                # nothing that was evaluated at x is different there
-                return _shape(trial, stacked, r, J, cost, step)
-            new_stacked, new_target, new_r, new_J = _stack(residuals, trial, prior)
+            along, predicted = trust.step(radius)
+            if along is not full and not curved and step > 1:
+                _, aside, _, _ = _stack(residuals, x - BEND * along, prior)
+                second = 2.0 / BEND * ((aside - target) / BEND + stacked @ along)
+                along = along + trust.bend(stacked.T @ second, radius)
+            new_stacked, new_target, new_r, new_J = _stack(residuals, x - along, prior)
             new_cost = float(new_target @ new_target)
+            seen = ROUNDING * (1.0 + cost)
             # rounding of the cost itself must not be mistaken for an uphill step
-            if new_cost <= cost + ROUNDING * (1.0 + cost):
+            ratio = 1.0 if abs(new_cost - cost) < seen else (cost - new_cost) / predicted
+            if not ratio > POOR:
+                first = step == 1 and math.isinf(radius)
+                radius = SHORTER * trust.size(along)
+                if first:
+                    # a poor first step is made anew, no longer than the start is from the origin (More)
+                    radius = min(radius, trust.size(x) or math.inf)
+                    continue
+            elif ratio > GOOD and math.isfinite(radius):
+                radius = max(radius, LONGER * trust.size(along))
+            if ratio > 0.0:
                 break
-            if damping > 1e12:
-                raise NotConvergedError(f"no downhill step was found after {step} steps")
-            damping = max(10.0 * damping, 1e-4)
-        x, stacked, target, r, J, cost = trial, new_stacked, new_target, new_r, new_J, new_cost
-        if damping == 0.0 and length < _tolerance(cost, len(r), len(x)):
+            if not predicted >= seen * TOLERANCE:
+                found = _shape(x, stacked, r, J, cost, step)
+                return found.ended("rounding" if length**2 < seen else "stopped", full, length)
+        x, stacked, target, r, J, cost = x - along, new_stacked, new_target, new_r, new_J, new_cost
+        if len(x) >= MANY and length < HUNDREDS * max(_misfit(cost, len(r)), 1.0):
             return _shape(x, stacked, r, J, cost, step)
-        damping = damping / 10.0 if damping > 1e-8 else 0.0
-    raise NotConvergedError(
-        f"no convergence in {MAX_STEPS} steps; the last was {length:.2g} standard deviations"
-    )
+    return _shape(x, stacked, r, J, cost, most_steps).ended("stopped", full, length)
 
 
-def _hessian(residuals: Residuals, x: Real, gradient: Real, prior: Prior) -> Real | None:
-    """(P, P) of half the cost by differences of its gradient; None where it is not positive definite."""
-    sd = 1.0 / np.linalg.norm(_stack(residuals, x, prior)[0], axis=0)
+class _TrustRegion:
+    """Steps of one linearised problem that go no further than a radius."""
+
+    def __init__(self, normal: Real, gradient: Real, full: Real, extent: Real) -> None:
+        self._normal, self._gradient, self._full, self._extent = normal, gradient, full, extent
+        self._parts: tuple[Real, Real, Real] | None = None
+        self._damping = 0.0
+
+    def size(self, along: Real) -> float:
+        """Of a step (P,): in units of `extent`."""
+        return float(np.linalg.norm(along * self._extent))
+
+    def step(self, radius: float) -> tuple[Real, float]:
+        """(P,) best step of at most `radius`, and its predicted gain."""
+        if math.isinf(radius) or self.size(self._full) <= radius:
+            return self._full, float(self._full @ self._gradient)
+        unit = np.where(self._extent > 0.0, self._extent, 1.0)
+        if self._parts is None:
+            values, vectors = np.linalg.eigh(self._normal / np.outer(unit, unit))
+            self._parts = (
+                np.maximum(values, 0.0),
+                vectors / unit[:, None],
+                vectors.T @ (self._gradient / unit),
+            )
+        values, vectors, along = self._parts
+        self._damping = _damping(values, along, radius)
+        part = along / (values + self._damping)
+        return vectors @ part, float(part @ along + self._damping * (part @ part))
+
+    def bend(self, gradient: Real, radius: float) -> Real:
+        """(P,) by how much the step is bent to stay in its valley; not at all where that is too much.
+
+        gradient: J' times the residual's second derivative along the step.
+        """
+        assert self._parts is not None
+        values, vectors, _ = self._parts
+        part = (vectors.T @ gradient) / (values + self._damping) / 2.0
+        if not np.linalg.norm(part) < MOST_BEND * radius:
+            return np.zeros(len(part))
+        return np.asarray(vectors @ part)
+
+
+def _damping(values: Real, along: Real, radius: float) -> float:
+    """By which a step gets the length `radius`: Newton on its reciprocal (More and Sorensen 1983)."""
+    damping = 0.0 if values[0] > 0.0 else float(np.linalg.norm(along)) / radius * TOLERANCE
+    for _ in range(MOST_ROUNDS):
+        part = along / (values + damping)
+        size = float(np.linalg.norm(part))
+        if abs(size - radius) < NEAR * radius:
+            break
+        slope = float(part @ (part / (values + damping)))
+        damping = max(damping + (size - radius) / radius * size**2 / slope, damping / 10.0)
+    return damping
+
+
+def _misfit(cost: float, rows: int) -> float:
+    """Standard deviations by which a row is off, RMS."""
+    return math.sqrt(cost / rows)
+
+
+def _hessian(residuals: Residuals, x: Real, gradient: Real, prior: Prior) -> Real:
+    """(P, P) of half the cost by differences of its gradient."""
+    norms = np.linalg.norm(_stack(residuals, x, prior)[0], axis=0)
     columns = []
-    for k, step in enumerate(sd):
+    for k, step in enumerate(1.0 / np.where(norms > 0.0, norms, 1.0)):
         aside = x.copy()
         aside[k] += step
         stacked, target, _, _ = _stack(residuals, aside, prior)
         columns.append((stacked.T @ target - gradient) / step)
     hessian = np.column_stack(columns)
-    hessian = (hessian + hessian.T) / 2.0
-    unit = hessian * np.outer(sd, sd)
-    return hessian if np.isfinite(unit).all() and np.linalg.eigvalsh(unit)[0] > 0.0 else None
+    return np.asarray(hessian + hessian.T) / 2.0
 
 
-def _tolerance(cost: float, rows: int, unknowns: int) -> float:
-    """Neither a misfit far beyond the noise nor hundreds of unknowns are pinned down to a fraction of it."""
-    misfit = math.sqrt(cost / rows)
-    if unknowns >= MANY:
-        return HUNDREDS * max(misfit, 1.0)
-    return TOLERANCE if misfit < MISFIT else LOOSE * misfit
-
-
-def _descend(normal: Real, gradient: Real, damping: float) -> Real:
-    """Solve (normal + damping) step = gradient; blind directions are left alone."""
-    damped = normal + damping * np.eye(len(normal)) if damping else normal
-    _, step, info = dposv(damped, gradient)
-    if info == 0:
-        return np.asarray(step)
-    values, vectors = np.linalg.eigh(damped)
-    values = np.where(values > BLIND * values[-1], values, np.inf)
-    return np.asarray(vectors @ ((vectors.T @ gradient) / values))
+def _descend(normal: Real, gradient: Real) -> Real:
+    """Solve normal step = gradient with unit columns; blind directions are left alone."""
+    scale = np.sqrt(normal.diagonal())
+    scale[scale == 0.0] = 1.0
+    unit = normal / scale
+    unit /= scale[:, None]
+    _, step, info = dposv(unit, gradient / scale)
+    if info != 0:
+        values, vectors = np.linalg.eigh(unit)
+        values = np.where(values > BLIND * values[-1], values, np.inf)
+        step = vectors @ ((vectors.T @ (gradient / scale)) / values)
+    return np.asarray(step / scale)
 
 
 def _shape(x: Real, stacked: Real, r: Real, J: Real, cost: float, steps: int) -> Solution:

@@ -48,7 +48,12 @@ def identification_document(
         position_error_map=position_error_map(found),
         outliers=tuple(o.record() for o in found.outliers),
         memory=None if found.gate is None else gate_record(found.gate),
-        convergence=Convergence(steps=found.solution.steps),
+        convergence=Convergence(
+            steps=found.solution.steps,
+            status=found.solution.status,
+            message=found.solution.message,
+            gain_left=found.solution.gain_left,
+        ),
     )
 
 

@@ -98,7 +98,8 @@ class Identification(Generic[M_co]):
 
     @property
     def adequate(self) -> bool:
-        return self.lack_of_fit_p >= LACK_OF_FIT_P
+        """Whether the model fits; a fit that stopped early has not shown it."""
+        return self.lack_of_fit_p >= LACK_OF_FIT_P and self.solution.complete
 
     @property
     def weak_direction(self) -> WeakDirection:
@@ -254,5 +255,6 @@ def _fit(mechanism: AnyMechanism, prior: Prior, row_sd: Real) -> Fit:
         return fit(Model(mechanism, reference_of(mechanism.measurements)), prior, row_sd)
     except NotConvergedError as error:
         raise InputRefused(
-            f"The identification did not converge ({error}); check that angles and readings belong together."
+            f"The identification cannot start: {error}; check the robot file and that angles and readings "
+            "belong together."
         ) from error

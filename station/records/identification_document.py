@@ -57,6 +57,11 @@ class Convergence(Record):
     """How the solver ended."""
 
     steps: int
+    status: Literal["converged", "slow", "rounding", "stopped"] = "converged"
+    """All but `stopped` reached the minimum."""
+    message: str = "converged"
+    gain_left: float = 0.0
+    """Reduction of the cost that one more step promised."""
 
 
 class IdentificationDocument(Record):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.optimize import least_squares
@@ -11,6 +13,7 @@ from station.fitting.prior import tolerance_prior
 from station.five_bar.mechanism import FiveBar
 from station.five_bar.robot_file import Robot
 from station.records import Real
+from tests.station.fitting.nist import NistProblem, problems
 from tests.station.groups import group, measure
 
 ROBOT = Robot.default()
@@ -102,3 +105,39 @@ def test_agrees_with_a_general_solver(unknowns: str, number: int) -> None:
     sd = np.sqrt(np.diag(ours.covariance))
     assert np.linalg.norm(ours.x - x) <= 1e-9 * np.linalg.norm(x)
     assert (np.abs(ours.x - x) <= 1e-9 * np.abs(x) + 1e-6 * sd).all()
+
+
+NIST = problems()
+DOUBLE_PRECISION = 1e-9
+"""Of the largest y.  Lanczos1 is known to 14 digits: its residuals are the rounding of its y."""
+
+
+def whitened(problem: NistProblem) -> NistProblem:
+    least = DOUBLE_PRECISION * float(np.abs(problem.y).max())
+    return replace(problem, residual_sd=max(problem.residual_sd, least))
+
+
+@pytest.mark.parametrize("start", [1, 2])
+@pytest.mark.parametrize("name", NIST)
+def test_certified_problems_to_six_digits(name: str, start: int) -> None:
+    """NIST StRD, all levels of difficulty, from the far and the near start: values and uncertainties."""
+    problem = whitened(NIST[name])
+    begin = problem.starts[start - 1]
+    found = solve(problem.residuals, begin, Prior(begin, np.zeros((0, len(begin)))))
+    assert found.complete, found.message
+    assert found.x == pytest.approx(problem.certified, rel=1e-6)
+    scale = problem.residual_sd / NIST[name].residual_sd
+    assert np.sqrt(np.diag(found.covariance)) == pytest.approx(problem.sd * scale, rel=1e-5)
+
+
+def test_a_fit_that_is_stopped_early_says_so_and_widens_its_uncertainty() -> None:
+    problem = NIST["MGH10"]
+    begin = problem.starts[0]
+    prior = Prior(begin, np.zeros((0, len(begin))))
+    early, done = solve(problem.residuals, begin, prior, 12), solve(problem.residuals, begin, prior)
+    assert (early.status, early.complete, early.steps) == ("stopped", False, 12)
+    assert early.gain_left > 1.0
+    assert "stopped before the minimum" in early.message
+    assert done.complete
+    off = np.abs(early.x - done.x)
+    assert (off < 3.0 * np.sqrt(np.diag(early.covariance))).all()
