@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from station.studies.confusion.kinds import KINDS
 from station.studies.confusion.machines import draw
-from station.studies.confusion.matrix import figures, run
+from station.studies.confusion.matrix import figures, label, run
 from station.studies.confusion.page import markdown
 
 __all__ = [
     "KINDS",
     "draw",
     "figures",
+    "label",
     "markdown",
     "run",
 ]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -64,15 +65,20 @@ class Reliability:
     count: int
 
 
-def run(machines: int, seed: int, engine: Engine) -> list[Row]:
-    """`machines` of every kind."""
-    drawn = [(kind, seed * 1_000_003 + k) for kind in KINDS for k in range(machines)]
+def run(machines: int, seed: int, engine: Engine, kinds: Sequence[tuple[str, ...]] = KINDS) -> list[Row]:
+    """`machines` of each of these kinds."""
+    drawn = [(kind, seed * 1_000_003 + k) for kind in kinds for k in range(machines)]
     found = engine.each(outcome, drawn, "Claims")
-    group = {kind: name for name, kinds in GROUPS.items() for kind in kinds}
+    group = {kind: name for name, some in GROUPS.items() for kind in some}
     return [
-        Row(" + ".join(kind) or CLEAN, group[kind], tuple(found[k * machines : (k + 1) * machines]))
-        for k, kind in enumerate(KINDS)
+        Row(label(kind), group[kind], tuple(found[k * machines : (k + 1) * machines]))
+        for k, kind in enumerate(kinds)
     ]
+
+
+def label(kind: tuple[str, ...]) -> str:
+    """What a kind is called on the page and on the command line."""
+    return "+".join(kind) or CLEAN
 
 
 def reliability(rows: list[Row]) -> list[Reliability]:

@@ -10,7 +10,7 @@ from scipy.stats import binomtest
 from station.studies.confusion.claims import Outcome
 from station.studies.confusion.kinds import GROUPS, OUTSIDE
 from station.studies.confusion.machines import SCATTER_UM
-from station.studies.confusion.matrix import CLEAN, Row, reliability
+from station.studies.confusion.matrix import Row, reliability
 
 PAGE = """# The diagnosis against random machines
 
@@ -62,9 +62,8 @@ RMS over all clear machines of a kind.  Before is the base model, after the set 
 
 def markdown(rows: list[Row], seed: int) -> str:
     """docs/confusion.md."""
-    clean = next(row for row in rows if row.kind == CLEAN)
     return PAGE.format(
-        machines=len(clean.outcomes),
+        machines=len(rows[0].outcomes),
         seed=seed,
         share_lines="\n".join(_share_lines(rows)),
         machine_lines="\n".join(_line(row) for row in rows),
@@ -79,6 +78,8 @@ def _share_lines(rows: list[Row]) -> list[str]:
     lines = []
     for group in GROUPS:
         some = [row for row in rows if row.group == group]
+        if not some:
+            continue
         if group == "clean":
             lines.append(_share("clean: nothing blamed", some, lambda o: o.said == "adequate"))
         elif some[0].kind not in OUTSIDE:

@@ -36,10 +36,13 @@ def test_a_machine_with_another_cause_is_not_right() -> None:
     assert not judge(drawn, found).right
 
 
-def test_one_machine_of_each_kind_makes_a_page(tmp_path: Path) -> None:
+def test_machines_of_several_kinds_make_a_page(tmp_path: Path) -> None:
+    kinds = ["none", "scale_gain", "backlash+drift", "base_flex"]
     file = tmp_path / "page.md"
-    result = CliRunner().invoke(main, ["confusion", "--machines", "1", "--markdown", str(file)])
+    arguments = ["confusion", "--machines", "1", "--markdown", str(file)]
+    result = CliRunner().invoke(main, [*arguments, *(a for kind in kinds for a in ("--kind", kind))])
     assert result.exit_code == 0, result.output
     page = file.read_text(encoding="utf-8")
-    assert page.count("| backlash + drift |") == 2
+    assert page.count("| backlash+drift |") == 2
     assert "1 machines of each kind, seed 1" in page
+    assert "| clean: nothing blamed | 1 of 1, 100.0 % |" in page
