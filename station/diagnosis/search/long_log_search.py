@@ -29,7 +29,7 @@ from station.diagnosis.search.cause_search import (
 )
 from station.diagnosis.tests_of_fit import judge
 from station.effects import Effect
-from station.fitting import NotConvergedError, Outlier, Prior
+from station.fitting import NotConvergedError, Outlier, Prior, solved
 from station.model import Fit, Model, fit
 from station.records import Real
 
@@ -132,6 +132,6 @@ def _needed(found: Fit, k: int) -> tuple[float, float]:
     a, C = found.amplitudes(k)
     spread = found.model.terms[k].spread
     freedom = float(len(a)) if spread is None else max(float(np.sum(1.0 - np.diag(C) / spread**2)), 1.0)
-    increase = float(a @ np.linalg.solve(C, a))
+    increase = float(a @ solved(C, a))
     dof = found.dof - freedom
     return increase, float(fdtrc(freedom, dof, (increase / freedom) / (found.cost / dof)))
