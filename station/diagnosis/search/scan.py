@@ -93,7 +93,7 @@ class Scan:
         return self._possible(reduction), share, largest
 
     def _possible(self, reduction: Real) -> Real:
-        """(V,) the same, 0 where it is more than there is: rounding, along a direction that cannot be seen."""
+        """(V,) the same, 0 where it is more than there is: rounding along a direction that cannot be seen."""
         return np.where(reduction <= self.fit.cost, reduction, 0.0)
 
     def signature(self, candidate: Candidate) -> Real:

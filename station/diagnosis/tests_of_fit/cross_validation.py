@@ -50,6 +50,13 @@ def without_a_quarter(m: Measurements) -> tuple[Measurements, Measurements]:
     return m.take(~aside), m.take(aside)
 
 
+def left_out_rms(solution: Solution, mechanism: Mechanism, row_sd: Real) -> float:
+    """mm, RMS of readings predicted without the fold of blocks that they are in."""
+    fold = folds(mechanism.measurements)[mechanism.reading_of_row]
+    rows = held_out_folds(solution, fold) * row_sd
+    return float(np.sqrt(rows @ rows / len(mechanism.measurements)))
+
+
 def held_out_folds(solution: Solution, fold: Index) -> Real:
     """(R,) the same for folds larger than the number of unknowns: r_B + J_B (C^-1 - J_B'J_B)^-1 J_B' r_B."""
     finite = np.isfinite(np.diag(solution.covariance))
