@@ -16,9 +16,10 @@ from station.effects import Effect, arm_catalogue, five_bar_catalogue
 from station.errors import InputRefused
 from station.fitting import Solution, describe_separability
 from station.five_bar import FIVE_BAR_MODEL, FiveBar, Robot, describe_weak_direction, read_sections
-from station.mechanism import Mechanism
+from station.mechanism import Mechanism, reference_of
 from station.records import (
     FIVE_BAR,
+    TIME,
     Columns,
     Measurements,
     Real,
@@ -92,7 +93,12 @@ KINDS: dict[str, MachineKind] = {
         mechanism=SerialArm,
         columns=lambda arm: arm.columns,
         infers_columns=True,
-        catalogue=lambda arm: arm_catalogue(arm.robot.joints, by_range=arm.by_range),
+        catalogue=lambda arm: arm_catalogue(
+            arm.robot.joints,
+            by_range=arm.by_range,
+            timed=TIME not in arm.measurements.guessed,
+            warmed=reference_of(arm.measurements).temperature_c is not None,
+        ),
         weak_direction=describe_separability,
         extent="the measured poses",
     ),

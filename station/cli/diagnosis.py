@@ -161,7 +161,8 @@ def _print(findings: Findings) -> None:
         if found.aliases:
             others = ", ".join(found.alias_labels)
             console.print(f"  Cannot be distinguished from {others}. To distinguish: {found.experiment}")
-        console.print(f"  {found.remedy}")
+        if found.remedy:
+            console.print(f"  {found.remedy}")
     if findings.decision.verdict not in ("adequate", "explained"):
         for one in findings.explanations:
             labels = " and ".join(effect.label for effect in one.effects) or "no effect"

@@ -13,6 +13,8 @@ from station.records import Measurements
 
 FEWEST_READINGS = 30
 """Thirteen unknowns and an effect leave too little of fewer readings to judge a residual by."""
+FEWEST_OF_ARM = 24
+"""Readings of an arm: three quarters of 32."""
 FEWEST_REPEATS = 6
 
 
@@ -24,7 +26,8 @@ def check_enough(mechanism: Mechanism, *, labelled: bool = True) -> None:
     measurements, unknowns = mechanism.measurements, len(mechanism.parameters)
     groups = measurements.repeat_group
     repeats = len(groups) - len(np.unique(groups))
-    fewest = max(FEWEST_READINGS, 2 * unknowns)
+    # an arm has a tolerance for each unknown of its links, so fewer readings than unknowns are no hindrance
+    fewest = max(FEWEST_READINGS, 2 * unknowns) if mechanism.needs_repeats else FEWEST_OF_ARM
     missing = []
     if len(measurements) < fewest:
         missing.append(f"{fewest - len(measurements)} more readings")

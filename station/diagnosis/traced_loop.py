@@ -14,7 +14,15 @@ import numpy as np
 from station.diagnosis.decision import GOOD_SHARE, Decision, StageFigures, decide
 from station.diagnosis.readiness import check_enough, checked_fresh
 from station.diagnosis.search import Hint, Stage, Trace, hints, long_trace, trace, with_alias
-from station.diagnosis.tests_of_fit import Confirmation, Rest, confirm, of_fit, rest_of, strongest
+from station.diagnosis.tests_of_fit import (
+    Confirmation,
+    Rest,
+    confirm,
+    left_out_rms,
+    of_fit,
+    rest_of,
+    strongest,
+)
 from station.effects import Effect
 from station.errors import InputRefused
 from station.fitting import NotConvergedError, Outlier, tolerance_prior
@@ -56,16 +64,20 @@ class TracedDiagnosis:
 
     @property
     def explained_share(self) -> float:
-        """Of the base residual's square beyond the noise."""
-        before = np.sum(self.base.residual_mm**2)
-        after = np.sum(self.last.residual_mm**2)
-        return float(1.0 - after / before)
+        """Of the square of the base model's error at readings that took no part: fresh ones, else blocks."""
+        if self.confirmations:
+            before, after = self.confirmations[0].rms_mm, self.confirmations[-1].rms_mm
+        else:
+            before, after = (
+                left_out_rms(f.solution, f.model.mechanism, f.row_sd) for f in (self.base, self.last)
+            )
+        return float(1.0 - (after / before) ** 2) if before > 0.0 else 0.0
 
     @cached_property
     def decision(self) -> Decision:
         """Verdict and trusted stage."""
         checks = self.confirmations or (None,) * len(self.trace.stages)
-        figures = [_figures(stage, check) for stage, check in zip(self.trace.stages, checks, strict=True)]
+        figures = [_figures(*stage, checks[0]) for stage in zip(self.trace.stages, checks, strict=True)]
         return decide(figures, alternative=self.rival is not None, share=self.explained_share)
 
     @property
@@ -78,13 +90,15 @@ class TracedDiagnosis:
         return self.decision.confirmed
 
 
-def _figures(stage: Stage, check: Confirmation | None) -> StageFigures:
+def _figures(stage: Stage, check: Confirmation | None, base: Confirmation | None) -> StageFigures:
     fit_ratio = stage.fit.cost / max(stage.fit.dof, 1)
     adequate = stage.adequacy.passed and stage.fit.solution.complete
-    if check is None:
+    if check is None or base is None:
         return StageFigures(adequate, fit_ratio)
     fresh_ratio = float(np.mean((check.residual_mm / check.sd_mm) ** 2))
-    return StageFigures(adequate, fit_ratio, check.confirmed, check.rms_mm, fresh_ratio)
+    # effects that predict fresh readings worse than none do are refuted, whatever their uncertainty allows
+    confirmed = check.confirmed and check.rms_mm <= base.rms_mm
+    return StageFigures(adequate, fit_ratio, confirmed, check.rms_mm, fresh_ratio)
 
 
 def traced(

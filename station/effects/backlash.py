@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import ClassVar
 
 import numpy as np
 
-from station.effects.base import Acts, JointEffect, Variants, one, scaled
+from station.effects.base import Acts, Bounds, JointEffect, Variants, one, scaled
 from station.mechanism import Conditions
 from station.records import Quantity, Real
 
@@ -17,6 +18,7 @@ class Backlash(JointEffect):
     remedy = "Adjust or replace the reducer, or approach every position from the same side."
     experiment = "Read the same places from the other side."
     by_approach = True
+    bounds: ClassVar[Bounds] = {"width_deg": (0.0, 1.0)}
 
     def variants(self, c: Conditions) -> Variants | None:
         i = self.index

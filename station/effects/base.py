@@ -28,6 +28,7 @@ class Acts:
 
 
 ON_READING = Acts()
+Bounds = Mapping[str, tuple[float, float]]
 
 
 @dataclass(frozen=True)
@@ -66,6 +67,8 @@ class Effect(ABC):
     """Whether it moves the arm differently with the sense of the joint's last motion."""
     local: ClassVar[bool] = False
     """Whether it says nothing of angles where its joint has not been."""
+    bounds: ClassVar[Bounds] = {}
+    """What physics allows: name of a quantity -> (least, most)."""
     covers: ClassVar[tuple[str, ...]] = ()
     """Effects of the same joint that are a part of this one."""
 
@@ -85,6 +88,14 @@ class Effect(ABC):
         self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
     ) -> tuple[Quantity, ...]:
         """Fitted amplitudes (q,) in the units of the catalogue, with sd."""
+
+    def possible(self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real) -> bool:
+        """Whether every fitted quantity is one that physics allows, within two standard deviations."""
+        for q in self.quantities(hidden, amplitudes, covariance):
+            least, most = self.bounds.get(q.name, (-np.inf, np.inf))
+            if not least <= q.value + 2.0 * q.sd or not q.value - 2.0 * q.sd <= most:
+                return False
+        return True
 
     def bands(self, size: int) -> Index:
         """(q,) amplitudes with the same number are alike in size; only of use with a spread."""

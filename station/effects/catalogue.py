@@ -33,8 +33,13 @@ def five_bar_catalogue() -> tuple[Effect, ...]:
     )
 
 
-def arm_catalogue(joints: int, *, by_range: bool) -> tuple[Effect, ...]:
-    """Every effect at every joint of a serial arm; with distances also those of the instrument."""
-    effects = (*PER_JOINT, GearCurve)
+def arm_catalogue(joints: int, *, by_range: bool, timed: bool, warmed: bool) -> tuple[Effect, ...]:
+    """Every effect at every joint of a serial arm; with distances also those of the instrument.
+
+    timed: the log says when each reading was taken; warmed: it says how warm it was.
+    """
+    effects = [e for e in (*PER_JOINT, GearCurve) if timed or e is not CountSlip]
     at_joints = tuple(effect(joint) for effect in effects for joint in range(1, joints + 1))
-    return (*at_joints, ThermalLinks(), *((ScaleGain(), Drift(), ThermalGrowth()) if by_range else ()))
+    growth = (ThermalLinks(), *((ThermalGrowth(),) if by_range else ())) if timed or warmed else ()
+    drift = (Drift(),) if timed and by_range else ()
+    return (*at_joints, *growth, *((ScaleGain(),) if by_range else ()), *drift)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import ClassVar
 
 import numpy as np
 
-from station.effects.base import Acts, JointEffect, Variants, scaled
+from station.effects.base import Acts, Bounds, JointEffect, Variants, scaled
 from station.errors import InputRefused
 from station.mechanism import Conditions
 from station.records import Quantity, Real
@@ -20,6 +21,9 @@ class Compliance(JointEffect):
     physics = "The arm sags under gravity, most when it is horizontal; a recorded payload adds to it."
     remedy = "Stiffen the drive train or compensate for the torque in the controller."
     experiment = "Repeat the walk with a payload on the platform."
+    bounds: ClassVar[Bounds] = dict.fromkeys(
+        ("deg_at_horizontal", "deg_at_horizontal_per_kg", "deg_at_full_reach"), (0.0, 1.0)
+    )
 
     def variants(self, c: Conditions) -> Variants | None:
         i = self.index

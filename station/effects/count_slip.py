@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import ClassVar
 
 import numpy as np
 
-from station.effects.base import Acts, JointEffect, Variants, scaled
+from station.effects.base import Acts, Bounds, JointEffect, Variants, scaled
 from station.mechanism import Conditions
 from station.records import Quantity, Real
 
@@ -23,6 +24,7 @@ class CountSlip(JointEffect):
     physics = "A belt jumped, a coupling slipped or counts were lost: a step from one moment on."
     remedy = "Tighten coupling or belt, check the encoder cable, then calibrate again."
     experiment = "Read the first places again: the step stays."
+    bounds: ClassVar[Bounds] = {"step_deg": (-5.0, 5.0)}
 
     def variants(self, c: Conditions) -> Variants | None:
         if len(c) < 4 * EDGE:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import ClassVar
 
 import numpy as np
 
-from station.effects.base import Acts, JointEffect, Variants, amplitude_and_phase
+from station.effects.base import Acts, Bounds, JointEffect, Variants, amplitude_and_phase
 from station.mechanism import Conditions
 from station.records import Quantity, Real
 
@@ -33,6 +34,7 @@ class EncoderEccentricity(JointEffect):
     physics = "An encoder disc off its centre errs once a turn of the joint."
     remedy = "Re-centre or replace the encoder, or keep the term in the controller's model."
     experiment = "Read over a wider range of the joint, or from a second mount of the mechanism."
+    bounds: ClassVar[Bounds] = {"amplitude_deg": (0.0, 1.0)}
 
     def variants(self, c: Conditions) -> Variants | None:
         i = self.index
@@ -49,6 +51,7 @@ class GearCyclic(JointEffect):
     physics = "Teeth and bearings of motor and reducer repeat their error n times a turn of the joint."
     remedy = "Check the reducer stage that turns n times a joint turn, or keep the term in the model."
     experiment = "Read finely over two or three periods of the joint angle."
+    bounds: ClassVar[Bounds] = {"amplitude_deg": (0.0, 0.5)}
 
     repeats = True
     LOWEST, HIGHEST = 4.0, 80.0

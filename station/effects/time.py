@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import ClassVar
 
 import numpy as np
 
-from station.effects.base import ON_READING, Acts, Effect, Variants, one, scaled
+from station.effects.base import ON_READING, Acts, Bounds, Effect, Variants, one, scaled
 from station.errors import InputRefused
 from station.mechanism import Conditions
 from station.records import Quantity, Real
@@ -32,6 +33,11 @@ class ThermalGrowth(Effect):
     physics = "Links or scale grow as the machine warms up."
     remedy = "Warm up before calibrating, or compensate for the recorded temperature."
     experiment = "Repeat the walk warm, with the temperature recorded."
+    bounds: ClassVar[Bounds] = {
+        "links_um_per_m_per_K": (0.0, 40.0),
+        "scale_um_per_m_per_K": (-40.0, 40.0),
+        "links_um_per_m": (0.0, 2_000.0),
+    }
 
     WARMED = ("links", "scale", "mounting")
     TIME_CONSTANTS = 24

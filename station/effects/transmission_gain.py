@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from typing import ClassVar
 
-from station.effects.base import Acts, JointEffect, Variants, one, scaled
+from station.effects.base import Acts, Bounds, JointEffect, Variants, one, scaled
 from station.mechanism import Conditions
 from station.records import Quantity, Real
 
@@ -14,6 +15,7 @@ class TransmissionGain(JointEffect):
     physics = "The joint turns more or less than counted, in proportion to the angle from the drive's zero."
     remedy = "Correct the drive's ratio or pulses per turn."
     experiment = "Turn the joint through its whole range against an inclinometer."
+    bounds: ClassVar[Bounds] = {"ppm": (-12_000.0, 12_000.0)}
 
     def variants(self, c: Conditions) -> Variants | None:
         i = self.index

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from station.fitting.accuracy import common_sd_deg, position_error_field, position_error_summary, rms_and_max
 from station.fitting.least_squares import BLIND, NotConvergedError, Prior, Residuals, Solution, solve
+from station.fitting.linear import positive, solved
 from station.fitting.noise import MINIMUM_DOF, Noise, estimate_noise, lack_of_fit, pure_error, specified_noise
 from station.fitting.outliers import Outlier, check_outlier_share, find_outliers, outliers_of_fit
 from station.fitting.prior import tolerance_prior
@@ -27,9 +28,11 @@ __all__ = [
     "outliers_of_fit",
     "position_error_field",
     "position_error_summary",
+    "positive",
     "pure_error",
     "rms_and_max",
     "solve",
+    "solved",
     "specified_noise",
     "tolerance_prior",
 ]

@@ -223,10 +223,12 @@ def _check_enough(mechanism: AnyMechanism) -> None:
     """:raises InputRefused: fewer numbers than unknowns, or too few positions."""
     if mechanism.needs_repeats:
         check_places(mechanism.measurements)
-    elif len(mechanism.measured) <= len(mechanism.parameters):
+        return
+    unknown = sum(not np.isfinite(p.prior_sd) for p in mechanism.parameters) + mechanism.measurements.joints
+    if len(mechanism.measured) <= unknown:
         raise InputRefused(
-            f"Only {len(mechanism.measured)} numbers were measured for {len(mechanism.parameters)} unknowns; "
-            "measure more poses."
+            f"Only {len(mechanism.measured)} numbers were measured for {unknown} unknowns without a "
+            "tolerance; measure more poses."
         )
 
 

@@ -43,7 +43,7 @@ from station.records.diagnosis_document import (
     TemperatureReference,
     TermOfModel,
 )
-from station.records.guesses import guesses_in_words, with_guesses
+from station.records.guesses import TIME, guesses_in_words, with_guesses
 from station.records.identification_document import (
     Convergence,
     GateOfMemory,
@@ -122,6 +122,7 @@ __all__ = [
     "LIMIT_SDS",
     "MIXTURE_SCHEMA",
     "MODEL_SCHEMA",
+    "TIME",
     "Accuracy",
     "Angles",
     "AnyModelDocument",

@@ -11,6 +11,9 @@ from station.records.types import Index, Real
 
 STILL_RAD = 1e-4
 """A joint that moved less between two rows was only holding its place."""
+TIME = "time"
+"""Among what was guessed: the rows are in order, and nothing else is known of when they were taken."""
+EQUAL_S = 1e-3
 SAME_POSE_DEG = 0.02
 """Poses that agree so well in all joints are one place: an arm's drives do not stand still better."""
 
@@ -24,12 +27,24 @@ def with_guesses(m: Measurements) -> Measurements:
     if len(np.unique(m.position)) == len(m):
         m = replace(m, position=_places(m.theta))
         guessed.append("position")
+    if counts_rows(m.t_s):
+        guessed.append(TIME)
     return replace(m, guessed=tuple(guessed))
+
+
+def counts_rows(t_s: Real) -> bool:
+    """Whether a column of time only numbers the rows: nothing real keeps equal steps to the millisecond."""
+    steps = np.diff(t_s)
+    return bool(len(steps)) and bool(np.ptp(steps) < EQUAL_S)
 
 
 def guesses_in_words(m: Measurements) -> str:
     """What was guessed, for people."""
-    return f"Not recorded, but guessed from the rows themselves: {' and '.join(m.guessed)}."
+    guessed = [name for name in m.guessed if name != TIME]
+    text = f"Not recorded, but guessed from the rows themselves: {' and '.join(guessed)}." if guessed else ""
+    if TIME in m.guessed:
+        text += " t_s only numbers the rows: nothing that depends on time is looked for."
+    return text.strip()
 
 
 def _approaches(theta: Real) -> np.ndarray:

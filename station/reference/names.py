@@ -53,7 +53,10 @@ def _named(group: Group, ids: Iterable[str], more: tuple[str, dict[str, str]] | 
 
 
 def _effects() -> str:
-    effects = {effect.id: effect for effect in (*five_bar_catalogue(), *arm_catalogue(6, by_range=True))}
+    effects = {
+        effect.id: effect
+        for effect in (*five_bar_catalogue(), *arm_catalogue(6, by_range=True, timed=True, warmed=True))
+    }
     return table(
         ("id", "name", "meaning", "remedy", "experiment that distinguishes it"),
         (

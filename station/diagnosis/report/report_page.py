@@ -186,7 +186,7 @@ def _explanations(effects: Sequence[FoundEffect]) -> list[str]:
     """Physics and remedy, once for all effects that share them."""
     by_text: dict[str, list[str]] = {}
     for found in effects:
-        text = f"{found.physics} Remedy: {found.remedy}"
+        text = f"{found.physics} Remedy: {found.remedy}" if found.remedy else found.physics
         if found.aliases:
             text += f" To distinguish them: {found.experiment}"
         by_text.setdefault(text, []).append(found.label)

@@ -110,7 +110,8 @@ class TracedFindings(Findings):
                     probability=None,
                     aliases=tuple(_name(t) for t in finding.aliases),
                     alias_labels=tuple(t.effect.label for t in finding.aliases),
-                    remedy=term.effect.remedy,
+                    # nobody is sent to repair what fresh readings speak against
+                    remedy="" if self.decision.confirmed is False else term.effect.remedy,
                     experiment=term.effect.experiment,
                 )
             )

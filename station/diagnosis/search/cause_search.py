@@ -13,7 +13,7 @@ from functools import partial
 import numpy as np
 
 from station.diagnosis.search.scan import Candidate, Scan
-from station.diagnosis.tests_of_fit import ALPHA, Adequacy, by_searched, judge, turned
+from station.diagnosis.tests_of_fit import ALPHA, Adequacy, by_searched, judge, left_out_rms, turned
 from station.effects import Effect, doubtful
 from station.fitting import NotConvergedError, Outlier, Prior, outliers_of_fit
 from station.model import Fit, Model, Term, fit
@@ -30,6 +30,8 @@ HOPEFUL = 0.02
 """Unless it takes all but this share: a large effect is not quite linear."""
 MOST_RIVALS = 6
 MOST_POLISHING = 8
+HELPFUL = 0.995
+"""Left-out error over that without the effect: below this, readings that it has not seen support it."""
 ODD_SHARE = 0.03
 END_SHARE = 0.12
 """Of the walk, in which readings off to one side together look like a step and not like slips of the head."""
@@ -115,6 +117,19 @@ def next_effect(
     if candidates[0].reduction < WORTH * found.cost:
         return None
     return _add(scan, refitted, candidates, hopeful)
+
+
+def _possible(found: Fit) -> bool:
+    """Whether physics allows the size of the effect added last."""
+    k = len(found.model.terms) - 1
+    term = found.model.terms[k]
+    return term.effect.possible(term.hidden, *found.amplitudes(k))
+
+
+def helps(before: Fit, after: Fit) -> bool:
+    """Whether readings that a fit has not seen are predicted better, block by block."""
+    errors = [left_out_rms(f.solution, f.model.mechanism, f.row_sd) for f in (before, after)]
+    return errors[1] < HELPFUL * errors[0]
 
 
 def significant(p_value: float, tests: int, level: float) -> bool:
@@ -258,6 +273,9 @@ def _add(
         except NotConvergedError:
             continue
         fits.append((_score(refit, c), c, refit))
+    if not fits:
+        return None
+    fits = [item for item in fits if _possible(item[2]) and helps(current, item[2])]
     if not fits:
         return None
     fits.sort(key=lambda item: item[0])

@@ -16,6 +16,7 @@ from scipy.linalg import cho_factor, cho_solve
 from scipy.linalg.lapack import dpotri
 
 from station.effects import Effect
+from station.fitting import positive
 from station.model import Fit, Term
 from station.records import Index, Real
 
@@ -38,7 +39,7 @@ def learned_spread(information: Real, gradient: Real, spread: Real, bands: Index
     learned = bands != NONE
     band = bands[learned]
     for _ in range(MOST_ROUNDS):
-        factor = cho_factor(information + np.diag(1.0 / spread**2), lower=True)
+        factor = cho_factor(positive(information + np.diag(1.0 / spread**2)), lower=True)
         mean = cho_solve(factor, gradient)
         if not learned.any():
             break

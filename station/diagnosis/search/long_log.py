@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from station.diagnosis.search.evidence import relearned
 from station.diagnosis.search.scan import Candidate, Scan
-from station.fitting import Prior
+from station.fitting import Prior, solved
 from station.model import Fit, Model, Term, fit
 from station.records import Real
 
@@ -46,7 +46,7 @@ def without(found: Fit, kept: NDArray[np.bool_]) -> Fit:
     row = kept[mechanism.reading_of_row]
     old, C = found.solution, found.solution.covariance
     J_B, r_B = old.jacobian[~row], old.residual[~row]
-    smaller = np.linalg.solve(np.eye(len(C)) - C @ (J_B.T @ J_B), C)
+    smaller = solved(np.eye(len(C)) - C @ (J_B.T @ J_B), C)
     moved = smaller @ (J_B.T @ r_B)
     residual = old.residual[row] + old.jacobian[row] @ moved
     model = replace(found.model, mechanism=mechanism.of(mechanism.measurements.take(kept)))
@@ -60,7 +60,7 @@ def less(found: Fit, k: int, prior: Prior) -> Fit:
     model = replace(found.model, terms=(*found.model.terms[:k], *found.model.terms[k + 1 :]))
     old, C, own = found.solution, found.solution.covariance, found.part(k)
     keep = np.setdiff1d(np.arange(len(old.x)), own)
-    along = np.linalg.solve(C[np.ix_(own, own)], C[own]).T
+    along = solved(C[np.ix_(own, own)], C[own]).T
     moved = -along @ old.x[own]
     residual = old.residual + old.jacobian @ moved
     smaller = (C - along @ C[own])[np.ix_(keep, keep)]

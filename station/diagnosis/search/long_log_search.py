@@ -17,7 +17,6 @@ from scipy.special import fdtrc
 
 from station.diagnosis.search import long_log
 from station.diagnosis.search.cause_search import (
-    MOST_EFFECTS,
     SIGNIFICANT,
     WORTH,
     Finding,
@@ -29,14 +28,12 @@ from station.diagnosis.search.cause_search import (
 )
 from station.diagnosis.tests_of_fit import judge
 from station.effects import Effect
-from station.fitting import NotConvergedError, Outlier, Prior
+from station.fitting import NotConvergedError, Outlier, Prior, solved
 from station.model import Fit, Model, fit
 from station.records import Real
 
-READINGS_AN_EFFECT = 200
-"""One effect for so many readings,"""
 EFFECTS_A_JOINT = 2
-"""but no more than these."""
+"""No more than these, however much readings left out support."""
 OUTLIER_ROUNDS = 4
 WORST = 0.5
 """Readings that are off by less than this share of the worst one are looked at again without it."""
@@ -68,9 +65,8 @@ def long_trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[
 def _grow(fits: list[Fit], findings: list[Finding], prior: Prior, effects: Sequence[Effect]) -> None:
     refitted = partial(long_log.with_candidate, prior=prior)
     mechanism = fits[0].model.mechanism
-    measurements = mechanism.measurements
-    most = min(EFFECTS_A_JOINT * measurements.joints, len(measurements) // READINGS_AN_EFFECT)
-    while not judge(fits[-1], mechanism.row_sd).settled and len(findings) < max(MOST_EFFECTS, most):
+    most = EFFECTS_A_JOINT * mechanism.measurements.joints
+    while not judge(fits[-1], mechanism.row_sd).settled and len(findings) < most:
         chosen = next_effect(fits[-1], refitted, effects, SIGNIFICANT, hopeful=0.0)
         if chosen is None:
             return
@@ -132,6 +128,6 @@ def _needed(found: Fit, k: int) -> tuple[float, float]:
     a, C = found.amplitudes(k)
     spread = found.model.terms[k].spread
     freedom = float(len(a)) if spread is None else max(float(np.sum(1.0 - np.diag(C) / spread**2)), 1.0)
-    increase = float(a @ np.linalg.solve(C, a))
+    increase = float(a @ solved(C, a))
     dof = found.dof - freedom
     return increase, float(fdtrc(freedom, dof, (increase / freedom) / (found.cost / dof)))

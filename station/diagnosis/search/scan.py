@@ -15,6 +15,7 @@ from scipy.special import fdtrc
 
 from station.diagnosis.search.evidence import learned_spread
 from station.effects import Acts, Effect, Variants, signature, weight
+from station.fitting import solved
 from station.mechanism import Conditions
 from station.model import Fit, Term
 from station.records import Index, Real
@@ -89,7 +90,11 @@ class Scan:
         """For basis (V, K, q): cost reduction (V,), visible share (V,), information (V,)."""
         left, along, share = self._projected(variants, basis)
         reduction, largest = explained(left, along)
-        return reduction, share, largest
+        return self._possible(reduction), share, largest
+
+    def _possible(self, reduction: Real) -> Real:
+        """(V,) the same, 0 where it is more than there is: rounding along a direction that cannot be seen."""
+        return np.where(reduction <= self.fit.cost, reduction, 0.0)
 
     def signature(self, candidate: Candidate) -> Real:
         """(R, q) of a candidate as it was found, mm per unit of amplitude."""
@@ -146,7 +151,7 @@ class Scan:
         left, along, share = self._projected(variants, variants.basis)
         if variants.spread is not None:
             return self._with_spread(effect, variants, left[0], along[0], float(share[0]))
-        reduction = np.where(share >= INVISIBLE_SHARE, explained(left, along)[0], 0.0)
+        reduction = np.where(share >= INVISIBLE_SHARE, self._possible(explained(left, along)[0]), 0.0)
         best = int(np.argmax(reduction))
         size = variants.basis.shape[2]
         return Candidate(
@@ -168,9 +173,9 @@ class Scan:
         size = len(along)
         noise = max(self.fit.cost / max(self.fit.dof, 1), 1.0)
         spread, _ = learned_spread(left / noise, along / noise, variants.spread, effect.bands(size))
-        held = np.linalg.solve(left + np.diag(noise / spread**2), np.column_stack([left, along]))
+        held = solved(left + np.diag(noise / spread**2), np.column_stack([left, along]))
         freedom = max(float(np.trace(held[:, :size])), 1.0)
-        reduction = float(along @ held[:, size])
+        reduction = float(self._possible(np.asarray(along @ held[:, size])))
         return Candidate(
             effect=effect,
             hidden=variants.hidden[0],

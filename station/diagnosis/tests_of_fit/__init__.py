@@ -4,7 +4,12 @@ from __future__ import annotations
 
 from station.diagnosis.tests_of_fit.adequacy import ALPHA, Adequacy, judge
 from station.diagnosis.tests_of_fit.confirmation import FEWEST, Confirmation, confirm
-from station.diagnosis.tests_of_fit.cross_validation import folds, predicted_by_others, without_a_quarter
+from station.diagnosis.tests_of_fit.cross_validation import (
+    folds,
+    left_out_rms,
+    predicted_by_others,
+    without_a_quarter,
+)
 from station.diagnosis.tests_of_fit.rivals import strongest
 from station.diagnosis.tests_of_fit.smooth_departures import (
     Departure,
@@ -40,6 +45,7 @@ __all__ = [
     "in_doubt",
     "in_words",
     "judge",
+    "left_out_rms",
     "of_fit",
     "perpendicular",
     "predicted_by_others",

@@ -26,7 +26,7 @@ from station.diagnosis.tests_of_fit.smooth_departures import (
     rest_of,
 )
 from station.effects import doubtful
-from station.fitting import BLIND
+from station.fitting import BLIND, solved
 from station.model import Fit, Model, is_long
 from station.records import Measurements, Real
 
@@ -102,7 +102,7 @@ def confirm(base: Fit, learned: Fit, fresh: Measurements, noise_dof: int) -> Con
         kept &= ~off
     rows = kept[after.reading]
     few = residual[rows]
-    square = float(few @ np.linalg.solve(covariance[np.ix_(rows, rows)], few))
+    square = float(few @ solved(covariance[np.ix_(rows, rows)], few))
     p_value = float(fdtrc(len(few), max(noise_dof, 1), square / len(few)))
     rest = Rest((before, after.take(kept)), learned.prior, learned.x)
     found = departures(rest)
@@ -133,7 +133,7 @@ def _of_long_log(learned: Fit, fresh: Measurements, noise_dof: int) -> Confirmat
 def _chi_square(r: Real, J: Real, C: Real) -> float:
     """r' (1 + J C J')^-1 r, by Woodbury's identity with matrices no larger than C (X, X)."""
     along = J.T @ r
-    return float(r @ r - along @ np.linalg.solve(np.eye(len(C)) + C @ (J.T @ J), C @ along))
+    return float(r @ r - along @ solved(np.eye(len(C)) + C @ (J.T @ J), C @ along))
 
 
 def _noise_ratio(learned: Fit) -> float:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from station.fitting import Solution
+from station.errors import InputRefused
+from station.fitting import Solution, solved
 from station.mechanism import Mechanism
 from station.records import Index, Measurements, Real
 
@@ -15,7 +16,9 @@ LONG = 1000
 """Readings from which neighbours in the log are left out together, a quarter of it at a time."""
 FOLDS = 4
 BLOCK = 40
-"""Consecutive readings that stay together then."""
+"""Consecutive readings that stay together then, fewer where the log"""
+BLOCKS_A_FOLD = 2
+"""would have fewer blocks than these in each fold."""
 
 
 def predicted_by_others(solution: Solution, mechanism: Mechanism) -> Real:
@@ -29,13 +32,29 @@ def predicted_by_others(solution: Solution, mechanism: Mechanism) -> Real:
 def folds(m: Measurements) -> Index:
     """(K,) fold of each reading: blocks of neighbours dealt out in turn, every place in one fold only."""
     _, first, place = np.unique(m.position, return_index=True, return_inverse=True)
-    return np.asarray(first[place] // BLOCK % FOLDS)
+    block = min(BLOCK, max(1, len(m) // (FOLDS * BLOCKS_A_FOLD)))
+    return np.asarray(first[place] // block % FOLDS)
 
 
 def without_a_quarter(m: Measurements) -> tuple[Measurements, Measurements]:
-    """Readings to learn from, and a quarter of them, in blocks of neighbours, to be judged by."""
+    """Readings to learn from, and a quarter of them, in blocks of neighbours, to be judged by.
+
+    :raises InputRefused: so few positions that nothing is left on one side.
+    """
     aside = folds(m) == 0
+    if aside.all() or not aside.any():
+        raise InputRefused(
+            f"{len(m)} readings at {len(np.unique(m.position))} positions cannot be divided into readings to "
+            "learn from and others to judge by; measure more positions, or diagnose without --hold-out."
+        )
     return m.take(~aside), m.take(aside)
+
+
+def left_out_rms(solution: Solution, mechanism: Mechanism, row_sd: Real) -> float:
+    """mm, RMS of readings predicted without the fold of blocks that they are in."""
+    fold = folds(mechanism.measurements)[mechanism.reading_of_row]
+    rows = held_out_folds(solution, fold) * row_sd
+    return float(np.sqrt(rows @ rows / len(mechanism.measurements)))
 
 
 def held_out_folds(solution: Solution, fold: Index) -> Real:
@@ -46,7 +65,7 @@ def held_out_folds(solution: Solution, fold: Index) -> Real:
     for f in np.unique(fold):
         own = fold == f
         J_B = J[own]
-        moved = np.linalg.solve(np.eye(len(C)) - C @ (J_B.T @ J_B), C @ (J_B.T @ out[own]))
+        moved = solved(np.eye(len(C)) - C @ (J_B.T @ J_B), C @ (J_B.T @ out[own]))
         out[own] += J_B @ moved
     return out
 

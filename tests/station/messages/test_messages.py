@@ -16,7 +16,9 @@ from station.plans import PLANS
 from station.records import DiagnosisVerdict, Outcome, State, Verdict
 from station.run_kinds import RUN_KINDS
 
-EFFECTS = {effect.id for effect in (*five_bar_catalogue(), *arm_catalogue(6, by_range=True))}
+EFFECTS = {
+    effect.id for effect in (*five_bar_catalogue(), *arm_catalogue(6, by_range=True, timed=True, warmed=True))
+}
 
 NAMED: list[tuple[Group, tuple[str, ...]]] = [
     ("effects", tuple(sorted(EFFECTS))),

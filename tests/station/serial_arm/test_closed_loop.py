@@ -12,6 +12,7 @@ from station.diagnosis.report.joint_curves import curves
 from station.diagnosis.report.traced_findings import TracedFindings
 from station.diagnosis.tests_of_fit.cross_validation import without_a_quarter
 from station.diagnosis.traced_loop import traced
+from station.errors import InputRefused
 from station.records import Real
 from tests.station.serial_arm.simulated import CRAIG_SEVEN, UR_LIKE, random_arm, random_poses
 
@@ -95,3 +96,20 @@ def test_parameters_that_cannot_be_told_apart_are_named() -> None:
     names = {text.split()[0] for text in tied}
     assert len({"d2", "d3", "d4", "b4"} - names) == 1
     assert "dtheta6" in names or "base_rz" in names or any("dtheta1" in text for text in tied)
+
+
+@pytest.mark.parametrize("by_range", [False, True], ids=["position", "range"])
+def test_forty_poses_are_judged_and_nothing_is_claimed_of_a_clean_arm(by_range: bool) -> None:
+    arm = random_arm(UR_LIKE, 11)
+    m = arm.log(random_poses(6, 40, 11), 11)
+    result = TracedFindings(
+        traced(arm.robot, *without_a_quarter(replace(m, tracker=None) if by_range else m))
+    )
+    assert result.effects == ()
+    assert result.stages[-1].confirm_rms_mm is not None
+
+
+def test_a_log_at_one_position_cannot_be_divided() -> None:
+    m = random_arm(UR_LIKE, 12).log(np.repeat(random_poses(6, 1, 12), 40, axis=0), 12)
+    with pytest.raises(InputRefused, match="40 readings at 1 positions cannot be divided"):
+        without_a_quarter(m)

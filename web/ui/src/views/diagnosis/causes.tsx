@@ -75,7 +75,7 @@ function Cause({ finding, rank, tried }: { finding: Finding; rank: number; tried
           </details>
         </dd>
       </div>
-      {!tried && (
+      {!tried && remedy && (
         <div class="remedy">
           <dt>{t.diagnosis.remedy}</dt>
           <dd>
