@@ -21,6 +21,8 @@ CATALOGUE = (
 STEPS = ("reading_step", "healing_step")
 NATURAL = ("both_compliance", "both_transmission_gain", "both_encoder_eccentricity", "both_L", "both_l")
 """The same error on both sides."""
+UNEVEN = "stiffening_sag"
+"""A sag of both joints that is not in proportion to the load."""
 SEVERAL = (
     ("backlash", "gear_cyclic"), ("drift", "scale_cyclic"), ("gear_cyclic", "gear_cyclic"),
     ("backlash", "drift"), ("count_slip", "scale_hysteresis"), ("backlash", "gear_cyclic", "drift"),
@@ -35,7 +37,6 @@ SMOOTH = {
     "encoder_ellipse": "joint",
     "cable_torque": "joint",
     "cable_windup": "joint",
-    "stiffening_sag": "joint",
     "axis_tilt": "joint",
     "belt_stretch": "joint",
     "worn_sector": "joint",
@@ -64,7 +65,7 @@ OUTSIDE = {**SMOOTH, **ROUGH}
 GROUPS: dict[str, tuple[tuple[str, ...], ...]] = {
     "clean": ((),),
     "one cause": tuple((k,) for k in CATALOGUE),
-    "natural pair": tuple((k,) for k in NATURAL),
+    "natural pair": tuple((k,) for k in (*NATURAL, UNEVEN)),
     "several causes": SEVERAL,
     "step of the reading": tuple((k,) for k in STEPS),
     "smooth, without a name": tuple((k,) for k in SMOOTH),
@@ -81,6 +82,8 @@ def causes(kind: str, tables: Sequence[Table]) -> set[Cause]:
     """What the catalogue has of a kind."""
     if kind in OUTSIDE:
         return set()
+    if kind == UNEVEN:
+        return {("compliance", joint) for joint in BOTH}
     name = ALIKE.get(kind, kind.removeprefix("both_"))
     return {(name, table.get("joint")) for table in tables}
 
@@ -89,7 +92,7 @@ def errors(kind: str, rng: np.random.Generator) -> Make:
     """Everything random but the amplitude is drawn here."""
     joint, sign = int(rng.integers(1, 3)), float(rng.choice([-1.0, 1.0]))
     phase = float(rng.uniform(0.0, 360.0))
-    if kind in OUTSIDE:
+    if kind in OUTSIDE or kind == UNEVEN:
         return _without_a_name(kind, rng, joint, sign, phase)
     if kind in NATURAL:
         return _on_both(kind, sign, (phase, float(rng.uniform(0.0, 360.0))))

@@ -24,7 +24,7 @@ from station.studies.simulation import SimulatedMachine
 SMALLEST_UM, LARGEST_UM = 1.0, 30.0
 SCATTER_UM = 1.117
 """Noise of a reading."""
-LARGEST_TIMES = 10.0
+LARGEST_TIMES = 4.0
 """A part does not err by more than this many times its usual size, however little of it the readings show."""
 
 

@@ -18,7 +18,7 @@ PAGE = """# The diagnosis against random machines
 Every machine is measured as a run of plan `diagnostic` measures it: 120 readings with their run-ups, then
 40 fresh ones with the zero offsets taken off the commands, one sample a reading.  It has random
 zero offsets, geometric errors, joints, phases, moments and sizes (1 to 30 um of projected RMS, evenly in
-the logarithm, but no more than ten times the usual size); the emulator's physics share nothing with the
+the logarithm, but no more than four times the usual size); the emulator's physics share nothing with the
 catalogue.
 
 - *clear*: every cause more than three times the noise of 1.1 um.
