@@ -126,6 +126,11 @@ def transfer_command(
         write_json(json_file, {"data": describe(data, found.readings).model_dump(), **asdict(found)})
     console = Console(highlight=False)
     console.print(f"{found.inside} of {found.readings} readings stand where the effects were learned.")
+    if found.determined < found.inside:
+        console.print(
+            f"{found.inside - found.determined} of them are not judged: without their own block, "
+            "tool and base are not known well enough to say where they are."
+        )
     for outlier in found.outliers:
         console.print(f"Left out: reading {outlier.reading}, {outlier.reason}.")
     table = Table("readings left out of the fit, mm", "rms", "median", "largest")
