@@ -5,6 +5,7 @@ A further mechanism is a package of its own and one entry in `KINDS` (docs/how-t
 
 from __future__ import annotations
 
+import logging
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -20,12 +21,15 @@ from station.mechanism import Mechanism, reference_of
 from station.records import (
     FIVE_BAR,
     TIME,
+    ColumnMap,
     Columns,
     Measurements,
     Real,
     Sections,
     WeakDirection,
+    parse_measurements,
     read_measurements,
+    translated,
     with_guesses,
 )
 from station.serial_arm import ARM_MODEL, Arm, SerialArm
@@ -53,6 +57,8 @@ class AnyRobot(Protocol):
         """The sections of its file; `from_dict` reads them back."""
         ...
 
+
+log = logging.getLogger(__name__)
 
 AnyMechanism = Mechanism
 Measured = Literal["position", "range"]
@@ -143,18 +149,28 @@ def mechanism_of(robot: AnyRobot, measurements: Measurements) -> AnyMechanism:
 
 
 def read_readings(
-    robot: AnyRobot, path: Path, measured: Measured = "position", *, in_order: bool = True
+    robot: AnyRobot,
+    path: Path,
+    measured: Measured = "position",
+    *,
+    in_order: bool = True,
+    mapping: ColumnMap | None = None,
 ) -> Measurements:
     """A measurement file of this robot; what an arm's log does not record is inferred and marked.
 
     measured: which of the columns count where a file has both.
     in_order: refuse a five-bar's file whose time runs backwards; else the caller judges the column.
+    mapping: which columns are which, where the file was not made for this program.
 
     :raises InputRefused: anything malformed, with row, column and what to do.
     """
     kind = kind_of(robot)
     columns = kind.columns(robot)
-    readings = read_measurements(path, columns if in_order else replace(columns, time_ordered=False))
+    if not in_order:
+        columns = replace(columns, time_ordered=False)
+    if mapping is None and not kind.infers_columns:
+        return read_measurements(path, columns)
+    readings = _foreign(path, columns, mapping)
     if not kind.infers_columns:
         return readings
     if measured == "range":
@@ -162,3 +178,21 @@ def read_readings(
             raise InputRefused(f"{path.name}: row 1: column range_mm is missing; distances were asked for.")
         readings = replace(readings, tracker=None)
     return with_guesses(readings)
+
+
+def _foreign(path: Path, columns: Columns, mapping: ColumnMap | None) -> Measurements:
+    """By way of the contract's form; readings whose target was lost are left out and counted."""
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise InputRefused(f"{path} cannot be read: {error.strerror}.") from error
+    content, lost = translated(content, mapping, columns, path.name)
+    if lost:
+        log.warning("%s: %d rows are left out: the instrument had lost its target there.", path.name, lost)
+    header = content.partition(b"\n")[0].decode().split(",")
+    if not set(columns.theta) & set(header):
+        raise InputRefused(
+            f"{path.name}: none of the columns {', '.join(columns.theta)} is there; `station columns "
+            f"{path.name}` proposes a column map for files made elsewhere, to be given with --columns."
+        )
+    return parse_measurements(content, columns, source=path.name)

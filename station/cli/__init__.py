@@ -17,6 +17,7 @@ _COMMANDS = {
     "backup": ("archive", "A copy of the whole history in one new file, made while the station works."),
     "bench": ("studies", "Figures of speed and size, beside those of others where they are installed."),
     "calibrate": ("calibrate", "One calibration run, with live progress."),
+    "columns": ("columns", "Propose a column map for a file of measurements made elsewhere."),
     "confusion": ("confusion", "The diagnosis judged on random emulated machines."),
     "diagnose": ("diagnosis", "Trace what the model leaves over to its cause."),
     "export": ("archive", "The readings of one run as a measurement file."),

@@ -9,7 +9,7 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station.cli.files import check_folders, describe, measured_option, write_json, write_text
+from station.cli.files import check_folders, columns_option, describe, measured_option, write_json, write_text
 from station.diagnosis import (
     Context,
     Findings,
@@ -29,7 +29,7 @@ from station.diagnosis import (
 )
 from station.five_bar import Robot
 from station.machines import AnyRobot, Measured, read_readings, read_robot, robot_of
-from station.records import MistakeRecord, RefusedDiagnosis, guesses_in_words, recorded_columns
+from station.records import ColumnMap, MistakeRecord, RefusedDiagnosis, guesses_in_words, recorded_columns
 
 _file = click.Path(path_type=Path)
 
@@ -42,6 +42,7 @@ _file = click.Path(path_type=Path)
     "--hold-out", is_flag=True, help="Judge by a quarter of the readings that nothing is learned from."
 )
 @measured_option
+@columns_option
 @click.option("--json", "json_file", type=_file, help="Write the whole diagnosis here.")
 @click.option("--html", "html_file", type=_file, help="Write the report page here.")
 @click.pass_context
@@ -52,6 +53,7 @@ def diagnose_command(
     robot_file: Path | None,
     hold_out: bool,
     measured: Measured,
+    mapping: ColumnMap | None,
     json_file: Path | None,
     html_file: Path | None,
 ) -> None:
@@ -65,10 +67,12 @@ def diagnose_command(
         )
     check_folders(json_file, html_file)
     robot = read_robot(robot_file)
-    measurements = read_readings(robot, data, measured, in_order=False)
+    measurements = read_readings(robot, data, measured, in_order=False, mapping=mapping)
     described = describe(data, len(measurements), measurements.guessed)
-    fresh = read_readings(robot, fresh_file, measured, in_order=False) if fresh_file else None
-    recorded = _context(robot, data)
+    fresh = (
+        read_readings(robot, fresh_file, measured, in_order=False, mapping=mapping) if fresh_file else None
+    )
+    recorded = None if mapping else _context(robot, data)
     if hold_out:
         measurements, fresh = without_a_quarter(measurements)
     try:
@@ -108,17 +112,25 @@ def solve_command(targets: Path, model_file: Path, csv_file: Path | None) -> Non
 @click.argument("data", type=_file)
 @click.option("--model", "model_file", type=_file, required=True, help="What `diagnose --json` wrote.")
 @measured_option
+@columns_option
 @click.option("--json", "json_file", type=_file, help="Write the figures here.")
-def transfer_command(data: Path, model_file: Path, measured: Measured, json_file: Path | None) -> None:
+def transfer_command(
+    data: Path, model_file: Path, measured: Measured, mapping: ColumnMap | None, json_file: Path | None
+) -> None:
     """Apply the effects learned on one log, unchanged, to another log of the same machine."""
     check_folders(json_file)
     part = read_part(model_file)
     robot = robot_of(part.robot, source=f"{model_file}: [model.robot]")
-    found = transfer(part, robot, read_readings(robot, data, measured), str(model_file))
+    found = transfer(part, robot, read_readings(robot, data, measured, mapping=mapping), str(model_file))
     if json_file:
         write_json(json_file, {"data": describe(data, found.readings).model_dump(), **asdict(found)})
     console = Console(highlight=False)
     console.print(f"{found.inside} of {found.readings} readings stand where the effects were learned.")
+    if found.determined < found.inside:
+        console.print(
+            f"{found.inside - found.determined} of them are not judged: without their own block, "
+            "tool and base are not known well enough to say where they are."
+        )
     for outlier in found.outliers:
         console.print(f"Left out: reading {outlier.reading}, {outlier.reason}.")
     table = Table("readings left out of the fit, mm", "rms", "median", "largest")

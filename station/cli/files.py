@@ -11,7 +11,7 @@ from typing import get_args
 import click
 
 from station.machines import Measured
-from station.records import DataSource, Record
+from station.records import ColumnMap, DataSource, Record
 
 existing = click.Path(path_type=Path)
 measured_option = click.option(
@@ -20,6 +20,19 @@ measured_option = click.option(
     default="position",
     show_default=True,
     help="What counts of an arm's log that has both.",
+)
+
+
+def _column_map(_context: click.Context, _option: click.Parameter, path: Path | None) -> ColumnMap | None:
+    return None if path is None else ColumnMap.read(path)
+
+
+columns_option = click.option(
+    "--columns",
+    "mapping",
+    type=click.Path(path_type=Path),
+    callback=_column_map,
+    help="Column map of a file made elsewhere; `station columns` proposes one.",
 )
 
 

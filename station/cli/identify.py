@@ -9,21 +9,24 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station.cli.files import describe, existing, measured_option, write_json
+from station.cli.files import columns_option, describe, existing, measured_option, write_json
 from station.identification import Identification, identification_document, identify
 from station.machines import AnyMechanism, Measured, read_readings, read_robot
-from station.records import IdentificationDocument, Quantity
+from station.records import ColumnMap, IdentificationDocument, Quantity
 
 
 @click.command("identify")
 @click.argument("data", type=existing)
 @click.option("--robot", "robot_file", type=existing, help="Robot file; without it the paper's Table 1.")
 @measured_option
+@columns_option
 @click.option("--json", "json_file", type=existing, help="Write the whole result here.")
-def identify_command(data: Path, robot_file: Path | None, measured: Measured, json_file: Path | None) -> None:
+def identify_command(
+    data: Path, robot_file: Path | None, measured: Measured, mapping: ColumnMap | None, json_file: Path | None
+) -> None:
     """Zero offsets with uncertainty from a measurement file."""
     robot = read_robot(robot_file)
-    readings = read_readings(robot, data, measured)
+    readings = read_readings(robot, data, measured, mapping=mapping)
     found = identify(robot, readings)
     document = identification_document(found, describe(data, len(readings)))
     if json_file:

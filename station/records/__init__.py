@@ -11,6 +11,8 @@ from station.records.calibration import (
     CalibrationSummary,
     JointApplication,
 )
+from station.records.column_map import ColumnMap, translated
+from station.records.column_proposal import proposed_map
 from station.records.diagnosis_document import (
     DIAGNOSIS_SCHEMA,
     MIXTURE_SCHEMA,
@@ -43,6 +45,7 @@ from station.records.diagnosis_document import (
     TemperatureReference,
     TermOfModel,
 )
+from station.records.foreign_table import ForeignTable, read_foreign
 from station.records.guesses import TIME, guesses_in_words, with_guesses
 from station.records.identification_document import (
     Convergence,
@@ -75,6 +78,7 @@ from station.records.measurement_file import (
     Columns,
     Table,
     approaches,
+    parse_measurements,
     parse_readings,
     read_measurements,
     read_table,
@@ -133,6 +137,7 @@ __all__ = [
     "CalibrationRequest",
     "CalibrationResult",
     "CalibrationSummary",
+    "ColumnMap",
     "Columns",
     "Complex",
     "Convergence",
@@ -150,6 +155,7 @@ __all__ = [
     "ExplanationRecord",
     "Finding",
     "Finite",
+    "ForeignTable",
     "GateOfMemory",
     "IdentificationDocument",
     "Index",
@@ -229,13 +235,17 @@ __all__ = [
     "guesses_in_words",
     "inside_visited",
     "number",
+    "parse_measurements",
     "parse_readings",
+    "proposed_map",
+    "read_foreign",
     "read_measurements",
     "read_table",
     "readings_to_csv",
     "recorded_columns",
     "refusal",
     "residual_rows",
+    "translated",
     "visited_in_degrees",
     "visited_ranges",
     "with_guesses",

@@ -14,6 +14,9 @@ STILL_RAD = 1e-4
 TIME = "time"
 """Among what was guessed: the rows are in order, and nothing else is known of when they were taken."""
 EQUAL_S = 1e-3
+TURN = 2.0 * np.pi
+LEAST_GAP_RAD = 0.2
+"""Of a turn, that no reading visits, for a joint to be taken for one that does not turn all the way."""
 SAME_POSE_DEG = 0.02
 """Poses that agree so well in all joints are one place: an arm's drives do not stand still better."""
 
@@ -21,6 +24,7 @@ SAME_POSE_DEG = 0.02
 def with_guesses(m: Measurements) -> Measurements:
     """The same readings, with approaches and places guessed where the file names none; marked as guessed."""
     guessed = []
+    m = replace(m, theta=_unwrapped(m.theta))
     if not m.approach.any():
         m = replace(m, approach=_approaches(m.theta))
         guessed.append("approach")
@@ -45,6 +49,24 @@ def guesses_in_words(m: Measurements) -> str:
     if TIME in m.guessed:
         text += " t_s only numbers the rows: nothing that depends on time is looked for."
     return text.strip()
+
+
+def _unwrapped(theta: Real) -> Real:
+    """(K, n) the same poses, joints that seem to turn further than once brought into one turn.
+
+    A controller that adds whole turns scatters a joint over two; the turn is cut where no reading stands.
+    """
+    out = theta.copy()
+    for i in np.flatnonzero(np.ptp(theta, axis=0) > TURN):
+        on_circle = np.sort(np.mod(theta[:, i], TURN))
+        gaps = np.diff(on_circle, append=on_circle[0] + TURN)
+        widest = int(np.argmax(gaps))
+        if gaps[widest] < LEAST_GAP_RAD:
+            continue  # it may have turned all the way round
+        cut = on_circle[widest] + gaps[widest] / 2.0
+        turned = np.mod(theta[:, i] - cut, TURN) + cut
+        out[:, i] = turned - TURN * np.round(np.median(turned - theta[:, i]) / TURN)
+    return out
 
 
 def _approaches(theta: Real) -> np.ndarray:

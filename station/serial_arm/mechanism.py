@@ -19,6 +19,8 @@ from station.serial_arm.dh import LINK_ERRORS, Reach, reach
 from station.serial_arm.robot_file import ARM_MODEL, Arm
 
 DEGREES = 180.0 / np.pi
+METRES = 0.02
+"""Of the length of an arm, within which no target of it can stay."""
 MISFIT = 0.03
 """Misfit over the arm's length beyond which angles and positions are not of one machine."""
 _OTHERS = LINK_ERRORS[1:]
@@ -107,9 +109,15 @@ class SerialArm:
         if np.abs(np.degrees(m.theta)).max() < 2.0 * np.pi:
             raise InputRefused(
                 f"Reading {m.ids[0]}, columns theta1_deg to theta{m.joints}_deg: "
-                "the angles look like radians; give degrees."
+                "the angles look like radians; give degrees, or a column map with their unit."
             )
         off, size = self._nominal_misfit(), self._length
+        furthest = float(np.abs(self.measured).max())
+        if furthest < METRES * size:
+            raise InputRefused(
+                f"No reading is further off than {furthest:.3g} mm, of an arm of {size:.0f} mm: positions "
+                "and distances look like metres; give millimetres, or a column map with their unit."
+            )
         if not off < MISFIT * size:
             raise InputRefused(
                 f"Angles and readings do not belong together: half of the readings are {off:.0f} mm or more "

@@ -8,7 +8,7 @@ curve is not applied.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,6 +31,8 @@ from station.model import Model, Term
 from station.records import Measurements, MixtureDocument, ModelDocument, Real, inside_visited
 
 FEWEST_AN_UNKNOWN = 4
+DETERMINED = 2.0
+"""Uncertainty of a pose over the residual's scatter, from which on other readings do not determine it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,6 +54,8 @@ class Transfer:
     inside: int
     """How many stand where every joint with an effect has been when it was learned."""
     effects: tuple[str, ...]
+    determined: int
+    """How many of them the other readings determine; the errors are over these."""
     alone: Errors
     """The mechanism by itself, readings inside."""
     applied: Errors
@@ -72,6 +76,7 @@ def transfer(
             f"Model {source} holds the explanations of a five-bar; only the effects of an arm are applied to "
             "another log. Diagnose the other log, or use `station solve`."
         )
+    readings = _turned_near(part, readings)
     mechanism = mechanism_of(robot, readings)
     mechanism.check()
     terms = terms_of(part, effects_of(mechanism), source)
@@ -93,10 +98,19 @@ def transfer(
     off = _off(mechanism.of(readings.take(inside)), terms, part)
     named = {o.reading for o in off}
     sound = np.array([i not in named for i in readings.ids])
-    alone, applied = _both(mechanism, terms, part, inside & sound)
-    beyond = None if (inside == within).all() else _both(mechanism, terms, part, within & sound)
+    alone, applied, determined = _both(mechanism, terms, part, inside & sound)
+    beyond = None if (inside == within).all() else _both(mechanism, terms, part, within & sound)[:2]
     labels = tuple(t.effect.label for t in terms)
-    return Transfer(len(readings), off, int((inside & sound).sum()), labels, alone, applied, beyond)
+    return Transfer(
+        len(readings), off, int((inside & sound).sum()), labels, determined, alone, applied, beyond
+    )
+
+
+def _turned_near(part: ModelDocument, readings: Measurements) -> Measurements:
+    """The same poses, each joint by whole turns as near to the middle of where it was learned as it can be."""
+    middle = np.radians([(low + high) / 2.0 for low, high in part.ranges.joints_deg])
+    turns = np.round((readings.theta - middle) / (2.0 * np.pi))
+    return replace(readings, theta=readings.theta - 2.0 * np.pi * turns)
 
 
 def _been(part: ModelDocument, readings: Measurements, joint: int) -> NDArray[np.bool_]:
@@ -114,21 +128,43 @@ def _off(mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelDocument) 
 
 def _both(
     mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelDocument, chosen: NDArray[np.bool_]
-) -> tuple[Errors, Errors]:
+) -> tuple[Errors, Errors, int]:
+    """Without and with the terms, over poses that both fits determine, and how many those are."""
     some = mechanism.of(mechanism.measurements.take(chosen))
-    return _held_out(some, (), part), _held_out(some, terms, part)
+    (alone, sure), (applied, sure_too) = _held_out(some, (), part), _held_out(some, terms, part)
+    both = sure & sure_too
+    if not both.any():
+        raise InputRefused(
+            "No reading is predicted by the others better than the model fits: tool and base of this log "
+            "cannot be told from its readings; measure with other orientations of the wrist."
+        )
+    return _errors(alone[both]), _errors(applied[both]), int(both.sum())
 
 
-def _held_out(mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelDocument) -> Errors:
-    """Every fold predicted by the mechanism as fitted to the others, the terms frozen."""
+def _errors(mm: Real) -> Errors:
+    return Errors(float(np.sqrt(np.mean(mm**2))), float(np.median(mm)), float(mm.max()))
+
+
+def _held_out(
+    mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelDocument
+) -> tuple[Real, NDArray[np.bool_]]:
+    """(K,) mm, every fold predicted by the mechanism as fitted to the others, the terms frozen; and whether
+
+    that fit determines the pose: a wrist turned as in no other reading shows where the tool was never seen.
+    """
     m = mechanism.measurements
     fold = folds(m)
-    error = np.empty(len(m))
+    error, sure = np.empty(len(m)), np.zeros(len(m), dtype=bool)
     for f in np.unique(fold):
         learned = _Frozen(mechanism.of(m.take(fold != f)), terms, part)
         out = _Frozen(mechanism.of(m.take(fold == f)), terms, part)
-        error[fold == f] = out.errors(learned.fitted())
-    return Errors(float(np.sqrt(np.mean(error**2))), float(np.median(error)), float(error.max()))
+        found = learned.solved(learned.mechanism.row_sd)
+        scatter = found.cost / len(found.residual)
+        unknown = out.unknown(found) * np.sqrt(max(scatter, 1.0))
+        typical = np.sqrt(scatter) * float(learned.mechanism.row_sd[0])
+        error[fold == f] = out.errors(found.x)
+        sure[fold == f] = unknown < DETERMINED * typical
+    return error, sure
 
 
 class _Frozen:
@@ -153,10 +189,6 @@ class _Frozen:
             for term, basis in zip(terms, bases, strict=True)
         ]
 
-    def fitted(self) -> Real:
-        """(P,) parameters of the mechanism.  :raises InputRefused: no convergence."""
-        return self.solved(self.mechanism.row_sd).x
-
     def solved(self, sd: Real) -> Solution:
         """The fit with rows that scatter by sd (R,).  :raises InputRefused: no convergence."""
         size = self.model.base_size
@@ -171,6 +203,14 @@ class _Frozen:
             raise InputRefused(
                 f"The mechanism does not converge on these readings ({error}); are they of the same machine?"
             ) from error
+
+    def unknown(self, learned: Solution) -> Real:
+        """(K,) mm, standard uncertainty of where the target is, of a mechanism learned on other readings."""
+        at = self.model.observe(np.concatenate([learned.x, self.amplitudes]), self.bases)
+        J = at.by_parameter[:, : self.model.base_size]
+        return by_reading(
+            self.mechanism, np.sqrt(np.maximum(np.einsum("ki,ki->k", J @ learned.covariance, J), 0.0))
+        )
 
     def errors(self, p: Real) -> Real:
         """(K,) mm"""

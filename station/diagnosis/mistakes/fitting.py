@@ -123,7 +123,7 @@ def fit(
             found = solve(residuals, begin, held)
         except (NotConvergedError, np.linalg.LinAlgError):
             return None
-        return found, predict(found.x)[0]
+        return (found, predict(found.x)[0]) if found.complete else None
 
     def predict(z: Real) -> tuple[Real, Real]:
         if angle is None or reading is None:
