@@ -85,3 +85,17 @@ def test_a_document_survives_its_journey() -> None:
 def test_what_the_owner_has_to_do(verdict: str, confirmed: bool | None, outcome: str) -> None:
     decision = Decision(verdict, confirmed)  # type: ignore[arg-type]
     assert decision.outcome == outcome
+
+
+def test_second_ripple_of_the_same_joint_is_found() -> None:
+    """The first ripple is found while the second disturbs it; both are settled beside each other."""
+    ripples = [
+        {"kind": "gear_cyclic", "joint": 2, "amplitude_deg": a, "per_rev": n}
+        for a, n in ((0.01, 12), (0.004, 17))
+    ]
+    machine = Emulated(*ripples, seed=7)
+    found = weighed(ROBOT, machine.walk(), machine.fresh())
+    assert (found.verdict, found.confirmed) == ("explained", True)
+    values = [q for finding in found.found.findings for q in finding.parameters]
+    per_rev = sorted(q.value for q in values if q.name == "per_rev")
+    assert per_rev == pytest.approx([12.0, 17.0], abs=0.3)

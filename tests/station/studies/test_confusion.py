@@ -21,7 +21,7 @@ ROBOT = Robot.default()
 @pytest.mark.parametrize("kind", ["backlash", "gear_cyclic", "compliance", "scale_gain"])
 def test_a_cause_found_makes_readings_and_true_positions_better(kind: str) -> None:
     # of a size at which the cause, not the tolerances, decides where the platform stands
-    drawn = next(d for d in (draw(ROBOT, (kind,), seed) for seed in range(12, 40)) if d.size_um[0] > 12.0)
+    drawn = next(d for d in (draw(ROBOT, (kind,), seed) for seed in range(12, 40)) if d.size_um[0] > 5.0)
     found = WeighedFindings(weighed(ROBOT, drawn.walk, drawn.fresh))
     errors = before_and_after(ROBOT, drawn, found)
     assert judge(drawn, found).right

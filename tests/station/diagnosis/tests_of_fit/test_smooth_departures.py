@@ -127,16 +127,3 @@ def test_small_true_play_is_confirmed() -> None:
     assert (found.verdict, found.confirmed) == ("explained", True)
     assert isinstance(found.trace.findings[0].term.effect, Backlash)
     assert found.confirmations[-1].rival is None
-
-
-def test_second_ripple_of_the_same_joint_is_found() -> None:
-    """The first ripple is found while the second disturbs it; both are settled beside each other."""
-    ripples = [
-        {"kind": "gear_cyclic", "joint": 2, "amplitude_deg": a, "per_rev": n}
-        for a, n in ((0.01, 12), (0.004, 17))
-    ]
-    machine = Emulated(*ripples, seed=7)
-    found = traced(ROBOT, machine.walk(), machine.fresh())
-    assert (found.verdict, found.confirmed) == ("explained", True)
-    per_rev = sorted(f.term.hidden["per_rev"] for f in found.trace.findings)
-    assert per_rev == pytest.approx([12.0, 17.0], abs=0.3)
