@@ -6,12 +6,12 @@ from pathlib import Path
 
 import click
 
-from station.cli.kept import config_option, kept
+from station.cli.kept import config_option, kept, run_argument
 from station.records import readings_to_csv
 
 
 @click.command("export")
-@click.argument("calibration_id", metavar="ID", type=click.IntRange(1, 2**63 - 1))
+@run_argument
 @config_option
 @click.pass_obj
 def export_command(home: Path, calibration_id: int, config: Path | None) -> None:

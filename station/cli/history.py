@@ -17,7 +17,7 @@ from rich.box import SIMPLE
 from rich.console import Console
 from rich.table import Table
 
-from station.cli.kept import config_option, kept
+from station.cli.kept import config_option, kept, run_argument
 from station.records import State
 from station.store import Store
 
@@ -113,7 +113,7 @@ def _cell(value: object) -> str:
 
 
 @click.command("show")
-@click.argument("calibration_id", metavar="ID", type=click.IntRange(1, 2**63 - 1))
+@run_argument
 @click.option("--json", "as_json", is_flag=True, help="Everything, readings and events included, as JSON.")
 @config_option
 @click.pass_obj

@@ -13,7 +13,7 @@ from station.diagnosis.search import Hint, Stage, Trace, hints, long_trace, trac
 from station.diagnosis.tests_of_fit import FEWEST, Confirmation, Rest, confirm, of_fit, rest_of, strongest
 from station.effects import Effect
 from station.errors import InputRefused
-from station.fitting import NotConvergedError, Outlier, tolerance_prior
+from station.fitting import FEWEST_REPEATS, NotConvergedError, Outlier, tolerance_prior
 from station.five_bar import check_places
 from station.machines import AnyMechanism, AnyRobot, effects_of, mechanism_of
 from station.mechanism import Mechanism, reference_of
@@ -22,7 +22,6 @@ from station.records import DiagnosisVerdict, Measurements
 
 FEWEST_READINGS = 30
 """Thirteen unknowns and an effect leave too little of fewer readings to judge a residual by."""
-FEWEST_REPEATS = 6
 FEWEST_NOISE_DOF = 10
 MOST_LEFT_OUT = 0.05
 USELESS = 0.6

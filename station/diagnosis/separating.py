@@ -16,7 +16,7 @@ import numpy as np
 from station.diagnosis.report import Findings
 from station.diagnosis.search import ALIAS
 from station.fitting import NotConvergedError
-from station.five_bar import FiveBar, Robot, inverse
+from station.five_bar import INSET_MM, FiveBar, Robot, inverse
 from station.model import Fit, Model, fit
 from station.plans import SIDES
 from station.records import Complex, Measurements, Real, Stop
@@ -24,8 +24,6 @@ from station.records import Complex, Measurements, Real, Stop
 COUNTS = (40, 80, 160, 240)
 """Stops; time effects need time to part, so that a longer walk may do what a shorter one cannot."""
 PLACES = (17, 9)
-INSET_MM = 4.0
-"""Kept free of the workspace's edge for the run-up."""
 RUN_UP = np.radians(1.0)
 WORTH = 2.0 * ALIAS
 """Chi-square to be expected between two models for a walk to be worth its time; `ALIAS` tells them apart."""

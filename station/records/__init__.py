@@ -99,11 +99,12 @@ from station.records.run import (
     ZeroWrite,
 )
 from station.records.sections import Finite, Positive, Section, Sections, refusal
-from station.records.types import Angles, Complex, Index, Real
+from station.records.types import LARGEST_ID, Angles, Complex, Index, Real
 from station.records.visited import inside_visited, visited_in_degrees, visited_ranges
 
 __all__ = [
     "FIVE_BAR",
+    "LARGEST_ID",
     "LIMIT_SDS",
     "MODEL_SCHEMA",
     "Accuracy",

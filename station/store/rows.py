@@ -15,6 +15,7 @@ from pydantic import BaseModel, JsonValue
 
 from station.errors import InputRefused
 from station.records import (
+    LARGEST_ID,
     Calibration,
     CalibrationRequest,
     CalibrationResult,
@@ -68,7 +69,7 @@ def row_id(cursor: int | str) -> int:
         number = int(cursor)
     except ValueError:
         number = 0
-    if not 0 < number < 2**63:
+    if not 0 < number <= LARGEST_ID:
         raise InputRefused(f"The cursor {cursor!r} is not one that a page gave.")
     return number
 

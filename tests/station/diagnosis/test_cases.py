@@ -13,7 +13,7 @@ from station.diagnosis.closed_loop import diagnose
 from station.diagnosis.report.document import Findings
 from station.five_bar.robot_file import Robot
 from station.records import read_measurements
-from tests.station.groups import DATA, needs_data
+from tests.station.simulated import DATA, needs_data
 
 CASES = DATA / "undeclared"
 NAMES = [f"case{k:02d}" for k in range(1, 21)]

@@ -12,9 +12,9 @@ from click.testing import CliRunner
 from station.cli import main
 from station.diagnosis.closed_loop import diagnose
 from station.errors import InputRefused
-from tests.station.diagnosis.machines import ROBOT, Emulated, to_csv
+from tests.station.simulated import ROBOT, Drawn, to_csv
 
-GOOD = to_csv(Emulated(seed=9, recorded_temperature=False).walk())
+GOOD = to_csv(Drawn(seed=9, recorded_temperature=False).walk())
 LINES = GOOD.splitlines()
 
 
@@ -113,7 +113,7 @@ def test_bad_fresh_readings(tmp_path: Path, change: Callable[[list[str]], list[s
 
 def test_fresh_readings_need_what_the_effect_needs() -> None:
     warming = {"kind": "thermal_growth", "rise_k": 8, "tau_s": 100, "links_um_per_m_per_k": 12}
-    machine = Emulated(warming, seed=1)
+    machine = Drawn(warming, seed=1)
     walk = machine.walk()
     machine.recorded_temperature = False
     with pytest.raises(InputRefused, match="temperature_c"):

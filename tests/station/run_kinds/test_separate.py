@@ -15,11 +15,12 @@ from station.run_kinds.diagnose import diagnosed
 from station.run_kinds.separate import planned, separating
 from station.store.store import Store
 from tests.station.asking import asked
-from tests.station.run_kinds.test_diagnose import BACKLASH, ROBOT, carried_out, machine, run
+from tests.station.run_kinds.test_diagnose import BACKLASH, ROBOT, machine, run
+from tests.station.simulated import carried_out
 
-DRIFT = {"kind": "drift", "mm_per_hour": 1.5}
+DRIFT = {"kind": "drift", "mm_per_hour": 3.0}
 FAST_WARMING = {"kind": "thermal_growth", "rise_k": 2.0, "tau_s": 40.0, "links_um_per_m_per_k": 12.0}
-SLOW_WARMING = {"kind": "thermal_growth", "rise_k": 4.0, "tau_s": 100.0, "links_um_per_m_per_k": 12.0}
+SLOW_WARMING = {"kind": "thermal_growth", "rise_k": 6.0, "tau_s": 100.0, "links_um_per_m_per_k": 12.0}
 GAIN = {"kind": "transmission_gain", "joint": 1, "ppm": 1500.0}
 
 
@@ -44,7 +45,7 @@ def test_the_set_is_smaller_afterwards_and_holds_the_truth(effect: dict[str, Any
 
 
 def test_no_longer_a_walk_than_needed_is_planned_and_only_within_the_workspace() -> None:
-    readings, _ = run(machine(FAST_WARMING))
+    readings, _ = run(machine(SLOW_WARMING))
     found = experiment(diagnosed(ROBOT, readings))
     assert found is not None
     assert (found.apart, len(found.stops)) == (("drift",), COUNTS[0])

@@ -21,7 +21,7 @@ from station.diagnosis.report.document import Findings
 from station.model.identified_machine import IdentifiedMachine, Situation, identified
 from station.model.model import Fit
 from station.records import Complex, DataSource, Real
-from tests.station.diagnosis.machines import ROBOT, Emulated
+from tests.station.simulated import ROBOT, Drawn
 
 RUN_UP_DEG = 1.0
 BACKLASH = {"kind": "backlash", "joint": 1, "width_deg": 0.05}
@@ -34,9 +34,9 @@ def machine_of(fit: Fit, sd_factor: float = 1.0) -> IdentifiedMachine:
     return machine
 
 
-def learned(tmp_path: Path, effect: dict[str, Any]) -> tuple[Emulated, Diagnosis, Path]:
+def learned(tmp_path: Path, effect: dict[str, Any]) -> tuple[Drawn, Diagnosis, Path]:
     """A machine with an effect, its diagnosis, and the model as a file."""
-    machine = Emulated(effect, seed=2)
+    machine = Drawn(effect, seed=2)
     diagnosis = diagnose(ROBOT, machine.walk(), machine.fresh())
     file = tmp_path / "model.json"
     data = DataSource(file="walk.csv", readings=120, sha256="0" * 64)
@@ -55,13 +55,11 @@ def targets_file(tmp_path: Path, place: Complex, approach: Real | None) -> Path:
     return file
 
 
-def true_error_mm(machine: Emulated, place: Complex, approach: Real, theta: Real) -> Real:
+def true_error_mm(machine: Drawn, place: Complex, approach: Real, theta: Real) -> Real:
     """(K,) distance of the true position from its target, approached as asked."""
     commands = np.degrees(theta)
     stops = np.stack([commands - RUN_UP_DEG * approach, commands], axis=1).reshape(-1, 2)
-    reached = machine.stand(stops)[1::2]
-    assert [r.approach for r in reached] == [tuple(a) for a in approach.astype(int).tolist()]
-    return np.abs(np.array([complex(*r.true_point_mm) for r in reached]) - place)
+    return np.abs(machine.stand(stops)[1::2] - place)
 
 
 def rms(values: Real) -> float:
