@@ -246,13 +246,14 @@ def test_the_p_value_is_chi_square_with_the_prediction_covariance() -> None:
 
 @pytest.mark.parametrize(("p_value", "passed"), [(0.00101, True), (0.001, True), (0.00099, False)])
 def test_one_true_model_in_a_thousand_is_refused(p_value: float, passed: bool) -> None:
-    check = Verification(np.array([0.1, -0.4]), np.array([0.2, 0.4]), p_value)
+    # the worst is the one farthest off for its uncertainty, not the largest
+    check = Verification(np.array([0.5, -0.4]), np.array([1.0, 0.1]), p_value)
     assert check.passed is passed
     fault = prediction_fault(check)
     assert (fault is None) is passed
     if fault is not None:
-        assert fault.params == {"p": p_value, "number": 2, "residual_um": -400.0, "sd_um": 400.0}
-    assert check.rms_mm == pytest.approx(np.sqrt((0.01 + 0.16) / 2))
+        assert fault.params == {"p": p_value, "number": 2, "residual_um": -400.0, "sd_um": 100.0}
+    assert check.rms_mm == pytest.approx(np.sqrt((0.25 + 0.16) / 2))
 
 
 def test_fresh_stops_stand_within_the_workspace_and_are_compensated() -> None:

@@ -147,6 +147,7 @@ def test_an_apply_checks_writes_and_verifies_at_other_places() -> None:
     # new stops are commanded in the frames that the drives have now
     moved = source().fit.moved(shift)
     assert verification.stops == fresh_stops(moved, seed=3)
+    assert check.stops == fresh_stops(source().fit, 4, 1, "C")
 
 
 def test_offsets_of_another_size_are_noticed_before_anything_is_written() -> None:
@@ -279,6 +280,22 @@ def test_a_memory_that_took_part_takes_part_again(store: Store) -> None:
     assert sd == pytest.approx([zero.sd_deg for zero in store.calibration(run).zero_offsets], rel=1e-4)
 
 
+def test_a_memory_that_took_part_is_as_old_as_it_was_then(store: Store) -> None:
+    kept(store, "full")
+    machine = SimulatedMachine(ROBOT, TRUTH, "exact", 4)
+    readings, result = carried_out(machine, start_procedure("rapid", ROBOT, store.memory("R1")), samples=5)
+    assert result.memory is not None
+    sds = []
+    for age_days in (0.0, 3000.0):
+        memory = result.memory.model_copy(update={"age_days": age_days})
+        run = store.add_run(
+            asked("R1", "rapid"), ROBOT, readings, result.model_copy(update={"memory": memory})
+        )
+        # of the mechanism, which an old memory says less about
+        sds.append(source_of(store, run).fit.quantities()[10].sd)
+    assert sds[1] > 1.2 * sds[0]
+
+
 def test_a_run_without_offsets_and_one_that_is_not_there_have_no_source(store: Store) -> None:
     machine = SimulatedMachine(ROBOT, TRUTH, "exact", 3)
     readings, result = carried_out(machine, start_procedure("rapid", ROBOT), samples=5)
@@ -320,6 +337,8 @@ def test_a_rollback_checks_only_what_an_apply_verified(store: Store) -> None:
 
 
 def test_a_rollback_checks_the_drives_under_the_zeros_of_the_journal(store: Store) -> None:
+    earlier = kept(store)
+    applied(store, earlier, "pass", (0.3, 0.3))  # before the run, so none of its shift
     run = kept(store)
     zeros = source_of(store, run).offsets_deg
     applied(store, run, "pass", (-zeros[0], -zeros[1]))

@@ -414,6 +414,11 @@ def test_every_field_of_a_request_makes_it_another_one(other: Any) -> None:
     assert len(request_hash(other)) == 16
 
 
+def test_keys_of_older_stations_still_belong_to_their_requests() -> None:
+    request = asked("R1", "rapid", work_order="WO-7", metadata={"shift": "late"})
+    assert request_hash(request).hex() == "1876df41078167d51640104f8eddc3a6"
+
+
 def test_an_import_is_stored_whole_or_not_at_all(store: Store) -> None:
     readings = [Reading(k, float(k), (0.0, 180.0), (0, 0), 12.0, "p") for k in (1, 2)]
     run = store.add_run(asked("R1", "import"), ROBOT, readings, RESULT, key="k", body_hash=b"h")
