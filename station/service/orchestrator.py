@@ -8,7 +8,6 @@ to the drives directly, past the worker and past every queue.
 from __future__ import annotations
 
 import logging
-import sqlite3
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
@@ -18,7 +17,7 @@ from threading import Lock, Thread
 from typing import Any
 
 from drivers.errors import DeviceError
-from station.errors import Busy, InputRefused, KeyReused, NotFound, StepFailed
+from station.errors import Busy, InputRefused, KeyReused, NotFound, StepFailed, StoreUnavailable
 from station.five_bar import Robot
 from station.messages import display_name
 from station.motion import Cancelled, Devices, Listener, Listeners, LiveEvent, Machine, Walker, Zeroing
@@ -92,6 +91,7 @@ class Orchestrator:
         :raises KeyReused: the key came with another request.
         :raises InputRefused: the robot does not fit this station, or the station is shutting down.
         :raises NotApplicable: the offsets of the run it is about cannot be written or taken back.
+        :raises StoreUnavailable: it cannot be recorded, so nothing was started.
         """
         kind = self._kinds[request.kind]
         body_hash = request_hash(request)
@@ -174,7 +174,7 @@ class Orchestrator:
         log.warning("Stop by %s: %s", who, trouble or "both axes confirmed")
         try:
             self._store.add_event(run.id if run else None, "stop", {"by": who, **trouble})
-        except sqlite3.Error:
+        except StoreUnavailable:
             log.exception("The stop could not be recorded")  # it was carried out all the same
         return outcome
 
@@ -242,26 +242,24 @@ class Orchestrator:
             self._machine.watch()
         except Exception:  # the worker must outlive whatever an idle device does
             log.exception("Looking at the idle machine failed")
+        self._store.repeat_ends()
 
     def _execute(self, run: Run) -> None:
         ending = self._perform(run)
         ending = self._bring_to_rest(run, ending)
+        run.state = self._store.finish(run.id, ending.state, ending.result, ending.reason)
         try:
-            run.state = self._store.finish(run.id, ending.state, ending.result, ending.reason)
             summary = self._store.summary(run.id)
-        except sqlite3.Error as error:
-            log.exception(
-                "The end of run %d could not be stored; the next start marks it interrupted", run.id
-            )
-            run.state = State.FAILED
-            summary = self._unstored(run, because("store_failed", text=str(error)))
+        except StoreUnavailable as error:
+            log.exception("The end of run %d cannot be read back", run.id)
+            summary = self._unread(run, because("store_failed", text=str(error)))
         with self._lock:
             self._last, self._run = summary, None
         run.ended.set()
         self._listeners.publish("ended", summary)
 
-    def _unstored(self, run: Run, reason: Reason) -> CalibrationSummary:
-        """How a run ended whose end the store did not take."""
+    def _unread(self, run: Run, reason: Reason) -> CalibrationSummary:
+        """How a run ended that the store does not give back."""
         brief = run.brief()
         return CalibrationSummary(
             id=run.id,
@@ -273,7 +271,7 @@ class Orchestrator:
             work_order=brief.work_order,
             state=run.state,
             verdict=None,
-            outcome="failed",
+            outcome="failed" if run.state is State.FAILED else None,
             step=brief.step,
             steps=brief.steps,
             started_at=brief.started_at,
@@ -290,7 +288,7 @@ class Orchestrator:
             return _Ending(State.ABORTED)
         except (DeviceError, StepFailed, InputRefused) as error:
             return _Ending(State.FAILED, because("step_failed", text=str(error)))
-        except sqlite3.Error as error:
+        except StoreUnavailable as error:
             log.exception("Run %d cannot be stored", run.id)
             return _Ending(State.FAILED, because("store_failed", text=str(error)))
         except Exception as error:  # the worker must outlive any mistake in a procedure

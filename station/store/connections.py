@@ -11,7 +11,7 @@ from typing import Any
 
 from sqlite_utils import Database
 
-from station.errors import InputRefused
+from station.errors import InputRefused, StoreUnavailable
 from station.store.migrations import APPLICATION_ID, migrations
 
 _BUSY_MS = 5000
@@ -63,6 +63,17 @@ def _connect(path: Path) -> sqlite3.Connection:
     return connection
 
 
+@contextmanager
+def available(path: Path) -> Iterator[None]:
+    """:raises StoreUnavailable: the database is locked, full, read-only or damaged."""
+    try:
+        yield
+    except (sqlite3.OperationalError, sqlite3.DatabaseError) as error:
+        if isinstance(error, sqlite3.IntegrityError | sqlite3.ProgrammingError):
+            raise  # a mistake of ours, not of the file
+        raise StoreUnavailable(f"{path.name}: {error}") from error
+
+
 class Readers:
     """A pool of connections that can only read."""
 
@@ -88,7 +99,7 @@ class Readers:
         try:
             with closing(sqlite3.connect(target)) as copy, self._borrowed() as connection:
                 connection.backup(copy)
-        except sqlite3.Error as error:
+        except (sqlite3.Error, StoreUnavailable) as error:
             raise InputRefused(f"The backup {target} cannot be written: {error}.") from error
 
     def close(self) -> None:
@@ -104,11 +115,13 @@ class Readers:
         with self._lock:
             connection = self._idle.pop() if self._idle else None
         if connection is None:
-            connection = _connect(self._path)
-            connection.row_factory = sqlite3.Row
-            connection.execute("PRAGMA query_only = ON")
+            with available(self._path):
+                connection = _connect(self._path)
+                connection.row_factory = sqlite3.Row
+                connection.execute("PRAGMA query_only = ON")
         try:
-            yield connection
+            with available(self._path):
+                yield connection
         finally:
             with self._lock:
                 keep = not self._closed

@@ -5,13 +5,14 @@ from __future__ import annotations
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from datetime import UTC, datetime
 from pathlib import Path
 from threading import RLock
 
 from sqlite_utils import Database
 
 from station.errors import InputRefused
-from station.store.connections import Readers, open_writer
+from station.store.connections import Readers, available, open_writer
 
 
 class KeptFile:
@@ -44,8 +45,30 @@ class KeptFile:
 
     @contextmanager
     def _writing(self) -> Iterator[Database]:
-        with self._lock, self._writer.atomic():
-            yield self._writer
+        """One transaction; what is written within another becomes part of that.
+
+        It takes the write lock at once: a transaction that has read before it writes is refused when another
+        program wrote in between, however long it would wait.
+
+        :raises StoreUnavailable: nothing was written.
+        """
+        db = self._writer
+        with self._lock, available(self.path):
+            if db.conn.in_transaction:
+                yield db
+                return
+            db.conn.execute("BEGIN IMMEDIATE")
+            try:
+                yield db
+                db.conn.execute("COMMIT")
+            except BaseException:
+                db.conn.rollback()
+                raise
+
+
+def now() -> datetime:
+    """UTC, to the millisecond."""
+    return datetime.fromtimestamp(now_ms() / 1000, UTC)
 
 
 def now_ms() -> int:

@@ -7,11 +7,10 @@ import json
 import math
 import sqlite3
 import zlib
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
-from pydantic import BaseModel, JsonValue
+from pydantic import JsonValue
 
 from station.errors import InputRefused
 from station.records import (
@@ -72,20 +71,6 @@ def row_id(cursor: int | str) -> int:
     if not 0 < number <= LARGEST_ID:
         raise InputRefused(f"The cursor {cursor!r} is not one that a page gave.")
     return number
-
-
-def unsound(value: object, where: str = "") -> str | None:
-    """Where in a result the first number stands that is not finite; None when all are."""
-    if isinstance(value, BaseModel):
-        value = value.model_dump()
-    if isinstance(value, float) and not math.isfinite(value):
-        return where
-    parts: list[tuple[str, object]] = []
-    if isinstance(value, Mapping):
-        parts = [(f"{where}.{key}" if where else str(key), part) for key, part in value.items()]
-    elif isinstance(value, Sequence) and not isinstance(value, str):
-        parts = [(f"{where}[{i}]", part) for i, part in enumerate(value)]
-    return next((bad for name, part in parts if (bad := unsound(part, name)) is not None), None)
 
 
 def result_row(

@@ -7,12 +7,15 @@ wait for it.  Rows become records in `station.store.rows`.
 from __future__ import annotations
 
 import json
+import logging
 from collections.abc import Sequence
 from datetime import datetime
+from pathlib import Path
+from typing import TypeVar
 
 from pydantic import JsonValue
 
-from station.errors import KeyReused, NotFound
+from station.errors import KeyReused, NotFound, StoreUnavailable
 from station.five_bar import Robot
 from station.records import (
     Calibration,
@@ -26,7 +29,8 @@ from station.records import (
     StoredEvent,
     because,
 )
-from station.store.kept_file import now_ms
+from station.store.ends import End, UnstoredEnds, end_of
+from station.store.kept_file import now, now_ms
 from station.store.robots import Memories
 from station.store.rows import (
     LIST_COLUMNS,
@@ -43,15 +47,24 @@ from station.store.rows import (
     result_row,
     row_id,
     summary_from_row,
-    unsound,
 )
 from station.store.zero_journal import ZeroJournal
 
+log = logging.getLogger(__name__)
+
+S = TypeVar("S", bound=CalibrationSummary)
 _UNFINISHED = (State.QUEUED, State.RUNNING)
 
 
 class Store(Memories, ZeroJournal):
-    """Thread safe.  Calibration numbers rise with their creation time."""
+    """Thread safe.  Calibration numbers rise with their creation time.
+
+    Every method may raise `StoreUnavailable`, unless it says otherwise.
+    """
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(path)
+        self._unstored = UnstoredEnds(path)
 
     # Calibrations ------------------------------------------------------------------------------
 
@@ -113,7 +126,7 @@ class Store(Memories, ZeroJournal):
             calibration_id = self.create(request, robot, key=key, body_hash=body_hash)
             self.set_state(calibration_id, State.RUNNING, steps=len(readings))
             self.add_readings(calibration_id, readings)
-            self.finish(calibration_id, State.SUCCEEDED, result)
+            self._end(calibration_id, end_of(State.SUCCEEDED, result, None, now()))
         return calibration_id
 
     def last_on_rig(self) -> CalibrationSummary | None:
@@ -123,7 +136,7 @@ class Store(Memories, ZeroJournal):
             " WHERE kind != 'import' ORDER BY id DESC LIMIT 1",
             [],
         )
-        return None if row is None else summary_from_row(row)
+        return None if row is None else self._as_ended(summary_from_row(row))
 
     def find_key(self, key: str, body_hash: bytes) -> int | None:
         """The calibration that a key started, None when the key is new.
@@ -153,29 +166,40 @@ class Store(Memories, ZeroJournal):
         result: CalibrationResult | None = None,
         reason: Reason | None = None,
     ) -> State:
-        """End a calibration, once: the first end stands.  Returns the state that is now stored.
+        """End a calibration, once: the first end stands.  Returns the state that it has now.
 
-        It fails closed: a result with a number that is not finite, or one of a run that did not
-        succeed, is never kept as a pass.  What a pass leaves to the next run is kept with it.
+        It fails closed (`end_of`).  What a pass leaves to the next run is kept with it.  An end that the
+        store does not take is shown from memory, as a failure, until `repeat_ends` has stored it.
         """
-        verdict: str | None = None
-        outcome: str | None = state.value
-        if result is not None:
-            reason = reason or result.reason
-            verdict, outcome = result.verdict, result.outcome
-            if bad := unsound(result):
-                state, verdict, outcome = State.FAILED, "fail", "failed"
-                reason = because("not_a_number_at", where=bad)
-                result = _without_numbers(result)
-            elif state is not State.SUCCEEDED:
-                verdict, outcome = None, state.value
-        elif state is State.SUCCEEDED:
-            state, outcome, reason = State.FAILED, "failed", reason or because("no_result")
+        if (earlier := self._unstored[calibration_id]) is not None:
+            return earlier.state
+        end = end_of(state, result, reason, now())
+        try:
+            return self._end(calibration_id, end)
+        except StoreUnavailable as error:
+            log.exception("The end of run %d could not be stored; it is repeated", calibration_id)
+            return self._unstored.keep(calibration_id, end, error).state
+
+    def repeat_ends(self) -> None:
+        """Store the ends that the store did not take before, if it takes them now."""
+        self._unstored.repeat(self._end)
+
+    def _end(self, calibration_id: int, end: End) -> State:
+        """:raises StoreUnavailable:"""
+        result = end.result
         with self._writing() as db:
             ended = db.execute(
                 "UPDATE calibrations SET state = ?, verdict = ?, outcome = ?, reason = ?, reason_code = ?,"
                 " reason_params = ?, ended_ms = ? WHERE id = ? AND state IN (?, ?)",
-                [state, verdict, outcome, *_reason_columns(reason), now_ms(), calibration_id, *_UNFINISHED],
+                [
+                    end.state,
+                    end.verdict,
+                    end.outcome,
+                    *_reason_columns(end.reason),
+                    millis(end.at),
+                    calibration_id,
+                    *_UNFINISHED,
+                ],
             ).rowcount
             if ended and result is not None:
                 db.execute(
@@ -183,24 +207,25 @@ class Store(Memories, ZeroJournal):
                     " result, diagnosis) VALUES (?, ?, ?, ?, ?, ?, ?)",
                     [calibration_id, *result_row(result), pack_document(result.diagnosis)],
                 )
-                if verdict == "pass" and result.lasting is not None:
+                if end.verdict == "pass" and result.lasting is not None:
                     db.execute(
                         "INSERT INTO memories (calibration_id, robot_serial, at_ms, memory)"
                         " SELECT id, robot_serial, ended_ms, ? FROM calibrations WHERE id = ?",
                         [result.lasting.model_dump_json(), calibration_id],
                     )
-        return state if ended else self.summary(calibration_id).state
+        return end.state if ended else self.summary(calibration_id).state
 
     def interrupt_unfinished(self) -> list[int]:
-        """At start-up: what was queued or running when the station went down is interrupted.  Returns ids."""
+        """At start-up: what was queued or running when the station went down is interrupted.
+
+        Where the last process knew how such a run had ended, that is stored.  Returns the ids.
+        """
         rows = self._readers.all("SELECT id FROM calibrations WHERE state IN (?, ?)", list(_UNFINISHED))
+        known = self._unstored.left_behind()
         ids = [int(row["id"]) for row in rows]
-        for calibration_id in ids:
-            self.finish(
-                calibration_id,
-                State.INTERRUPTED,
-                reason=because("interrupted"),
-            )
+        for run in ids:
+            self._end(run, known.get(run) or end_of(State.INTERRUPTED, None, because("interrupted"), now()))
+        self._unstored.clear()
         return ids
 
     def calibration(self, calibration_id: int) -> Calibration:
@@ -212,7 +237,7 @@ class Store(Memories, ZeroJournal):
         )
         if row is None:
             raise NotFound(f"There is no calibration {calibration_id}.")
-        return calibration_from_row(row)
+        return self._as_ended(calibration_from_row(row))
 
     def diagnosis(self, calibration_id: int) -> DiagnosisDocument:
         """The diagnosis document of a run.  :raises NotFound: no such run, or it has none."""
@@ -233,7 +258,7 @@ class Store(Memories, ZeroJournal):
         )
         if row is None:
             raise NotFound(f"There is no calibration {calibration_id}.")
-        return summary_from_row(row)
+        return self._as_ended(summary_from_row(row))
 
     def calibrations(
         self,
@@ -257,7 +282,7 @@ class Store(Memories, ZeroJournal):
         for column, wanted in (("robot_serial", robot_serial), ("verdict", verdict), ("state", state)):
             if wanted is not None:
                 # Only the first, most selective one may choose the index: + takes the others out.
-                conditions.append(f"{'+' if conditions else ''}{column} = ?")
+                conditions.append(f"{'+' if conditions else ''}{column} = ?{self._or_unstored(column)}")
                 values.append(wanted)
         if cursor is not None:
             conditions.append("id < ?")
@@ -273,14 +298,20 @@ class Store(Memories, ZeroJournal):
                 " ORDER BY created_ms DESC, id DESC LIMIT 1)"
             )
             values.append(millis(until))
-        where = f" WHERE {' AND '.join(conditions)}" if conditions else ""
+        where = f" WHERE {' AND '.join(f'({condition})' for condition in conditions)}" if conditions else ""
         rows = self._readers.all(
             f"SELECT {LIST_COLUMNS} FROM calibrations LEFT JOIN results ON calibration_id = id{where}"
             " ORDER BY id DESC LIMIT ?",
             [*values, limit + 1],
         )
-        items = [summary_from_row(row) for row in rows[:limit]]
-        return Page(items, items[-1].id if len(rows) > limit else None)
+        items = [self._as_ended(summary_from_row(row)) for row in rows[:limit]]
+        matching = [item for item in items if state in (None, item.state) and verdict in (None, item.verdict)]
+        return Page(matching, items[-1].id if len(rows) > limit else None)
+
+    def _or_unstored(self, column: str) -> str:
+        """SQL that lets runs through whose stored state and verdict are not those that are shown."""
+        runs = ", ".join(map(str, self._unstored.runs))
+        return f" OR id IN ({runs})" if runs and column != "robot_serial" else ""
 
     def runs_of(self, calibration_id: int) -> list[CalibrationSummary]:
         """Summaries of the runs that applied or rolled back a calibration, oldest first."""
@@ -289,7 +320,12 @@ class Store(Memories, ZeroJournal):
             " WHERE of_id = ? ORDER BY id",
             [calibration_id],
         )
-        return [summary_from_row(row) for row in rows]
+        return [self._as_ended(summary_from_row(row)) for row in rows]
+
+    def _as_ended(self, row: S) -> S:
+        """With the end that is not stored yet."""
+        end = self._unstored[row.id]
+        return row if end is None else end.shown_in(row)
 
     # Readings and events -----------------------------------------------------------------------
 
@@ -343,13 +379,6 @@ class Store(Memories, ZeroJournal):
             )
             for row in rows
         ]
-
-
-def _without_numbers(result: CalibrationResult) -> CalibrationResult:
-    """Of a result that cannot be trusted: that there was one, and by which method.  Its readings are kept."""
-    return CalibrationResult(
-        verdict="fail", outcome="failed", reason=result.reason, method=result.method, zero_offsets=()
-    )
 
 
 def _reason_columns(reason: Reason | None) -> tuple[str | None, str | None, str | None]:

@@ -10,7 +10,7 @@ import pytest
 from station.records import State
 from tests.station.asking import asked
 from tests.station.run_kinds.test_diagnose import BACKLASH, ROBOT, machine, run
-from tests.station.run_kinds.test_separate import FAST_WARMING
+from tests.station.run_kinds.test_separate import SLOW_WARMING
 from tests.web.conftest import Service
 
 LIST = "/api/v1/calibrations"
@@ -87,7 +87,7 @@ def test_a_run_without_a_diagnosis_says_so(service: Service) -> None:
 
 def test_the_motion_that_separates_is_planned_for_whoever_asks(service: Service) -> None:
     store = service.runtime.store
-    readings, result = run(machine(FAST_WARMING))
+    readings, result = run(machine(SLOW_WARMING))
     number = store.add_run(asked("R1", "diagnostic"), ROBOT, readings, result)
     plan = service.client.get(f"{LIST}/{number}/separating").json()
     assert (plan["apart"], len(plan["stops"]), plan["refused"]) == (["drift"], 40, None)
@@ -110,7 +110,7 @@ def test_why_nothing_is_separated(service: Service) -> None:
 
 def test_the_separating_run_goes_on_from_the_readings_and_the_clock_of_the_run(service: Service) -> None:
     store = service.runtime.store
-    readings, result = run(machine(FAST_WARMING))
+    readings, result = run(machine(SLOW_WARMING))
     number = store.add_run(asked("FB-1", "diagnostic"), ROBOT, readings, result)
     service.rig.axes[0].stuck = True
     answer = service.client.post(f"{LIST}/{number}/separate", json={"operator": "ada"})

@@ -14,7 +14,7 @@ from typing import Any
 
 import pytest
 
-from station.errors import InputRefused, KeyReused, NotFound
+from station.errors import InputRefused, KeyReused, NotFound, StoreUnavailable
 from station.five_bar.robot_file import Robot
 from station.records import (
     Accuracy,
@@ -25,7 +25,8 @@ from station.records import (
     because,
 )
 from station.store import compact, request_hash
-from station.store.rows import millis, moment, row_id, unsound
+from station.store.ends import unsound
+from station.store.rows import millis, moment, row_id
 from station.store.store import Store
 from tests.station.asking import asked, result
 
@@ -490,7 +491,7 @@ def test_a_missing_folder_is_made(tmp_path: Path) -> None:
 
 
 def test_readers_cannot_write_and_wait_for_a_lock(store: Store) -> None:
-    with pytest.raises(sqlite3.OperationalError, match="readonly"):
+    with pytest.raises(StoreUnavailable, match="readonly"):
         store._readers.all("DELETE FROM events")
     row = store._readers.one("PRAGMA busy_timeout")
     assert row is not None and row[0] == 5000
