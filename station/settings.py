@@ -140,6 +140,8 @@ class ServiceSettings(_Section):
     """Port to listen at; 0 takes a free one."""
     database: Path | None = None
     """File of the history; by default `station.db` in the home folder."""
+    least_free_mb: Annotated[float, Field(ge=0, le=1e6)] = 4.0
+    """No run starts with less room on the disk of the history, MB."""
     api_keys: Path | None = None
     """Not used yet."""
 

@@ -41,7 +41,7 @@ from station.records import (
 from station.run_kinds import RUN_KINDS, RunKind, Start
 from station.service.run import Run
 from station.settings import Settings
-from station.store import Store, request_hash
+from station.store import Store, request_hash, too_full
 
 __all__ = ["Busy", "InputRefused", "KeyReused", "LiveEvent", "NotFound", "Orchestrator", "Submitted"]
 
@@ -106,6 +106,8 @@ class Orchestrator:
                 raise Busy(holder.id)
             if kind.procedure is None:
                 raise InputRefused(f"{display_name('run_kinds', kind.name)} is not carried out on the rig.")
+            if trouble := self.no_room():
+                raise StoreUnavailable(trouble)
             robot = self._robot(request.robot_serial)
             kind.check(self._store, request)
             calibration_id = self._store.create(request, robot, key=idempotency_key, body_hash=body_hash)
@@ -131,6 +133,10 @@ class Orchestrator:
         serial = self._store.summary(calibration_id).robot_serial
         request = CalibrationRequest(serial, kind, operator, of=calibration_id)
         return self.submit(request, idempotency_key=idempotency_key)
+
+    def no_room(self) -> str | None:
+        """Why the disk is too full for a run; None when it is not."""
+        return too_full(self._store.path, self._settings.service.least_free_mb)
 
     def _robot(self, serial: str) -> Robot:
         """The kept robot file, else the paper's Table 1, checked against the drives' scaling."""

@@ -18,6 +18,9 @@ from station.store import Store
 
 log = logging.getLogger(__name__)
 
+LAST_HISTORY = "last-history"
+"""File in the home folder: the database that was used last."""
+
 
 @dataclass
 class Runtime:
@@ -38,8 +41,11 @@ class Runtime:
         """
         with ExitStack() as opened:
             opened.callback(os.close, _own(home))
-            store = Store(database_path(settings, home))
+            path = database_path(settings, home)
+            _check_still_there(path, home)
+            store = Store(path)
             opened.callback(store.close)
+            (home / LAST_HISTORY).write_text(str(path.resolve()), encoding="utf-8")
             for calibration_id in store.interrupt_unfinished():
                 log.warning("Run %d was cut off by the last stop of the station: interrupted", calibration_id)
             emulated = emulate is not None or settings.scale is None
@@ -65,6 +71,19 @@ class Runtime:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+
+def _check_still_there(path: Path, home: Path) -> None:
+    """A history that was used here before and is gone does not begin anew in silence.
+
+    :raises InputRefused: it is not there.
+    """
+    note = home / LAST_HISTORY
+    if not path.exists() and note.exists() and note.read_text(encoding="utf-8") == str(path.resolve()):
+        raise InputRefused(
+            f"The history {path}, used here before, is gone: mount its disk or restore a backup."
+            f" To begin a new one, delete {note}."
+        )
 
 
 def _own(home: Path) -> int:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from station.store.health import too_full
 from station.store.rows import Page, compact, request_hash
 from station.store.store import Store
 
@@ -10,4 +11,5 @@ __all__ = [
     "Store",
     "compact",
     "request_hash",
+    "too_full",
 ]

@@ -12,42 +12,78 @@ from typing import Any
 from sqlite_utils import Database
 
 from station.errors import InputRefused, StoreUnavailable
+from station.store.health import first_damage
 from station.store.migrations import APPLICATION_ID, migrations
 
 _BUSY_MS = 5000
 
 
 def open_writer(path: Path) -> Database:
-    """Open or create, check whose it is, migrate.
+    """Check whose it is and that it is whole; open or create; migrate.
 
-    :raises InputRefused: not a database, another program's, or from a newer station.
+    :raises InputRefused: damaged, empty, not a database, another program's, or from a newer station.
+        The file is as it was.
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
+        if path.exists():
+            _check(path)
+        else:
+            _begin(path)
         connection = _connect(path)
     except (OSError, sqlite3.Error) as error:
         raise InputRefused(f"The database {path} cannot be opened: {error}.") from error
     try:
-        db = Database(connection)
-        _check_owner(db, path)
-        db.execute("PRAGMA journal_mode = WAL")
-        db.execute("PRAGMA synchronous = FULL")
-        migrations.apply(db)
+        return _migrated(connection)
     except sqlite3.Error as error:
         connection.close()
-        raise InputRefused(
-            f"The database {path} cannot be used: {error}; restore it from a backup or move it away."
-        ) from error
-    except InputRefused:
-        connection.close()
-        raise
+        raise _unusable(path, error) from error
+
+
+def _begin(path: Path) -> None:
+    """A new history, whole from its first moment: an empty file is never one that a crash left behind."""
+    new = path.with_name(f"{path.name}-new")
+    new.unlink(missing_ok=True)
+    with closing(_connect(new)) as connection:
+        _migrated(connection)
+    new.rename(path)
+
+
+def _migrated(connection: sqlite3.Connection) -> Database:
+    db = Database(connection)
+    db.execute("PRAGMA journal_mode = WAL")
+    db.execute("PRAGMA synchronous = FULL")
+    migrations.apply(db)
     return db
 
 
+def _unusable(path: Path, why: object) -> InputRefused:
+    return InputRefused(
+        f"The database {path} cannot be used: {why}; restore it from a backup or move it away."
+    )
+
+
+def _check(path: Path) -> None:
+    """Without changing a byte of it.  :raises InputRefused:"""
+    if not path.is_file():
+        raise _unusable(path, "it is not a file")
+    if not path.stat().st_size:
+        raise _unusable(path, "it is empty")
+    # where the last station closed it, nothing needs to be made beside it to read it
+    closed = not path.with_name(f"{path.name}-wal").exists()
+    address = f"{path.resolve().as_uri()}?mode=ro{'&immutable=1' if closed else ''}"
+    with closing(sqlite3.connect(address, uri=True)) as connection:
+        try:
+            _check_owner(Database(connection), path)
+            damage = first_damage(connection)
+        except sqlite3.Error as error:
+            raise _unusable(path, error) from error
+    if damage:
+        raise _unusable(path, f"it is damaged ({damage})")
+
+
 def _check_owner(db: Database, path: Path) -> None:
-    owner = db.execute("PRAGMA application_id").fetchone()[0]
-    empty = not db.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]
-    if owner != APPLICATION_ID and not (owner == 0 and empty):
+    if db.execute("PRAGMA application_id").fetchone()[0] != APPLICATION_ID:
         raise InputRefused(f"The database {path} belongs to another program; choose another --home.")
     known = {migration.name for migration in migrations.pending(Database(memory=True))}
     if newer := [step.name for step in migrations.applied(db) if step.name not in known]:
@@ -93,6 +129,11 @@ class Readers:
         """Every row."""
         with self._borrowed() as connection:
             return connection.execute(sql, values).fetchall()
+
+    def damage(self) -> str | None:
+        """What is wrong with the file, by a look at every page on the disk."""
+        with available(self._path), closing(_connect(self._path)) as connection:
+            return first_damage(connection)
 
     def copy(self, target: Path) -> None:
         """A consistent copy in one file.  :raises InputRefused: it cannot be written."""

@@ -13,6 +13,7 @@ from sqlite_utils import Database
 
 from station.errors import InputRefused
 from station.store.connections import Readers, available, open_writer
+from station.store.health import Health
 
 
 class KeptFile:
@@ -27,6 +28,18 @@ class KeptFile:
         self._writer: Database = open_writer(path)
         self._lock = RLock()  # what is written in several steps, whole or not at all, takes it again
         self._readers = Readers(path)
+
+        self._health = Health(path, self._readers.damage, self._write_nothing)
+
+    def troubles(self) -> list[str]:
+        """What keeps the history from being read and written, one sentence each."""
+        return self._health.troubles()
+
+    def _write_nothing(self) -> None:
+        """To the disk all the same: the first page, with a number that nothing else uses."""
+        with self._writing() as db:
+            (times,) = db.execute("PRAGMA user_version").fetchone()
+            db.execute(f"PRAGMA user_version = {(times + 1) % 2**31}")
 
     def close(self) -> None:
         """Release the file."""

@@ -480,7 +480,7 @@ def test_a_folder_that_cannot_be_made_is_said(tmp_path: Path) -> None:
     with pytest.raises(InputRefused, match=f"^The database {path} cannot be opened: "):
         Store(path)
     (tmp_path / "folder.db").mkdir()
-    with pytest.raises(InputRefused, match=r"folder\.db cannot be opened: unable to open"):
+    with pytest.raises(InputRefused, match=r"folder\.db cannot be used: it is not a file"):
         Store(tmp_path / "folder.db")
 
 
