@@ -23,6 +23,7 @@ from station.store import Store
 
 _COLUMNS = (
     "id",
+    "uid",
     "created_at",
     "robot_serial",
     "kind",
@@ -44,8 +45,8 @@ _COLUMNS = (
     "reason",
 )
 _TOLD = (
-    "id", "robot_serial", "kind", "plan", "operator", "work_order", "state", "verdict", "outcome", "reason",
-    "created_at", "started_at", "ended_at",
+    "id", "uid", "robot_serial", "kind", "plan", "operator", "work_order", "state", "verdict", "outcome",
+    "reason", "created_at", "started_at", "ended_at",
 )  # fmt: skip
 _SHOWN = ("id", "created_at", "robot_serial", "plan", "state", "verdict", "dtheta1_deg", "dtheta2_deg")
 

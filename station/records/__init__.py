@@ -100,6 +100,7 @@ from station.records.run import (
 )
 from station.records.sections import Finite, Positive, Section, Sections, refusal
 from station.records.types import LARGEST_ID, Angles, Complex, Index, Real
+from station.records.uid import uid7
 from station.records.visited import inside_visited, visited_in_degrees, visited_ranges
 
 __all__ = [
@@ -208,6 +209,7 @@ __all__ = [
     "readings_to_csv",
     "refusal",
     "residual_rows",
+    "uid7",
     "visited_in_degrees",
     "visited_ranges",
     "with_guesses",

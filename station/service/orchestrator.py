@@ -37,8 +37,10 @@ from station.records import (
     Walk,
     Workspace,
     because,
+    uid7,
 )
 from station.run_kinds import RUN_KINDS, RunKind, Start
+from station.service.clock_watch import ClockWatch
 from station.service.run import Run
 from station.settings import Settings
 from station.store import Store, request_hash, too_full
@@ -77,6 +79,7 @@ class Orchestrator:
         self._lock = Lock()
         self._run: Run | None = None
         self._last = store.last_on_rig()
+        self._clock = ClockWatch(store)
         self._closing = False
         self._queue: Queue[Run | None] = Queue()
         self._worker = Thread(target=self._work, name="orchestrator", daemon=True)
@@ -110,8 +113,11 @@ class Orchestrator:
                 raise StoreUnavailable(trouble)
             robot = self._robot(request.robot_serial)
             kind.check(self._store, request)
-            calibration_id = self._store.create(request, robot, key=idempotency_key, body_hash=body_hash)
-            run = Run(calibration_id, request, robot)
+            uid = uid7()
+            calibration_id = self._store.create(
+                request, robot, key=idempotency_key, body_hash=body_hash, uid=uid
+            )
+            run = Run(calibration_id, uid, request, robot)
             with self._lock:
                 self._run = run
         self._listeners.publish("run", run.brief())
@@ -249,6 +255,7 @@ class Orchestrator:
         except Exception:  # the worker must outlive whatever an idle device does
             log.exception("Looking at the idle machine failed")
         self._store.repeat_ends()
+        self._clock.look()
 
     def _execute(self, run: Run) -> None:
         ending = self._perform(run)
@@ -269,6 +276,7 @@ class Orchestrator:
         brief = run.brief()
         return CalibrationSummary(
             id=run.id,
+            uid=run.uid,
             robot_serial=brief.robot_serial,
             kind=brief.kind,
             plan=brief.plan,

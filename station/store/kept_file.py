@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
-from datetime import UTC, datetime
 from pathlib import Path
 from threading import RLock
 
@@ -77,13 +75,3 @@ class KeptFile:
             except BaseException:
                 db.conn.rollback()
                 raise
-
-
-def now() -> datetime:
-    """UTC, to the millisecond."""
-    return datetime.fromtimestamp(now_ms() / 1000, UTC)
-
-
-def now_ms() -> int:
-    """Milliseconds since 1970, UTC."""
-    return time.time_ns() // 1_000_000

@@ -30,7 +30,7 @@ READING_COLUMNS = (
     " samples, temperature_c, payload_kg, mount"
 )
 LIST_COLUMNS = (
-    "id, robot_serial, kind, plan, operator, work_order, of_id, state, verdict, outcome, reason,"
+    "id, uid, robot_serial, kind, plan, operator, work_order, of_id, state, verdict, outcome, reason,"
     " reason_code, reason_params, step, steps, created_ms, started_ms, ended_ms,"
     " zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg"
 )
@@ -132,7 +132,7 @@ def calibration_from_row(row: sqlite3.Row) -> Calibration:
 
 def _summary(row: sqlite3.Row) -> dict[str, object]:
     same = (
-        "id", "robot_serial", "kind", "plan", "operator", "work_order", "state", "verdict", "outcome",
+        "id", "uid", "robot_serial", "kind", "plan", "operator", "work_order", "state", "verdict", "outcome",
         "reason", "reason_code", "step", "steps",
     )  # fmt: skip
     return {

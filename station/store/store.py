@@ -28,9 +28,9 @@ from station.records import (
     State,
     StoredEvent,
     because,
+    uid7,
 )
 from station.store.ends import End, UnstoredEnds, end_of
-from station.store.kept_file import now, now_ms
 from station.store.robots import Memories
 from station.store.rows import (
     LIST_COLUMNS,
@@ -48,6 +48,7 @@ from station.store.rows import (
     row_id,
     summary_from_row,
 )
+from station.store.times import RunTimes, now, now_ms
 from station.store.zero_journal import ZeroJournal
 
 log = logging.getLogger(__name__)
@@ -57,7 +58,7 @@ _UNFINISHED = (State.QUEUED, State.RUNNING)
 
 
 class Store(Memories, ZeroJournal):
-    """Thread safe.  Calibration numbers rise with their creation time.
+    """Thread safe.  Order is by number: the clock that gives the times may jump.
 
     Every method may raise `StoreUnavailable`, unless it says otherwise.
     """
@@ -65,6 +66,7 @@ class Store(Memories, ZeroJournal):
     def __init__(self, path: Path) -> None:
         super().__init__(path)
         self._unstored = UnstoredEnds(path)
+        self._times = RunTimes()
 
     # Calibrations ------------------------------------------------------------------------------
 
@@ -75,19 +77,19 @@ class Store(Memories, ZeroJournal):
         *,
         key: str | None = None,
         body_hash: bytes = b"",
+        uid: str | None = None,
     ) -> int:
         """A new calibration in state queued; its idempotency key is kept in the same transaction.
 
+        :param uid: where it is known already; else made here.
         :raises KeyReused: the key is taken (ask `find_key` first to answer a repeated request).
         """
         robot_id = self.save_robot(robot)
         with self._writing() as db:
-            # A station's clock may be set back; times still rise with the numbers, so that a
-            # period of time is a range of numbers.
-            latest = db.execute("SELECT max(created_ms) FROM calibrations").fetchone()[0] or 0
+            created_ms = now_ms()
             cursor = db.execute(
                 "INSERT INTO calibrations (robot_id, robot_serial, kind, plan, operator, work_order,"
-                " metadata, of_id, state, created_ms) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                " metadata, of_id, state, created_ms, uid) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
                 [
                     robot_id,
                     robot.serial,
@@ -98,7 +100,8 @@ class Store(Memories, ZeroJournal):
                     compact(request.metadata) if request.metadata else None,
                     request.of,
                     State.QUEUED,
-                    max(now_ms(), latest),
+                    created_ms,
+                    uid or uid7(created_ms),
                 ],
             )
             calibration_id = int(cursor.lastrowid or 0)
@@ -109,6 +112,7 @@ class Store(Memories, ZeroJournal):
                 if taken is not None:
                     raise KeyReused(int(taken[0]))
                 db.execute("INSERT INTO idempotency_keys VALUES (?, ?, ?)", [key, body_hash, calibration_id])
+        self._times.begin(calibration_id, created_ms)
         return calibration_id
 
     def add_run(
@@ -126,7 +130,7 @@ class Store(Memories, ZeroJournal):
             calibration_id = self.create(request, robot, key=key, body_hash=body_hash)
             self.set_state(calibration_id, State.RUNNING, steps=len(readings))
             self.add_readings(calibration_id, readings)
-            self._end(calibration_id, end_of(State.SUCCEEDED, result, None, now()))
+            self._end(calibration_id, end_of(State.SUCCEEDED, result, None, self._times.now(calibration_id)))
         return calibration_id
 
     def last_on_rig(self) -> CalibrationSummary | None:
@@ -156,7 +160,7 @@ class Store(Memories, ZeroJournal):
             db.execute(
                 "UPDATE calibrations SET state = ?, steps = coalesce(?, steps),"
                 " started_ms = coalesce(started_ms, ?) WHERE id = ? AND state IN (?, ?)",
-                [state, steps, now_ms(), calibration_id, *_UNFINISHED],
+                [state, steps, self._times.now_ms(calibration_id), calibration_id, *_UNFINISHED],
             )
 
     def finish(
@@ -173,7 +177,7 @@ class Store(Memories, ZeroJournal):
         """
         if (earlier := self._unstored[calibration_id]) is not None:
             return earlier.state
-        end = end_of(state, result, reason, now())
+        end = end_of(state, result, reason, self._times.now(calibration_id))
         try:
             return self._end(calibration_id, end)
         except StoreUnavailable as error:
@@ -190,7 +194,8 @@ class Store(Memories, ZeroJournal):
         with self._writing() as db:
             ended = db.execute(
                 "UPDATE calibrations SET state = ?, verdict = ?, outcome = ?, reason = ?, reason_code = ?,"
-                " reason_params = ?, ended_ms = ? WHERE id = ? AND state IN (?, ?)",
+                " reason_params = ?, ended_ms = max(?, created_ms, coalesce(started_ms, 0))"
+                " WHERE id = ? AND state IN (?, ?)",
                 [
                     end.state,
                     end.verdict,
@@ -213,6 +218,7 @@ class Store(Memories, ZeroJournal):
                         " SELECT id, robot_serial, ended_ms, ? FROM calibrations WHERE id = ?",
                         [result.lasting.model_dump_json(), calibration_id],
                     )
+        self._times.end(calibration_id)
         return end.state if ended else self.summary(calibration_id).state
 
     def interrupt_unfinished(self) -> list[int]:
@@ -289,15 +295,15 @@ class Store(Memories, ZeroJournal):
             values.append(row_id(cursor))
         if since is not None:
             conditions.append(
-                "id >= (SELECT id FROM calibrations WHERE created_ms >= ? ORDER BY created_ms, id LIMIT 1)"
+                # times may fall where the clock was set back: the range narrows, the time decides
+                "id >= (SELECT min(id) FROM calibrations WHERE created_ms >= ?) AND +created_ms >= ?"
             )
-            values.append(millis(since))
+            values += [millis(since)] * 2
         if until is not None:
             conditions.append(
-                "id <= (SELECT id FROM calibrations WHERE created_ms < ?"
-                " ORDER BY created_ms DESC, id DESC LIMIT 1)"
+                "id <= (SELECT max(id) FROM calibrations WHERE created_ms < ?) AND +created_ms < ?"
             )
-            values.append(millis(until))
+            values += [millis(until)] * 2
         where = f" WHERE {' AND '.join(f'({condition})' for condition in conditions)}" if conditions else ""
         rows = self._readers.all(
             f"SELECT {LIST_COLUMNS} FROM calibrations LEFT JOIN results ON calibration_id = id{where}"
@@ -364,6 +370,15 @@ class Store(Memories, ZeroJournal):
                 "INSERT INTO events (calibration_id, at_ms, kind, data) VALUES (?, ?, ?, ?)",
                 [calibration_id, now_ms(), kind, compact(data) if data else None],
             )
+
+    def latest_time(self) -> datetime | None:
+        """The latest that is on record of any run or event; None before the first."""
+        row = self._readers.one(
+            "SELECT max(coalesce((SELECT max(created_ms) FROM calibrations), 0),"
+            " coalesce((SELECT ended_ms FROM calibrations ORDER BY id DESC LIMIT 1), 0),"
+            " coalesce((SELECT at_ms FROM events ORDER BY id DESC LIMIT 1), 0)) AS latest_ms"
+        )
+        return moment(row["latest_ms"] or None) if row is not None else None
 
     def events(self, calibration_id: int | None) -> list[StoredEvent]:
         """Of one run, or of the station itself (None)."""
