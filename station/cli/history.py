@@ -159,7 +159,7 @@ def show_command(home: Path, calibration_id: int, as_json: bool, config: Path | 
 def memory_command(home: Path, serial: str, clear: bool, config: Path | None) -> None:
     """What a robot's next run knows of its geometry and mechanism."""
     console = Console(highlight=False)
-    with kept(home, config) as store:
+    with kept(home, config, writing=clear) as store:
         store.robot(serial)
         if clear:
             store.forget(serial, getpass.getuser())

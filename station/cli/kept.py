@@ -21,8 +21,8 @@ run_argument = click.argument("calibration_id", metavar="ID", type=click.IntRang
 
 
 @contextmanager
-def kept(home: Path, config: Path | None) -> Iterator[Store]:
-    """The store that is there; a mistyped folder does not begin a new one.
+def kept(home: Path, config: Path | None, *, writing: bool = False) -> Iterator[Store]:
+    """The store that is there, to be read alone by default; a mistyped folder does not begin a new one.
 
     :raises InputRefused: there is none.
     """
@@ -31,7 +31,7 @@ def kept(home: Path, config: Path | None) -> Iterator[Store]:
         raise InputRefused(
             f"There is no history at {path}; check --home, STATION_HOME and --config, or measure first."
         )
-    with closing(Store(path)) as store:
+    with closing(Store(path, read_only=not writing)) as store:
         yield store
 
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 import fcntl
 import logging
 import os
-from contextlib import ExitStack
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Self
@@ -40,7 +41,7 @@ class Runtime:
         :raises InputRefused: another process holds the rig, or something cannot be opened.
         """
         with ExitStack() as opened:
-            opened.callback(os.close, _own(home))
+            opened.enter_context(holding(home))
             path = database_path(settings, home)
             _check_still_there(path, home)
             store = Store(path)
@@ -86,8 +87,9 @@ def _check_still_there(path: Path, home: Path) -> None:
         )
 
 
-def _own(home: Path) -> int:
-    """Take the rig's lock; it is released with the process, however that ends.
+@contextmanager
+def holding(home: Path) -> Iterator[None]:
+    """Hold the rig of a home folder; it is released with the process, however that ends.
 
     :raises InputRefused: another process holds it, or the folder cannot be written.
     """
@@ -103,4 +105,7 @@ def _own(home: Path) -> int:
         raise InputRefused(
             f"Another station process holds the rig of {home}; use its page, or end it first."
         ) from error
-    return lock
+    try:
+        yield
+    finally:
+        os.close(lock)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from station.store.health import too_full
+from station.store.opening import restore
 from station.store.rows import Page, compact, request_hash
 from station.store.store import Store
 
@@ -11,5 +12,6 @@ __all__ = [
     "Store",
     "compact",
     "request_hash",
+    "restore",
     "too_full",
 ]

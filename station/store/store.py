@@ -63,8 +63,8 @@ class Store(Memories, ZeroJournal):
     Every method may raise `StoreUnavailable`, unless it says otherwise.
     """
 
-    def __init__(self, path: Path) -> None:
-        super().__init__(path)
+    def __init__(self, path: Path, *, read_only: bool = False) -> None:
+        super().__init__(path, read_only=read_only)
         self._unstored = UnstoredEnds(path)
         self._times = RunTimes()
 

@@ -252,7 +252,7 @@ def test_a_new_history_appears_whole(tmp_path: Path, monkeypatch: pytest.MonkeyP
 
     path = tmp_path / "station.db"
     with monkeypatch.context() as patch:
-        patch.setattr("station.store.connections.migrations.apply", cut_off)
+        patch.setattr("station.store.opening.migrations.apply", cut_off)
         with pytest.raises(KeyboardInterrupt):
             Store(path)
     assert not path.exists()
