@@ -146,6 +146,17 @@ class ServiceSettings(_Section):
     """Not used yet."""
 
 
+class BackupSettings(_Section):
+    """`[backup]`: copies of the history that the station makes by itself."""
+
+    every_h: Annotated[float, Field(gt=0, le=8760)] | None = None
+    """Hours from one to the next; without it only on request."""
+    folder: Path | None = None
+    """Where they are written, best on another disk; by default `backups` in the home folder."""
+    keep: Annotated[int, Field(ge=1, le=10_000)] = 14
+    """The newest so many stay; older ones are deleted, and an event says so."""
+
+
 class EmulatedSettings(_Section):
     """`[emulated]`: the machine that stands in when no devices are named."""
 
@@ -164,6 +175,7 @@ class Settings(_Section):
     servo: ServoSettings | None = None
     limits: LimitSettings = LimitSettings()
     service: ServiceSettings = ServiceSettings()
+    backup: BackupSettings = BackupSettings()
     emulated: EmulatedSettings = EmulatedSettings()
 
     @model_validator(mode="after")
@@ -211,6 +223,11 @@ def _sentence(error: ErrorDetails, inside: tuple[int | str, ...] = ()) -> str:
     given = error["input"]
     value = f" (given: {given!r})" if not isinstance(given, dict) else ""
     return f"{where}: {message}{value}.".removeprefix(": ")
+
+
+def backup_folder(settings: Settings, home: Path) -> Path:
+    """Where the station's own backups are: the station file's `[backup] folder`, else in the home folder."""
+    return settings.backup.folder or home / "backups"
 
 
 def database_path(settings: Settings, home: Path) -> Path:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from station.records.accuracy import PositionError, Remedy, WeakDirection
+from station.records.backup import BackupMade
 from station.records.calibration import (
     Application,
     ApplicationRun,
@@ -113,6 +114,7 @@ __all__ = [
     "Application",
     "ApplicationRun",
     "ApplicationState",
+    "BackupMade",
     "Calibration",
     "CalibrationRequest",
     "CalibrationResult",

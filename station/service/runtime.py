@@ -13,8 +13,10 @@ from typing import Self
 
 from station.errors import InputRefused
 from station.motion import EmulatedRig, build_devices
+from station.records import BackupMade
+from station.service.backups import BackupTimer, make_backup
 from station.service.orchestrator import Orchestrator
-from station.settings import Settings, database_path
+from station.settings import Settings, backup_folder, database_path
 from station.store import Store
 
 log = logging.getLogger(__name__)
@@ -61,7 +63,12 @@ class Runtime:
 
             orchestrator = Orchestrator(devices, store, settings)
             opened.callback(orchestrator.shutdown)
+            opened.enter_context(BackupTimer(store, backup_folder(settings, home), settings.backup))
             return cls(settings, home, store, orchestrator, opened.pop_all())
+
+    def backup(self) -> BackupMade:
+        """One more backup, now.  :raises InputRefused: it cannot be written."""
+        return make_backup(self.store, backup_folder(self.settings, self.home), self.settings.backup.keep)
 
     def close(self) -> None:
         """Abort what runs, make the machine safe, release everything.  Twice is harmless."""
