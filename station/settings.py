@@ -157,6 +157,14 @@ class BackupSettings(_Section):
     """The newest so many stay; older ones are deleted, and an event says so."""
 
 
+class RetentionSettings(_Section):
+    """`[retention]`: what is deleted from the history by and by.  Readings and results never are."""
+
+    samples_days: Annotated[float, Field(ge=1)] | None = None
+    """Days after the end of a run after which the single samples of its readings are dropped; their mean and
+    number stay.  An event says so.  Without it they are kept."""
+
+
 class EmulatedSettings(_Section):
     """`[emulated]`: the machine that stands in when no devices are named."""
 
@@ -176,6 +184,7 @@ class Settings(_Section):
     limits: LimitSettings = LimitSettings()
     service: ServiceSettings = ServiceSettings()
     backup: BackupSettings = BackupSettings()
+    retention: RetentionSettings = RetentionSettings()
     emulated: EmulatedSettings = EmulatedSettings()
 
     @model_validator(mode="after")

@@ -14,8 +14,9 @@ from typing import Self
 from station.errors import InputRefused
 from station.motion import EmulatedRig, build_devices
 from station.records import BackupMade
-from station.service.backups import BackupTimer, make_backup
+from station.service.backups import backup_timer, make_backup
 from station.service.orchestrator import Orchestrator
+from station.service.retention import retention_timer
 from station.settings import Settings, backup_folder, database_path
 from station.store import Store
 
@@ -63,7 +64,8 @@ class Runtime:
 
             orchestrator = Orchestrator(devices, store, settings)
             opened.callback(orchestrator.shutdown)
-            opened.enter_context(BackupTimer(store, backup_folder(settings, home), settings.backup))
+            opened.enter_context(backup_timer(store, backup_folder(settings, home), settings.backup))
+            opened.enter_context(retention_timer(store, settings.retention))
             return cls(settings, home, store, orchestrator, opened.pop_all())
 
     def backup(self) -> BackupMade:

@@ -218,5 +218,7 @@ def zero_write_from_row(row: sqlite3.Row) -> ZeroWrite:
 def _samples(scale_mm: float, units: str | None) -> tuple[float, ...]:
     if units is None:
         return ()
-    mean = round(scale_mm, _SAMPLE_DIGITS)
-    return tuple(round(mean + unit * _SAMPLE_UNIT_MM, _SAMPLE_DIGITS) for unit in json.loads(units))
+    mean, kept = round(scale_mm, _SAMPLE_DIGITS), json.loads(units)
+    if isinstance(kept, int):  # only their number was kept, which says how sure their mean is
+        return (mean,) * kept
+    return tuple(round(mean + unit * _SAMPLE_UNIT_MM, _SAMPLE_DIGITS) for unit in kept)

@@ -351,6 +351,27 @@ class Store(Memories, ZeroJournal):
                 "UPDATE calibrations SET step = step + ? WHERE id = ?", [len(readings), calibration_id]
             )
 
+    def drop_samples(self, ended_before: datetime) -> int:
+        """Keep mean and number alone of the samples of runs that ended before; how many readings had more.
+
+        A run at a time, so that nobody who measures waits; what was dropped is on record as an event.
+        """
+        rows = self._readers.all(
+            "SELECT DISTINCT calibration_id AS run FROM readings JOIN calibrations ON id = calibration_id"
+            " WHERE ended_ms < ? AND samples LIKE '[%' ORDER BY run",
+            [millis(ended_before)],
+        )
+        dropped = 0
+        for row in rows:
+            with self._writing() as db:
+                dropped += db.execute(
+                    "UPDATE readings SET samples = json_array_length(samples)"
+                    " WHERE calibration_id = ? AND samples LIKE '[%'",
+                    [row["run"]],
+                ).rowcount
+                self.add_event(row["run"], "samples_dropped")
+        return dropped
+
     def readings(self, calibration_id: int) -> list[Reading]:
         """In the order they were taken.  :raises NotFound: no such calibration."""
         rows = self._readers.all(

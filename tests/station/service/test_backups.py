@@ -12,7 +12,7 @@ from pydantic import JsonValue
 
 from station.errors import InputRefused
 from station.five_bar.robot_file import Robot
-from station.service.backups import BackupTimer, made_in, make_backup
+from station.service.backups import backup_timer, first_wait_s, made_in, make_backup
 from station.settings import BackupSettings
 from station.store.store import Store
 from tests.station.asking import asked
@@ -67,21 +67,20 @@ def test_one_is_made_at_the_start_where_the_newest_is_too_old(
         then = time.time() - age_h * HOUR_S
         os.utime(newest, (then, then))
     before = len(made_in(tmp_path))
-    timer = BackupTimer(store, tmp_path, BackupSettings(every_h=24.0))
-    assert (timer._first_wait_s(24.0 * HOUR_S) == 0.0) is due
-    with timer:
+    assert (first_wait_s(tmp_path, 24.0 * HOUR_S) == 0.0) is due
+    with backup_timer(store, tmp_path, BackupSettings(every_h=24.0)):
         if due:
             soon(tmp_path, before + 1)
     assert len(made_in(tmp_path)) == before + due
 
 
 def test_one_follows_the_other(store: Store, tmp_path: Path) -> None:
-    with BackupTimer(store, tmp_path, BackupSettings(every_h=0.01 / HOUR_S, keep=100)):
+    with backup_timer(store, tmp_path, BackupSettings(every_h=0.01 / HOUR_S, keep=100)):
         soon(tmp_path, 3)
 
 
 def test_without_an_interval_none_is_made(store: Store, tmp_path: Path) -> None:
-    with BackupTimer(store, tmp_path / "backups", BackupSettings()):
+    with backup_timer(store, tmp_path / "backups", BackupSettings()):
         pass
     assert not (tmp_path / "backups").exists()
 
@@ -89,10 +88,10 @@ def test_without_an_interval_none_is_made(store: Store, tmp_path: Path) -> None:
 def test_a_backup_that_fails_is_tried_again(
     store: Store, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("station.service.backups.RETRY_S", 0.01)
+    monkeypatch.setattr("station.service.timer.RETRY_S", 0.01)
     folder = tmp_path / "backups"
     folder.touch()
-    with BackupTimer(store, folder, BackupSettings(every_h=24.0)):
+    with backup_timer(store, folder, BackupSettings(every_h=24.0)):
         time.sleep(0.03)
         folder.unlink()
         soon(folder, 1)
