@@ -32,6 +32,7 @@ _COMMANDS = {
     "serve": ("serve", "The service with the operator's page."),
     "show": ("history", "One run."),
     "solve": ("diagnosis", "Joint commands for target positions under the identified model."),
+    "verify": ("archive", "Whether every finished run is as it ended."),
     "transfer": ("diagnosis", "Apply the effects learned on one log, unchanged, to another log."),
 }
 """Module and purpose of each command; imported when it is asked for, since the numerics take long to load."""

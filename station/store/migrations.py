@@ -161,5 +161,15 @@ def uids(db: Database) -> None:
     db.execute("CREATE UNIQUE INDEX calibrations_uid ON calibrations (uid)")
 
 
+@migrations()
+def chain(db: Database) -> None:
+    """The hash of each run that ends from now on, in the order of their ends."""
+    db.execute(
+        """CREATE TABLE chain (
+            n INTEGER PRIMARY KEY, run_id INTEGER NOT NULL UNIQUE, uid TEXT NOT NULL,
+            samples_sha256 TEXT NOT NULL, hash TEXT NOT NULL)"""
+    )
+
+
 def _expand(blob: bytes) -> bytes:
     return zlib.decompressobj(zdict=_WORDS).decompress(blob)

@@ -30,6 +30,7 @@ from station.records import (
     because,
     uid7,
 )
+from station.store.chain import Verified, append, verify
 from station.store.ends import End, UnstoredEnds, end_of
 from station.store.robots import Memories
 from station.store.rows import (
@@ -218,6 +219,8 @@ class Store(Memories, ZeroJournal):
                         " SELECT id, robot_serial, ended_ms, ? FROM calibrations WHERE id = ?",
                         [result.lasting.model_dump_json(), calibration_id],
                     )
+            if ended:
+                append(lambda sql, values: db.execute(sql, values).fetchall(), calibration_id)
         self._times.end(calibration_id)
         return end.state if ended else self.summary(calibration_id).state
 
@@ -233,6 +236,14 @@ class Store(Memories, ZeroJournal):
             self._end(run, known.get(run) or end_of(State.INTERRUPTED, None, because("interrupted"), now()))
         self._unstored.clear()
         return ids
+
+    def verify(self) -> Verified:
+        """Whether every finished run is as it ended."""
+        return verify(self._readers.all)
+
+    def in_chain(self, head: str) -> bool:
+        """Whether a run has this hash."""
+        return self._readers.one("SELECT 1 FROM chain WHERE hash = ?", [head]) is not None
 
     def calibration(self, calibration_id: int) -> Calibration:
         """One calibration with everything about it.  :raises NotFound:"""
