@@ -7,15 +7,15 @@ from pathlib import Path
 
 import click
 
+from station.cli.kept import run_argument
 from station.cli.machine_options import machine_options, read_settings
 from station.cli.one_run import one_run
 
-_id = click.argument("calibration_id", metavar="ID", type=click.IntRange(1, 2**63 - 1))
 _operator = click.option("--operator", help="Who is responsible; else the user of this terminal.")
 
 
 @click.command("apply")
-@_id
+@run_argument
 @_operator
 @machine_options
 @click.pass_obj
@@ -36,7 +36,7 @@ def apply_command(
 
 
 @click.command("rollback")
-@_id
+@run_argument
 @_operator
 @machine_options
 @click.pass_obj

@@ -16,13 +16,23 @@ from station.five_bar.error_model import (
 from station.five_bar.kinematics import HOME, Geometry, Unreachable, forward, inverse
 from station.five_bar.mechanism import GRID, MOST_ZERO_OFFSET, SCALE_SD_MM, FiveBar, lengths, load, pull
 from station.five_bar.plausibility import check_distances, check_places, check_poses
-from station.five_bar.robot_file import FIVE_BAR_MODEL, Robot, RobotFile, Tolerances, read_sections
+from station.five_bar.robot_file import (
+    FIVE_BAR_MODEL,
+    FRESH_INSET_MM,
+    INSET_MM,
+    Robot,
+    RobotFile,
+    Tolerances,
+    read_sections,
+)
 from station.five_bar.weak_direction import describe_weak_direction
 
 __all__ = [
     "FIVE_BAR_MODEL",
+    "FRESH_INSET_MM",
     "GRID",
     "HOME",
+    "INSET_MM",
     "KEPT",
     "MOST_ZERO_OFFSET",
     "NAMES",

@@ -8,7 +8,8 @@ import numpy as np
 from scipy.linalg import null_space
 from scipy.special import chdtrc
 
-from station.five_bar import FiveBar, inverse
+from station.fitting import REFUSED_P
+from station.five_bar import FRESH_INSET_MM, FiveBar, inverse
 from station.identification.estimate import Identification
 from station.records import (
     LIMIT_SDS,
@@ -25,9 +26,6 @@ from station.records import (
 )
 
 FRESH_PLACES = 8
-FRESH_INSET_MM = 15.0
-REFUSED_P = 1e-3
-"""A true model fails the verification this often."""
 
 
 def fresh_stops(

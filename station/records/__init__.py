@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from station.records.accuracy import PositionError, Remedy, WeakDirection
+from station.records.backup import BackupMade
 from station.records.calibration import (
     Application,
     ApplicationRun,
@@ -117,12 +118,14 @@ from station.records.run import (
     ZeroWrite,
 )
 from station.records.sections import Finite, Positive, Section, Sections, refusal
-from station.records.types import Angles, Complex, Index, Real
+from station.records.types import LARGEST_ID, Angles, Complex, Index, Real
+from station.records.uid import uid7
 from station.records.visited import inside_visited, visited_in_degrees, visited_ranges
 
 __all__ = [
     "DIAGNOSIS_SCHEMA",
     "FIVE_BAR",
+    "LARGEST_ID",
     "LIMIT_SDS",
     "MIXTURE_SCHEMA",
     "MODEL_SCHEMA",
@@ -133,6 +136,7 @@ __all__ = [
     "Application",
     "ApplicationRun",
     "ApplicationState",
+    "BackupMade",
     "Calibration",
     "CalibrationRequest",
     "CalibrationResult",
@@ -246,6 +250,7 @@ __all__ = [
     "refusal",
     "residual_rows",
     "translated",
+    "uid7",
     "visited_in_degrees",
     "visited_ranges",
     "with_guesses",

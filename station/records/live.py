@@ -110,6 +110,7 @@ class RunBrief(Record):
     """The run that holds the rig, without its positions and readings."""
 
     id: int
+    uid: str
     state: State
     robot_serial: str
     kind: str

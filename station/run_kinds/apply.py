@@ -66,10 +66,10 @@ def source_of(store: Store, calibration_id: int) -> Source:
     use = calibration.memory
     memory = store.memory_left_by(use.from_calibration) if use and use.used else None
     fit = fit_of(store.robot_of(calibration_id), readings, memory, (use.age_days if use else None) or 0.0)
-    first, second = (zero.value_deg for zero in calibration.zero_offsets)
-    if first is None or second is None:
+    offsets = [zero.value_deg for zero in calibration.zero_offsets if zero.value_deg is not None]
+    if len(offsets) != 2:
         raise InputRefused(f"Run {calibration_id} has no zero offsets; calibrate again.")
-    return Source(calibration_id, fit, (first, second))
+    return Source(calibration_id, fit, (offsets[0], offsets[1]))
 
 
 def start_apply(start: Start) -> Procedure:

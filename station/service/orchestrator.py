@@ -8,7 +8,6 @@ to the drives directly, past the worker and past every queue.
 from __future__ import annotations
 
 import logging
-import sqlite3
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
@@ -18,7 +17,7 @@ from threading import Lock, Thread
 from typing import Any
 
 from drivers.errors import DeviceError
-from station.errors import Busy, InputRefused, KeyReused, NotFound, StepFailed
+from station.errors import Busy, InputRefused, KeyReused, NotFound, StepFailed, StoreUnavailable
 from station.five_bar import Robot
 from station.messages import display_name
 from station.motion import Cancelled, Devices, Listener, Listeners, LiveEvent, Machine, Walker, Zeroing
@@ -38,11 +37,13 @@ from station.records import (
     Walk,
     Workspace,
     because,
+    uid7,
 )
 from station.run_kinds import RUN_KINDS, RunKind, Start
+from station.service.clock_watch import ClockWatch
 from station.service.run import Run
 from station.settings import Settings
-from station.store import Store, request_hash
+from station.store import Store, request_hash, too_full
 
 __all__ = ["Busy", "InputRefused", "KeyReused", "LiveEvent", "NotFound", "Orchestrator", "Submitted"]
 
@@ -78,6 +79,7 @@ class Orchestrator:
         self._lock = Lock()
         self._run: Run | None = None
         self._last = store.last_on_rig()
+        self._clock = ClockWatch(store)
         self._closing = False
         self._queue: Queue[Run | None] = Queue()
         self._worker = Thread(target=self._work, name="orchestrator", daemon=True)
@@ -92,6 +94,7 @@ class Orchestrator:
         :raises KeyReused: the key came with another request.
         :raises InputRefused: the robot does not fit this station, or the station is shutting down.
         :raises NotApplicable: the offsets of the run it is about cannot be written or taken back.
+        :raises StoreUnavailable: it cannot be recorded, so nothing was started.
         """
         kind = self._kinds[request.kind]
         body_hash = request_hash(request)
@@ -106,10 +109,15 @@ class Orchestrator:
                 raise Busy(holder.id)
             if kind.procedure is None:
                 raise InputRefused(f"{display_name('run_kinds', kind.name)} is not carried out on the rig.")
+            if trouble := self.no_room():
+                raise StoreUnavailable(trouble)
             robot = self._robot(request.robot_serial)
             kind.check(self._store, request)
-            calibration_id = self._store.create(request, robot, key=idempotency_key, body_hash=body_hash)
-            run = Run(calibration_id, request, robot)
+            uid = uid7()
+            calibration_id = self._store.create(
+                request, robot, key=idempotency_key, body_hash=body_hash, uid=uid
+            )
+            run = Run(calibration_id, uid, request, robot)
             with self._lock:
                 self._run = run
         self._listeners.publish("run", run.brief())
@@ -131,6 +139,10 @@ class Orchestrator:
         serial = self._store.summary(calibration_id).robot_serial
         request = CalibrationRequest(serial, kind, operator, of=calibration_id)
         return self.submit(request, idempotency_key=idempotency_key)
+
+    def no_room(self) -> str | None:
+        """Why the disk is too full for a run; None when it is not."""
+        return too_full(self._store.path, self._settings.service.least_free_mb)
 
     def _robot(self, serial: str) -> Robot:
         """The kept robot file, else the paper's Table 1, checked against the drives' scaling."""
@@ -174,7 +186,7 @@ class Orchestrator:
         log.warning("Stop by %s: %s", who, trouble or "both axes confirmed")
         try:
             self._store.add_event(run.id if run else None, "stop", {"by": who, **trouble})
-        except sqlite3.Error:
+        except StoreUnavailable:
             log.exception("The stop could not be recorded")  # it was carried out all the same
         return outcome
 
@@ -242,29 +254,29 @@ class Orchestrator:
             self._machine.watch()
         except Exception:  # the worker must outlive whatever an idle device does
             log.exception("Looking at the idle machine failed")
+        self._store.repeat_ends()
+        self._clock.look()
 
     def _execute(self, run: Run) -> None:
         ending = self._perform(run)
         ending = self._bring_to_rest(run, ending)
+        run.state = self._store.finish(run.id, ending.state, ending.result, ending.reason)
         try:
-            run.state = self._store.finish(run.id, ending.state, ending.result, ending.reason)
             summary = self._store.summary(run.id)
-        except sqlite3.Error as error:
-            log.exception(
-                "The end of run %d could not be stored; the next start marks it interrupted", run.id
-            )
-            run.state = State.FAILED
-            summary = self._unstored(run, because("store_failed", text=str(error)))
+        except StoreUnavailable as error:
+            log.exception("The end of run %d cannot be read back", run.id)
+            summary = self._unread(run, because("store_failed", text=str(error)))
         with self._lock:
             self._last, self._run = summary, None
         run.ended.set()
         self._listeners.publish("ended", summary)
 
-    def _unstored(self, run: Run, reason: Reason) -> CalibrationSummary:
-        """How a run ended whose end the store did not take."""
+    def _unread(self, run: Run, reason: Reason) -> CalibrationSummary:
+        """How a run ended that the store does not give back."""
         brief = run.brief()
         return CalibrationSummary(
             id=run.id,
+            uid=run.uid,
             robot_serial=brief.robot_serial,
             kind=brief.kind,
             plan=brief.plan,
@@ -273,7 +285,7 @@ class Orchestrator:
             work_order=brief.work_order,
             state=run.state,
             verdict=None,
-            outcome="failed",
+            outcome="failed" if run.state is State.FAILED else None,
             step=brief.step,
             steps=brief.steps,
             started_at=brief.started_at,
@@ -290,7 +302,7 @@ class Orchestrator:
             return _Ending(State.ABORTED)
         except (DeviceError, StepFailed, InputRefused) as error:
             return _Ending(State.FAILED, because("step_failed", text=str(error)))
-        except sqlite3.Error as error:
+        except StoreUnavailable as error:
             log.exception("Run %d cannot be stored", run.id)
             return _Ending(State.FAILED, because("store_failed", text=str(error)))
         except Exception as error:  # the worker must outlive any mistake in a procedure

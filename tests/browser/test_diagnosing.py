@@ -12,7 +12,7 @@ from playwright.sync_api import Locator, Page, Route, expect
 
 from tests.browser.conftest import LARGE, ROOT, SMALL, Serve, Station
 from tests.browser.steps import add_run, violations
-from tests.station.diagnosis.machines import Emulated, to_csv
+from tests.station.simulated import Drawn, to_csv
 
 RIGS = ROOT / "drivers/emulated/rigs"
 FAST = 1000.0
@@ -161,7 +161,7 @@ def test_every_ordering_is_drawn_and_kept_in_the_address(page: Page, serve: Serv
 
 def test_an_ordering_chosen_before_the_drawing_has_come_is_drawn(page: Page, station: Station) -> None:
     """What draws comes with the first chart; until then several may have been asked for."""
-    walk = to_csv(Emulated({"kind": "backlash", "joint": 1, "width_deg": 0.02}).walk())
+    walk = to_csv(Drawn({"kind": "backlash", "joint": 1, "width_deg": 0.02}).walk())
     answer = station.api.post("/datasets", files={"file": ("walk.csv", walk)}).raise_for_status()
     held: list[Route] = []
     page.route("**/ordering-drawing-*.js", lambda route: held.append(route))

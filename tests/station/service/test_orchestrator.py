@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sqlite3
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -13,7 +12,7 @@ from typing import Any
 import pytest
 
 from drivers.errors import DeviceFault, LinkLost
-from station.errors import Busy, InputRefused, KeyReused, NotFound
+from station.errors import Busy, InputRefused, KeyReused, NotFound, StoreUnavailable
 from station.five_bar.robot_file import Robot
 from station.motion.events import LiveEvent
 from station.records import (
@@ -217,30 +216,13 @@ def test_a_store_that_takes_nothing_more_fails_the_run_and_stops_the_machine(
     start: Start, store: Store, rig: Rig, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def full(*_: object) -> None:
-        raise sqlite3.OperationalError("database or disk is full")
+        raise StoreUnavailable("database or disk is full")
 
     monkeypatch.setattr(store, "add_reading", full)
     state, _, reason = outcome(store, run_to_end(start()))
     assert state == "failed"
     assert "disk is full" in reason
     assert "axis 1 quick_stop" in rig.script.calls
-
-
-def test_an_end_that_cannot_be_stored_still_frees_the_rig(
-    start: Start, store: Store, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def full(*_: object) -> State:
-        raise sqlite3.OperationalError("database or disk is full")
-
-    orchestrator = start()
-    monkeypatch.setattr(store, "finish", full)
-    run = orchestrator.submit(REQUEST).id
-    assert orchestrator.wait(run, LIMIT_S) is State.RUNNING, "not stored, so the next start says interrupted"
-    last = orchestrator.snapshot().last
-    assert last is not None and last.state == "failed"
-    monkeypatch.undo()
-    assert outcome(store, run_to_end(orchestrator))[0] == "succeeded"
-    assert store.interrupt_unfinished() == [run]
 
 
 def test_a_mistake_in_a_procedure_is_a_failed_run(start: Start, store: Store, rig: Rig) -> None:

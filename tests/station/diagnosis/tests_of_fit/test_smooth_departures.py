@@ -19,14 +19,14 @@ from station.effects.backlash import Backlash
 from station.model.model import Fit
 from station.studies.confusion.kinds import OUTSIDE
 from station.studies.confusion.machines import draw
-from tests.station.diagnosis.machines import ROBOT, Emulated
+from tests.station.simulated import ROBOT, Drawn
 
 TIMES = 200
 
 
 @cache
 def clean() -> Fit:
-    return traced(ROBOT, Emulated(seed=8).walk()).last
+    return traced(ROBOT, Drawn(seed=8).walk()).last
 
 
 def with_residual(mm: np.ndarray) -> Rest:
@@ -107,7 +107,7 @@ def test_outside_the_catalogue_of_any_size(kind: str) -> None:
     ],
 )
 def test_the_best_rival_is_the_kind_that_is_there(effect: dict[str, Any], on: str) -> None:
-    machine = Emulated(effect, seed=5)
+    machine = Drawn(effect, seed=5)
     base = traced(ROBOT, machine.walk(), machine.fresh()).confirmations[0]
     assert min(rivals(base.rest), key=lambda r: r.score).on == on
 
@@ -115,14 +115,14 @@ def test_the_best_rival_is_the_kind_that_is_there(effect: dict[str, Any], on: st
 def test_three_slips_are_no_better_than_a_wandering() -> None:
     """A confirmed model must beat every rival: a small random walk is never confirmed as slips or drift."""
     for seed in range(20):
-        machine = Emulated({"kind": "random_walk", "mm_per_stop": 0.0006}, seed=seed)
+        machine = Drawn({"kind": "random_walk", "mm_per_stop": 0.0006}, seed=seed)
         found = traced(ROBOT, machine.walk(), machine.fresh())
         assert not (found.verdict == "explained" and found.confirmed)
 
 
 def test_small_true_play_is_confirmed() -> None:
     """A rival may not take away what a true cause of three times the noise explains."""
-    machine = Emulated({"kind": "backlash", "joint": 1, "width_deg": 0.002}, seed=6)
+    machine = Drawn({"kind": "backlash", "joint": 1, "width_deg": 0.002}, seed=6)
     found = traced(ROBOT, machine.walk(), machine.fresh())
     assert (found.verdict, found.confirmed) == ("explained", True)
     assert isinstance(found.trace.findings[0].term.effect, Backlash)
