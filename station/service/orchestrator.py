@@ -79,6 +79,7 @@ class Orchestrator:
         self._run: Run | None = None
         self._last = store.last_on_rig()
         self._closing = False
+        self._stop_records: list[Thread] = []
         self._queue: Queue[Run | None] = Queue()
         self._worker = Thread(target=self._work, name="orchestrator", daemon=True)
         self._worker.start()
@@ -158,10 +159,16 @@ class Orchestrator:
         else:
             self._store.summary(calibration_id)
 
+    @property
+    def axes(self) -> tuple[str, ...]:
+        """Names of what `stop` stops."""
+        return tuple(axis.name for axis in self._machine.devices.axes)
+
     def stop(self, who: str) -> dict[str, str | None]:
         """Quick stop of both axes, now, whatever else happens; a run that is under way is aborted.
 
-        Returns, by axis, None when it confirmed the stop, else what went wrong.
+        Returns, by axis, None when it confirmed the stop, else what went wrong.  The answer is that of the
+        drives; it is recorded afterwards.
         """
         return self._halt(self._run, who)
 
@@ -172,11 +179,22 @@ class Orchestrator:
         outcome = self._machine.quick_stop()
         trouble = {name: text for name, text in outcome.items() if text}
         log.warning("Stop by %s: %s", who, trouble or "both axes confirmed")
+        # Aside: a database that is locked must not keep the answer of the drives from anybody.
+        record = Thread(
+            target=self._record_stop,
+            args=(run.id if run else None, who, trouble),
+            name="record of a stop",
+            daemon=True,
+        )
+        self._stop_records = [thread for thread in self._stop_records if thread.is_alive()] + [record]
+        record.start()
+        return outcome
+
+    def _record_stop(self, run_id: int | None, who: str, trouble: dict[str, str]) -> None:
         try:
-            self._store.add_event(run.id if run else None, "stop", {"by": who, **trouble})
+            self._store.add_event(run_id, "stop", {"by": who, **trouble})
         except sqlite3.Error:
             log.exception("The stop could not be recorded")  # it was carried out all the same
-        return outcome
 
     def wait(self, calibration_id: int, timeout_s: float | None = None) -> State:
         """Until the run has ended or the time is over; its state then.  :raises NotFound:"""
@@ -196,6 +214,8 @@ class Orchestrator:
         self._worker.join(SHUTDOWN_LIMIT_S)
         if self._worker.is_alive():
             log.error("The worker hangs in a device; the run will be marked interrupted at the next start")
+        for record in self._stop_records:
+            record.join(SHUTDOWN_LIMIT_S)
         self._machine.close()
 
     # Watching ------------------------------------------------------------------------------------
