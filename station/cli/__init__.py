@@ -26,6 +26,7 @@ _COMMANDS = {
     "plan": ("plan", "The positions of a plan, their order and the accuracy they predict."),
     "real-robot": ("real_robot", "The closed loop on logs of a real arm, as figures and drawings."),
     "reproduce": ("studies", "The paper's tables and figures, computed again beside ours."),
+    "retract": ("apply", "Bring the arm back into its workspace, slowly."),
     "rollback": ("apply", "Put the zeros back that the drives had before a run was applied."),
     "runs": ("history", "The runs, newest first."),
     "serve": ("serve", "The service with the operator's page."),

@@ -6,6 +6,7 @@ from station.motion.devices import Devices, build_devices
 from station.motion.emulated_rig import EmulatedRig
 from station.motion.events import Listener, Listeners, LiveEvent
 from station.motion.machine import Machine
+from station.motion.retracting import Retracting
 from station.motion.walker import Cancelled, Walker
 from station.motion.zero_writer import Zeroing, shift_of
 
@@ -17,6 +18,7 @@ __all__ = [
     "Listeners",
     "LiveEvent",
     "Machine",
+    "Retracting",
     "Walker",
     "Zeroing",
     "build_devices",

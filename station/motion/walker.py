@@ -46,15 +46,24 @@ class Walker:
     _origin: tuple[float, float] | None = None
     """Scale and nominal distance at the first reading: what travel is counted from."""
 
-    def prepare(self) -> None:
+    @property
+    def theta_deg(self) -> Angles:
+        """Where the joints stood at the last look."""
+        return self._theta
+
+    def prepare(self, *, from_outside: bool = False) -> None:
         """Connect, reset, enable, look, and check every interlock.
 
+        :param from_outside: only what it takes to bring the arm back into the workspace
         :raises DeviceError: naming what is missing or forbids to start.
         """
         self.machine.robot, self.machine.compensation_deg = self.robot, (0.0, 0.0)
-        self.machine.connect_missing()
+        self.machine.connect_missing(axes_only=from_outside)
         self.check_cancel()
         self.machine.ready_axes()
+        if from_outside:
+            self._theta = self._feedback()
+            return
         self.look()
         broken = [f"{lock.text}: {lock.detail}" for lock in self.machine.interlocks() if not lock.ok]
         if broken:
@@ -86,8 +95,15 @@ class Walker:
         check_way(self.robot, self.joints, self.machine.limits, stop, [self._theta, *way])
         self.machine.compensation_deg = self._compensation(stop)
         for target in way:
-            self._go(stop, target)
+            self._go(stop, target, self.machine.limits.speed_deg_s)
         self._pause(self.machine.limits.settle_s)
+
+    def go(self, stop: Stop, speed_deg_s: float, *, scale: bool) -> None:
+        """Straight there at a speed, without a check of limits.  :raises: as `measure`
+
+        :param scale: whether the scale is watched on the way
+        """
+        self._go(stop, stop.theta_deg, speed_deg_s, scale=scale)
 
     # The way --------------------------------------------------------------------------------------
 
@@ -111,18 +127,17 @@ class Walker:
 
     # Motion ---------------------------------------------------------------------------------------
 
-    def _go(self, stop: Stop, target: Angles) -> None:
+    def _go(self, stop: Stop, target: Angles, speed: float, *, scale: bool = True) -> None:
         """Both joints at once, so timed that they arrive together."""
         start = self._theta
         travel = [abs(end - begin) for begin, end in zip(start, target, strict=True)]
         longest = max(travel)
-        speed = self.machine.limits.speed_deg_s
         for axis, angle, distance in zip(self.machine.devices.axes, target, travel, strict=True):
             self.check_cancel()
             share = speed * distance / longest if longest else speed
             with self.machine.using(axis):
                 axis.move_to(angle, max(share, min(speed, _SLOWEST_DEG_S)))
-        self._wait_in_position(stop, start, target, longest / speed + _ARRIVAL_MARGIN_S)
+        self._wait_in_position(stop, start, target, longest / speed + _ARRIVAL_MARGIN_S, scale)
         theta = self._feedback()
         for joint in (0, 1):
             if not abs(theta[joint] - target[joint]) <= self.machine.limits.feedback_deg:
@@ -136,7 +151,9 @@ class Walker:
         )
         self._theta = theta
 
-    def _wait_in_position(self, stop: Stop, start: Angles, target: Angles, limit_s: float) -> None:
+    def _wait_in_position(
+        self, stop: Stop, start: Angles, target: Angles, limit_s: float, scale: bool
+    ) -> None:
         deadline = time.monotonic() + limit_s
         next_look = time.monotonic() + _LOOK_S
         while True:
@@ -151,7 +168,7 @@ class Walker:
                     f"{sentence(names)} did not reach position {stop.position} within {limit_s:.1f} s."
                 )
             if time.monotonic() > next_look:
-                self._check_corridor(stop, start, target)
+                self._check_corridor(stop, start, target, scale)
                 next_look = time.monotonic() + _LOOK_S
             self._wait(_POLL_S)
 
@@ -166,9 +183,9 @@ class Walker:
             raise StepFailed(f"{sentence(axis.name)} lost its power on the way to position {stop.position}.")
         return status.in_position and not status.moving
 
-    def _check_corridor(self, stop: Stop, start: Angles, target: Angles) -> None:
+    def _check_corridor(self, stop: Stop, start: Angles, target: Angles, scale: bool) -> None:
         """Each joint stays between where it came from and where it goes; the scale keeps reading."""
-        theta = self.machine.look().theta_deg
+        theta = self.machine.look().theta_deg if scale else self._feedback()
         room = self.machine.limits.corridor_deg
         for joint in (0, 1):
             low, high = sorted((start[joint], target[joint]))

@@ -21,25 +21,37 @@ from drivers.errors import DeviceError
 from station.errors import Busy, InputRefused, KeyReused, NotFound, StepFailed
 from station.five_bar import Robot
 from station.messages import display_name
-from station.motion import Cancelled, Devices, Listener, Listeners, LiveEvent, Machine, Walker, Zeroing
+from station.motion import (
+    Cancelled,
+    Devices,
+    Listener,
+    Listeners,
+    LiveEvent,
+    Machine,
+    Retracting,
+    Walker,
+    Zeroing,
+)
 from station.plans import PLANS
 from station.records import (
     CalibrationRequest,
     CalibrationResult,
     CalibrationSummary,
-    Procedure,
     Reading,
     Reason,
+    Retract,
     SetZeros,
     State,
     StationInfo,
     StationView,
+    Step,
     Submitted,
     Walk,
     Workspace,
     because,
 )
 from station.run_kinds import RUN_KINDS, RunKind, Start
+from station.service.procedures import follow_procedure
 from station.service.run import Run
 from station.settings import Settings
 from station.store import Store, request_hash
@@ -78,6 +90,8 @@ class Orchestrator:
         self._lock = Lock()
         self._run: Run | None = None
         self._last = store.last_on_rig()
+        if self._last is not None:
+            self._machine.robot = store.robot_or_nominal(self._last.robot_serial)
         self._closing = False
         self._stop_records: list[Thread] = []
         self._queue: Queue[Run | None] = Queue()
@@ -131,6 +145,14 @@ class Orchestrator:
             return Submitted(done, created=False)
         serial = self._store.summary(calibration_id).robot_serial
         request = CalibrationRequest(serial, kind, operator, of=calibration_id)
+        return self.submit(request, idempotency_key=idempotency_key)
+
+    def retract(self, operator: str, *, idempotency_key: str | None = None) -> Submitted:
+        """Start a run that brings the arm back into the workspace of the robot measured last.
+
+        :raises: as `submit`.
+        """
+        request = CalibrationRequest(self._machine.robot.serial, "retract", operator)
         return self.submit(request, idempotency_key=idempotency_key)
 
     def _robot(self, serial: str) -> Robot:
@@ -240,6 +262,7 @@ class Orchestrator:
             interlocks=self._machine.interlocks(),
             machine=self._machine.view(),
             workspace=Workspace(x=robot.workspace_x, y=robot.workspace_y),
+            retract=self._machine.retract(),
             run=run.view() if run else None,
             last=last,
         )
@@ -267,7 +290,8 @@ class Orchestrator:
         ending = self._perform(run)
         ending = self._bring_to_rest(run, ending)
         try:
-            run.state = self._store.finish(run.id, ending.state, ending.result, ending.reason)
+            judged = self._kinds[run.request.kind].judged
+            run.state = self._store.finish(run.id, ending.state, ending.result, ending.reason, judged)
             summary = self._store.summary(run.id)
         except sqlite3.Error as error:
             log.exception(
@@ -316,6 +340,8 @@ class Orchestrator:
         except Exception as error:  # the worker must outlive any mistake in a procedure
             log.exception("Run %d failed unexpectedly", run.id)
             return _Ending(State.FAILED, because("unexpected", type=type(error).__name__, text=str(error)))
+        if not self._kinds[run.request.kind].judged:
+            return _Ending(State.SUCCEEDED, result.reason)
         return _Ending(State.SUCCEEDED, result.reason, result)
 
     def _bring_to_rest(self, run: Run, ending: _Ending) -> _Ending:
@@ -344,16 +370,24 @@ class Orchestrator:
         walker = Walker(
             self._machine, run.robot, self._settings.joints, run.cancel, time.monotonic() - elapsed_s
         )
-        walker.prepare()
+        walker.prepare(from_outside=kind.from_outside)
         zeroing = Zeroing(run.id, self._machine, walker, self._store)
         zeroing.settle()
         procedure = kind.procedure(Start(self._store, run.request, run.robot))
 
-        def carry_out(step: Walk | SetZeros) -> Any:
-            return self._walk(run, walker, step) if isinstance(step, Walk) else self._set(run, zeroing, step)
+        def carry_out(step: Step) -> Any:
+            match step:
+                case Walk():
+                    return self._walk(run, walker, step)
+                case SetZeros():
+                    self._begin(run, step)
+                    return zeroing.carry_out(step)
+                case Retract():
+                    self._begin(run, step)
+                    return Retracting(self._machine, walker).carry_out()
 
         try:
-            result = _follow(procedure, carry_out)
+            result = follow_procedure(procedure, carry_out)
         finally:
             procedure.close()
         self._listeners.publish("residuals", run.add_result(result))
@@ -368,10 +402,10 @@ class Orchestrator:
         run.inherit(len(earlier.readings))
         return max(earlier.elapsed_s, earlier.readings[-1].t_s / self._machine.devices.speed)
 
-    def _set(self, run: Run, zeroing: Zeroing, step: SetZeros) -> tuple[float, float]:
+    def _begin(self, run: Run, step: SetZeros | Retract) -> None:
+        """A step without readings."""
         self._listeners.publish("walk", run.begin_walk(Walk(step.title, step.number, ())))
         self._listeners.publish("run", run.brief())
-        return zeroing.carry_out(step)
 
     def _walk(self, run: Run, walker: Walker, walk: Walk) -> list[Reading]:
         self._listeners.publish("walk", run.begin_walk(walk))
@@ -401,22 +435,3 @@ def _with_doubt(reason: Reason | None, doubt: str | None) -> Reason | None:
         return reason
     said = [reason.text] if reason else []
     return because("step_failed", text=" ".join([*said, doubt]))
-
-
-def _follow(procedure: Procedure, carry_out: Callable[[Walk | SetZeros], Any]) -> CalibrationResult:
-    """Step by step to the result.
-
-    What a step fails with is raised in the procedure, which may have a way back.
-    """
-    try:
-        step = next(procedure)
-        while True:
-            try:
-                answer = carry_out(step)
-            except (DeviceError, StepFailed) as error:
-                step = procedure.throw(error)
-            else:
-                step = procedure.send(answer)
-    except StopIteration as end:
-        result: CalibrationResult = end.value
-        return result

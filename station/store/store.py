@@ -152,11 +152,14 @@ class Store(Memories, ZeroJournal):
         state: State,
         result: CalibrationResult | None = None,
         reason: Reason | None = None,
+        judged: bool = True,
     ) -> State:
         """End a calibration, once: the first end stands.  Returns the state that is now stored.
 
         It fails closed: a result with a number that is not finite, or one of a run that did not
         succeed, is never kept as a pass.  What a pass leaves to the next run is kept with it.
+
+        :param judged: False for a run that says nothing about a robot: it has no verdict and no result
         """
         verdict: str | None = None
         outcome: str | None = state.value
@@ -169,6 +172,8 @@ class Store(Memories, ZeroJournal):
                 result = _without_numbers(result)
             elif state is not State.SUCCEEDED:
                 verdict, outcome = None, state.value
+        elif state is State.SUCCEEDED and not judged:
+            outcome = "good"
         elif state is State.SUCCEEDED:
             state, outcome, reason = State.FAILED, "failed", reason or because("no_result")
         with self._writing() as db:

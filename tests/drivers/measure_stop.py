@@ -17,6 +17,7 @@ import threading
 import time
 import tty
 from collections.abc import Callable
+from contextlib import suppress
 
 from drivers.driver import Drive
 from drivers.errors import DeviceError
@@ -112,10 +113,8 @@ def _measure(name: str, url: str, seen: list[_Seen], times: int) -> None:
 
 
 def _quietly(call: Callable[[], object]) -> None:
-    try:
+    with suppress(DeviceError):
         call()
-    except DeviceError:
-        pass
 
 
 def main(times: int) -> None:

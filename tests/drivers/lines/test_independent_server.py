@@ -6,6 +6,7 @@ import asyncio
 import logging
 import threading
 from collections.abc import Iterator
+from typing import Any
 
 import pytest
 from pymodbus.server import ModbusTcpServer
@@ -29,14 +30,15 @@ def url() -> Iterator[str]:
     async def started() -> tuple[ModbusTcpServer, int]:
         server = ModbusTcpServer(drives, address=("127.0.0.1", 0))
         await server.serve_forever(background=True)
-        assert server.transport is not None
-        return server, server.transport.sockets[0].getsockname()[1]
+        listening: Any = server.transport
+        return server, int(listening.sockets[0].getsockname()[1])
 
     thread = threading.Thread(target=loop.run_forever)
     thread.start()
     server, port = asyncio.run_coroutine_threadsafe(started(), loop).result(5)
     yield f"modbus+tcp://127.0.0.1:{port}"
-    asyncio.run_coroutine_threadsafe(server.shutdown(), loop).result(5)
+    ended = server.shutdown()  # type: ignore[no-untyped-call]
+    asyncio.run_coroutine_threadsafe(ended, loop).result(5)
     loop.call_soon_threadsafe(loop.stop)
     thread.join()
     loop.close()

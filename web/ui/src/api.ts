@@ -67,6 +67,12 @@ export const rollBack = (id: number, operator: string) =>
     body: JSON.stringify({ operator }),
   });
 
+export const retract = (operator: string, key: string) =>
+  call<Summary>("POST", "/retract", {
+    headers: { "Content-Type": "application/json", "Idempotency-Key": key },
+    body: JSON.stringify({ operator }),
+  });
+
 export const robot = (serial: string) => call<Robot>("GET", `/robots/${encodeURIComponent(serial)}`);
 
 export const forget = (serial: string, who: string) =>
