@@ -16,6 +16,7 @@ from web.routes import (
     calibrations,
     datasets,
     diagnoses,
+    emulator,
     health,
     live,
     readings,
@@ -50,7 +51,7 @@ def create_app(runtime: Runtime, *, static: Path = pages.STATIC) -> FastAPI:
     )
     app.state.runtime = runtime
     app.state.feed = LiveFeed(runtime.orchestrator, build=pages.build_id(static))
-    for module in (station, calibrations, datasets, diagnoses, readings, retract, robots, stop):
+    for module in (station, calibrations, datasets, diagnoses, emulator, readings, retract, robots, stop):
         app.include_router(module.router, prefix="/api/v1")
     app.include_router(live.router, prefix="/api/v1")
     app.include_router(health.router)

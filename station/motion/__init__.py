@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from station.motion.devices import Devices, build_devices
 from station.motion.emulated_rig import EmulatedRig
+from station.motion.emulated_rig import FaultOrder as FaultOrder
 from station.motion.events import Listener, Listeners, LiveEvent
 from station.motion.machine import Machine
 from station.motion.retracting import Retracting
@@ -14,6 +15,7 @@ __all__ = [
     "Cancelled",
     "Devices",
     "EmulatedRig",
+    "FaultOrder",
     "Listener",
     "Listeners",
     "LiveEvent",

@@ -28,6 +28,8 @@ class Runtime:
     store: Store
     orchestrator: Orchestrator
     _closing: ExitStack
+    rig: EmulatedRig | None = None
+    """The emulated machine; None with real devices."""
 
     @classmethod
     def open(cls, settings: Settings, home: Path, emulate: Path | None = None) -> Self:
@@ -44,6 +46,7 @@ class Runtime:
                 log.warning("Run %d was cut off by the last stop of the station: interrupted", calibration_id)
             emulated = emulate is not None or settings.scale is None
             speed = 1.0
+            rig: EmulatedRig | None = None
             if emulated:
                 rig = EmulatedRig(
                     emulate or settings.emulated.rig, home / "emulated-rig.json", settings.emulated.speed
@@ -54,7 +57,7 @@ class Runtime:
 
             orchestrator = Orchestrator(devices, store, settings)
             opened.callback(orchestrator.shutdown)
-            return cls(settings, home, store, orchestrator, opened.pop_all())
+            return cls(settings, home, store, orchestrator, opened.pop_all(), rig)
 
     def close(self) -> None:
         """Abort what runs, make the machine safe, release everything.  Twice is harmless."""
