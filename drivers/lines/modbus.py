@@ -123,11 +123,13 @@ class ModbusBus:
 
         self._write(write_request(unit, address, values), stops_seen)
 
-    def stop(self, unit: int, address: int, value: int, *, look_at: int) -> None:
-        """One register (function 06) that stops a drive, past all that wait; sent again until confirmed.
+    def stop(self, unit: int, address: int, value: int | Sequence[int], *, look_at: int) -> None:
+        """A write that stops a drive, past all that wait; sent again until confirmed.
+
+        One register goes out with function 06, several with 10h; as many are read from `look_at` on.
 
         Stopping twice is stopping.  The reply to function 06 is a copy of the request, which an adapter
-        that echoes gives too, so the drive's register `look_at` has to be readable as well.
+        that echoes gives too, so the drive's registers at `look_at` have to be readable as well.
 
         :raises DeviceFault: the drive refuses
         :raises LinkLost: no attempt was confirmed
@@ -135,7 +137,10 @@ class ModbusBus:
         with self._sending:  # no write that was decided before this can be sent after it
             self._stops += 1
         try:
-            self._stop(write_one_request(unit, address, value), read_request(unit, look_at, 1))
+            if isinstance(value, int):
+                self._stop(write_one_request(unit, address, value), read_request(unit, look_at, 1))
+            else:
+                self._stop(write_request(unit, address, value), read_request(unit, look_at, len(value)))
         finally:
             with self._owning:
                 if not self._owners:
