@@ -53,6 +53,7 @@ class EL7Drive:
         self.frozen = False
         """While true, the feedback does not change."""
         self._frozen_pulses: int | None = None
+        self._lost_pulses = 0
 
     def raise_alarm(self, code: int = 0) -> None:
         """Stop and show an alarm; 0 is that of a following error."""
@@ -62,12 +63,19 @@ class EL7Drive:
     def lose_counts(self) -> None:
         """The encoder has missed pulses: from now on it counts from elsewhere."""
         self._axis.zero_pulses += _LOST_PULSES
+        self._lost_pulses += _LOST_PULSES
 
     def reboot(self) -> None:
         """As after a power cut: switched off, stopped, and counting from where it stands."""
         self._machine.quick_stop(self._joint)
         self._registers[_DIGITAL_INPUT_1] = _PARAMETERS[_DIGITAL_INPUT_1]
+        self._lost_pulses += self._axis.feedback_pulses()
         self._axis.declare_zero()
+
+    def find_reference(self) -> None:
+        """What was lost is found again, as after homing."""
+        self._axis.zero_pulses -= self._lost_pulses
+        self._lost_pulses = 0
 
     def answer(self, request: bytes) -> bytes:
         """The reply PDU, an exception included."""
@@ -132,6 +140,7 @@ class EL7Drive:
             if self._axis.moving:
                 return ILLEGAL_VALUE
             self._machine.declare_zero(self._joint)
+            self._lost_pulses = 0
         elif value:
             return ILLEGAL_VALUE
         return 0

@@ -129,6 +129,11 @@ class Orders:
             self._left = [1 if o.kind in EVENTS and o.count is None else o.count for o in self._given]
             self._since_s = self._clock()
 
+    def hold(self, kinds: Iterable[Kind], *devices: Device) -> bool:
+        """Whether one of these kinds is ordered for one of the devices, due or not."""
+        with self._lock:
+            return any(order.kind in kinds and order.device in devices for order in self._given)
+
     def due(self, kind: Kind, *devices: Device) -> FaultOrder | None:
         """An occasion for `kind` has come: the order that spoils it, one occasion of it used up."""
         with self._lock:

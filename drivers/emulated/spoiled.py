@@ -16,6 +16,7 @@ _SLAVE_BUSY = 0x06
 _NOISE = bytes.fromhex("00ff55aa")
 _VALUE = re.compile(rb"[+-][ 0-9.]{10} .. \r\n|[+-][ 0-9.]{10} ...\r\n")
 _ALARMS: tuple[Kind, ...] = ("alarm", "following_error")
+_LOSSES: tuple[Kind, ...] = ("lost_counts", "reboot")
 _UNIT_OF_VALUE, _FAULT, _INCH = 12, b"?", b'"'
 
 
@@ -49,6 +50,8 @@ class SpoiledDrive:
         return reply
 
     def _change_drive(self) -> None:
+        if not self._orders.hold(_LOSSES, self._own, "line"):
+            self._drive.find_reference()
         for kind in _ALARMS:
             if alarmed := self._due(kind):
                 self._drive.raise_alarm(alarmed.code)

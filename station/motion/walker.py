@@ -24,6 +24,8 @@ _LOOK_S = 0.25
 _ARRIVAL_MARGIN_S = 3.0
 _SLOWEST_DEG_S = 1.0
 _DIGITS = 9
+_FROZEN_MM = 1e-6
+_MOVED_MM = 5.0
 _STILL_DEG = 0.004
 """Two pulses: less is no motion that could have a direction."""
 
@@ -45,6 +47,8 @@ class Walker:
     _direction: tuple[int, int] = (0, 0)
     _origin: tuple[float, float] | None = None
     """Scale and nominal distance at the first reading: what travel is counted from."""
+    _before: tuple[float, float] | None = None
+    """The same at the reading before."""
 
     @property
     def theta_deg(self) -> Angles:
@@ -72,7 +76,7 @@ class Walker:
     def look(self) -> None:
         """Where the joints stand now, in the frames of their drives as they are now.  :raises DeviceError:"""
         self._theta = self.machine.look().theta_deg
-        self._origin = None
+        self._origin = self._before = None
 
     def measure(self, stop: Stop, number: int, walk: int) -> Reading:
         """Go there and read.
@@ -230,9 +234,20 @@ class Walker:
         return angles[0], angles[1]
 
     def _check_travel(self, stop: Stop, number: int, scale_mm: float, theta: Angles) -> None:
-        """The scale must have moved about as far as the joints say: a rod that slipped does not."""
+        """The scale must have moved about as far as the joints say: a rod that slipped does not.
+
+        And it must have moved at all: a readout that froze goes on to answer.
+        """
         geometry = self.robot.geometry
         distance = float(abs(forward(geometry, np.radians(np.array([theta])))[0] - geometry.cd))
+        if self._before is not None:
+            stood = abs(scale_mm - self._before[0]) < _FROZEN_MM
+            if stood and abs(distance - self._before[1]) > _MOVED_MM:
+                raise StepFailed(
+                    f"Reading {number} at position {stop.position} is implausible: the scale shows"
+                    f" {scale_mm:.4f} mm as before, although the joints moved; check its display and its rod."
+                )
+        self._before = (scale_mm, distance)
         if self._origin is None:
             self._origin = (scale_mm, distance)
         doubt = (scale_mm - self._origin[0]) - (distance - self._origin[1])

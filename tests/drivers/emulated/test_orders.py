@@ -149,6 +149,8 @@ def test_alarm_reboot_and_lost_counts(rig: EmulatedRig) -> None:
     order(rig, "reboot", "axis1", count=None)
     assert not axis.status().enabled
     assert axis.feedback_deg() == 0.0
+    rig.orders.replace([])
+    assert axis.feedback_deg() == 0.0  # homed again, and it has not moved
     axis.close()
 
 

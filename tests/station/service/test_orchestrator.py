@@ -673,3 +673,23 @@ def test_an_idle_station_watches_its_machine_and_gets_lost_devices_back(
 
     until(orchestrator, lambda s: told()[-1] == s.interlocks)
     assert all(before != after for before, after in pairwise(told()))
+
+
+def test_a_readout_that_froze_is_named_at_the_next_reading(start: Start, store: Store, rig: Rig) -> None:
+    frozen: list[float] = []
+
+    def freeze() -> None:
+        frozen.append(rig.scale.offset_mm)
+        rig.scale.noise_mm = lambda: 12.5 - true_mm()
+
+    def true_mm() -> float:
+        noise, rig.scale.noise_mm = rig.scale.noise_mm, lambda: 0.0
+        rig.script.faults.clear()
+        value = rig.scale.read_mm()
+        rig.scale.noise_mm = noise
+        return value
+
+    rig.script.do("axis 1 move_to", freeze, at=1)
+    state, _, reason = outcome(store, run_to_end(start()))
+    assert state == "failed"
+    assert "Reading 2 at position p2 is implausible: the scale shows 12.5000 mm as before" in reason
