@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import statistics
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from threading import Event
 
@@ -48,7 +49,7 @@ class Walker:
     _origin: tuple[float, float] | None = None
     """Scale and nominal distance at the first reading: what travel is counted from."""
     _before: tuple[float, float] | None = None
-    """The same at the reading before."""
+    """The last sample of the reading before, and its nominal distance."""
 
     @property
     def theta_deg(self) -> Angles:
@@ -88,7 +89,8 @@ class Walker:
         self.stand_at(stop)
         samples, theta = self._samples(stop, number)
         scale_mm = round(statistics.fmean(samples), _DIGITS)
-        self._check_travel(stop, number, scale_mm, theta)
+        self._check_stands(stop, theta)
+        self._check_travel(stop, number, samples, theta)
         t_s = round((time.monotonic() - self.started) * self.machine.devices.speed, 3)
         self.machine.moved(theta, scale_mm)
         return Reading(number, t_s, theta, self._direction, scale_mm, stop.position, walk, tuple(samples))
@@ -233,21 +235,34 @@ class Walker:
                 angles.append(axis.feedback_deg())
         return angles[0], angles[1]
 
-    def _check_travel(self, stop: Stop, number: int, scale_mm: float, theta: Angles) -> None:
+    def _check_stands(self, stop: Stop, theta: Angles) -> None:
+        """Both drives have held their position while the scale was read: one that restarted has not."""
+        for axis in self.machine.devices.axes:
+            self._arrived(stop, axis)
+        for joint in (0, 1):
+            if not abs(theta[joint] - stop.theta_deg[joint]) <= self.machine.limits.feedback_deg:
+                raise StepFailed(
+                    f"While position {stop.position} was read, joint {joint + 1} came to stand at"
+                    f" {theta[joint]:.4f} deg instead of {stop.theta_deg[joint]:.4f};"
+                    " has its drive restarted?"
+                )
+
+    def _check_travel(self, stop: Stop, number: int, samples: Sequence[float], theta: Angles) -> None:
         """The scale must have moved about as far as the joints say: a rod that slipped does not.
 
         And it must have moved at all: a readout that froze goes on to answer.
         """
         geometry = self.robot.geometry
         distance = float(abs(forward(geometry, np.radians(np.array([theta])))[0] - geometry.cd))
+        scale_mm = statistics.fmean(samples)
         if self._before is not None:
-            stood = abs(scale_mm - self._before[0]) < _FROZEN_MM
+            stood = abs(samples[0] - self._before[0]) < _FROZEN_MM
             if stood and abs(distance - self._before[1]) > _MOVED_MM:
                 raise StepFailed(
                     f"Reading {number} at position {stop.position} is implausible: the scale shows"
                     f" {scale_mm:.4f} mm as before, although the joints moved; check its display and its rod."
                 )
-        self._before = (scale_mm, distance)
+        self._before = (samples[-1], distance)
         if self._origin is None:
             self._origin = (scale_mm, distance)
         doubt = (scale_mm - self._origin[0]) - (distance - self._origin[1])
