@@ -1,8 +1,8 @@
 """Run an emulated rig: `python -m drivers.emulated RIG.toml [--speed X] [--state FILE]`.
 
 One JSON line on standard output tells the addresses; the rig runs until standard input ends (so it
-never outlives whoever started it) or until it is terminated.  A line of standard input is a JSON list of
-faults that replaces those ordered before; one line on standard output answers it.
+never outlives whoever started it) or until it is terminated.  A line of standard input is JSON with
+`faults` or `effects` that replace those ordered before; one line on standard output answers it.
 """
 
 from __future__ import annotations
@@ -13,11 +13,21 @@ import signal
 import sys
 from pathlib import Path
 
-from pydantic import ValidationError
+from pydantic import BaseModel, ConfigDict, ValidationError
 
-from drivers.emulated.orders import ORDERS
+from drivers.emulated.imperfections import AnyEffect
+from drivers.emulated.orders import FaultOrder
 from drivers.emulated.rig import EmulatedRig, StateFileError
 from drivers.emulated.rig_file import DEFAULT_RIG, RigFileError, load_rig
+
+
+class Order(BaseModel):
+    """A line of standard input: what replaces what was ordered before; what is not given stays."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    faults: tuple[FaultOrder, ...] | None = None
+    effects: tuple[AnyEffect, ...] | None = None
 
 
 def main() -> int:
@@ -43,14 +53,18 @@ def main() -> int:
 
 
 def _ordered(rig: EmulatedRig, line: str) -> str:
-    """Carry out one line of standard input, a list of faults, and say what is ordered now."""
+    """Carry out one line of standard input, and say what is ordered now."""
     try:
-        rig.orders.replace(ORDERS.validate_json(line))
+        order = Order.model_validate_json(line)
     except ValidationError as error:
         first = error.errors()[0]
         where = " ".join(str(part) for part in first["loc"])
         return json.dumps({"error": f"{where}: {first['msg'].removeprefix('Value error, ')}"})
-    return json.dumps({"faults": ORDERS.dump_python(rig.orders.given, mode="json")})
+    if order.faults is not None:
+        rig.orders.replace(order.faults)
+    if order.effects is not None:
+        rig.machine.replace_effects(order.effects)
+    return order.model_dump_json()
 
 
 def _positive(text: str) -> float:

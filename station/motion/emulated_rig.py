@@ -16,6 +16,8 @@ from queue import Empty, Queue
 from threading import Lock, Thread
 from typing import IO
 
+from pydantic import JsonValue
+
 from drivers.emulated.orders import ORDERS
 from drivers.emulated.orders import FaultOrder as FaultOrder
 from station.errors import InputRefused
@@ -26,6 +28,10 @@ log = logging.getLogger(__name__)
 _START_LIMIT_S = 20.0
 _END_LIMIT_S = 3.0
 _ORDER_LIMIT_S = 5.0
+
+
+EffectTable = dict[str, JsonValue]
+"""`kind` and the fields of that kind."""
 
 
 class EmulatedRig:
@@ -42,6 +48,8 @@ class EmulatedRig:
         self.speed = speed
         self.faults: tuple[FaultOrder, ...] = ()
         """As ordered last while it runs."""
+        self.effects: tuple[EffectTable, ...] = ()
+        """Likewise; those of the rig file are not listed."""
         self._ordering = Lock()
         state_file.parent.mkdir(parents=True, exist_ok=True)
         command = [sys.executable, "-m", "drivers.emulated"]
@@ -80,18 +88,31 @@ class EmulatedRig:
 
         :raises InputRefused: the rig does not take them, or does not answer.
         """
+        given = ORDERS.dump_python(tuple(faults), mode="json")
+        self.faults = ORDERS.validate_python(self._order("faults", given))
+        return self.faults
+
+    def order_effects(self, effects: Sequence[EffectTable]) -> tuple[EffectTable, ...]:
+        """These imperfections of the machine and no others from now on, as `[[effect]]` of a rig file.
+
+        :raises InputRefused: as `order`.
+        """
+        self.effects = tuple(self._order("effects", list(effects)))
+        return self.effects
+
+    def _order(self, what: str, tables: list[EffectTable]) -> list[EffectTable]:
         assert self._process.stdin is not None
         with self._ordering:
             try:
-                self._process.stdin.write(ORDERS.dump_json(tuple(faults)).decode() + "\n")
+                self._process.stdin.write(json.dumps({what: tables}) + "\n")
                 self._process.stdin.flush()
                 answer = json.loads(self._lines.get(timeout=_ORDER_LIMIT_S))
             except (OSError, Empty, json.JSONDecodeError) as error:
                 raise InputRefused("The emulated rig does not answer; start the station again.") from error
-            if "error" in answer:
-                raise InputRefused(f"The emulated rig refuses the faults: {answer['error']}.")
-            self.faults = ORDERS.validate_python(answer["faults"])
-        return self.faults
+        if "error" in answer:
+            raise InputRefused(f"The emulated rig refuses the {what}: {answer['error']}.")
+        ordered: list[EffectTable] = answer[what]
+        return ordered
 
     def settings(self, settings: Settings) -> Settings:
         """The same station with its devices at this rig's addresses."""

@@ -38,6 +38,18 @@ def test_faults_are_ordered_and_taken_back(service: Service, rig: EmulatedRig) -
     assert service.client.put(URL, json=[]).json() == []
 
 
+def test_effects_of_the_machine_are_ordered(service: Service, rig: EmulatedRig) -> None:
+    service.runtime.rig = rig
+    url = "/api/v1/emulator/effects"
+    answer = service.client.put(url, json=[{"kind": "backlash", "joint": 1, "width_deg": 0.05}])
+    assert answer.status_code == 200, answer.json()
+    assert answer.json()[0]["width_deg"] == 0.05
+    assert service.client.get(url).json() == answer.json()
+    refused = service.client.put(url, json=[{"kind": "tired"}])
+    assert (refused.status_code, "refuses the effects" in refused.json()["detail"]) == (422, True)
+    assert service.client.put(url, json=[]).json() == []
+
+
 @pytest.mark.parametrize(
     "order",
     [{"device": "scale", "kind": "alarm"}, {"device": "scale"}, {**JUMP, "mm": "far"}, {**JUMP, "x": 1}],

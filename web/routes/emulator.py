@@ -5,7 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter
 from starlette.exceptions import HTTPException
 
-from station.motion import EmulatedRig, FaultOrder
+from station.motion import EffectTable, EmulatedRig, FaultOrder
 from web.problems import documented
 from web.routes.parts import TheRuntime
 
@@ -26,6 +26,18 @@ def order_faults(body: list[FaultOrder], runtime: TheRuntime) -> list[FaultOrder
     `lost_counts`, `reboot`, `alarm`, `following_error`), which happen once.
     """
     return list(_rig(runtime).order(body))
+
+
+@router.get("/effects", response_model=list[EffectTable], responses=documented(404))
+def read_effects(runtime: TheRuntime) -> list[EffectTable]:
+    """Imperfections ordered while the machine runs; those of its rig file are not listed."""
+    return list(_rig(runtime).effects)
+
+
+@router.put("/effects", response_model=list[EffectTable], responses=documented(404))
+def order_effects(body: list[EffectTable], runtime: TheRuntime) -> list[EffectTable]:
+    """These imperfections of the machine and no others from now on, as `[[effect]]` of a rig file."""
+    return list(_rig(runtime).order_effects(body))
 
 
 def _rig(runtime: TheRuntime) -> EmulatedRig:
