@@ -222,13 +222,12 @@ def test_a_stop_does_not_trust_an_old_connection() -> None:
         bus.release("test")
 
 
-@pytest.mark.parametrize("unit", [1, 2])
-def test_an_echo_never_confirms_a_stop(unit: int) -> None:
+def test_an_echo_never_confirms_a_stop() -> None:
     """Function 06 is answered by a copy of the request, and an adapter that echoes gives one too."""
     with echoing_port() as port:
-        bus = ModbusBus(f"modbus+rtu://{port}?baud=115200", timeout_s=0.06)
+        bus = ModbusBus(f"modbus+rtu://{port}?baud=115200", timeout_s=0.3)
         with pytest.raises(GarbledReply, match=r"sends back what it is sent \(echo\)"):
-            bus.stop(unit, 0x6002, 0x0040, look_at=0x0B05)
+            bus.stop(1, 0x6002, 0x0040, look_at=0x0B05)
 
 
 def test_an_adapter_that_echoes_is_named() -> None:
