@@ -17,9 +17,11 @@ from web.routes import (
     calibrations,
     datasets,
     diagnoses,
+    emulator,
     health,
     live,
     readings,
+    retract,
     robots,
     station,
     stop,
@@ -50,7 +52,9 @@ def create_app(runtime: Runtime, *, static: Path = pages.STATIC) -> FastAPI:
     )
     app.state.runtime = runtime
     app.state.feed = LiveFeed(runtime.orchestrator, build=pages.build_id(static))
-    for module in (station, backups, calibrations, datasets, diagnoses, readings, robots, stop):
+    for module in (
+        station, backups, calibrations, datasets, diagnoses, emulator, readings, retract, robots, stop,
+    ):  # fmt: skip
         app.include_router(module.router, prefix="/api/v1")
     app.include_router(live.router, prefix="/api/v1")
     app.include_router(health.router)

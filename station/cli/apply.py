@@ -1,4 +1,4 @@
-"""`station apply` and `station rollback`: the zeros of the drives from the terminal."""
+"""`station apply`, `station rollback`, `station retract`: what moves the machine without a plan."""
 
 from __future__ import annotations
 
@@ -54,3 +54,16 @@ def rollback_command(
     one_run(
         home, settings, emulate, lambda runtime: runtime.orchestrator.follow("rollback", calibration_id, who)
     )
+
+
+@click.command("retract")
+@_operator
+@machine_options
+@click.pass_obj
+def retract_command(
+    home: Path, operator: str | None, config: Path | None, emulate: Path | None, speed: float | None
+) -> None:
+    """Bring the arm back into its workspace, slowly."""
+    who = operator or getpass.getuser()
+    settings = read_settings(config, speed)
+    one_run(home, settings, emulate, lambda runtime: runtime.orchestrator.retract(who))

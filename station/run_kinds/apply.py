@@ -60,6 +60,9 @@ def source_of(store: Store, calibration_id: int) -> Source:
     calibration = store.calibration(calibration_id)
     readings = store.readings(calibration_id)
     if calibration.plan == "paper":  # a place's passes stand at different angles: they are no repeats
+        # without the walk that verified: it took no part in the fit
+        if calibration.after is not None and calibration.after.fresh_reading_rms_mm is not None:
+            readings = [r for r in readings if r.walk < readings[-1].walk]
         readings = [replace(r, position=f"{r.position} pass {r.walk}") for r in readings]
     else:  # the second walk verified, it took no part in the fit
         readings = [r for r in readings if r.walk == 1]

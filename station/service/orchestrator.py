@@ -20,19 +20,30 @@ from drivers.errors import DeviceError
 from station.errors import Busy, InputRefused, KeyReused, NotFound, StepFailed, StoreUnavailable
 from station.five_bar import Robot
 from station.messages import display_name
-from station.motion import Cancelled, Devices, Listener, Listeners, LiveEvent, Machine, Walker, Zeroing
+from station.motion import (
+    Cancelled,
+    Devices,
+    Listener,
+    Listeners,
+    LiveEvent,
+    Machine,
+    Retracting,
+    Walker,
+    Zeroing,
+)
 from station.plans import PLANS
 from station.records import (
     CalibrationRequest,
     CalibrationResult,
     CalibrationSummary,
-    Procedure,
     Reading,
     Reason,
+    Retract,
     SetZeros,
     State,
     StationInfo,
     StationView,
+    Step,
     Submitted,
     Walk,
     Workspace,
@@ -41,6 +52,7 @@ from station.records import (
 )
 from station.run_kinds import RUN_KINDS, RunKind, Start
 from station.service.clock_watch import ClockWatch
+from station.service.procedures import follow_procedure
 from station.service.run import Run
 from station.settings import Settings
 from station.store import Store, request_hash, too_full
@@ -80,7 +92,10 @@ class Orchestrator:
         self._run: Run | None = None
         self._last = store.last_on_rig()
         self._clock = ClockWatch(store)
+        if self._last is not None:
+            self._machine.robot = store.robot_or_nominal(self._last.robot_serial)
         self._closing = False
+        self._stop_records: list[Thread] = []
         self._queue: Queue[Run | None] = Queue()
         self._worker = Thread(target=self._work, name="orchestrator", daemon=True)
         self._worker.start()
@@ -144,6 +159,14 @@ class Orchestrator:
         """Why the disk is too full for a run; None when it is not."""
         return too_full(self._store.path, self._settings.service.least_free_mb)
 
+    def retract(self, operator: str, *, idempotency_key: str | None = None) -> Submitted:
+        """Start a run that brings the arm back into the workspace of the robot measured last.
+
+        :raises: as `submit`.
+        """
+        request = CalibrationRequest(self._machine.robot.serial, "retract", operator)
+        return self.submit(request, idempotency_key=idempotency_key)
+
     def _robot(self, serial: str) -> Robot:
         """The kept robot file, else the paper's Table 1, checked against the drives' scaling."""
         robot = self._store.robot_or_nominal(serial)
@@ -170,10 +193,16 @@ class Orchestrator:
         else:
             self._store.summary(calibration_id)
 
+    @property
+    def axes(self) -> tuple[str, ...]:
+        """Names of what `stop` stops."""
+        return tuple(axis.name for axis in self._machine.devices.axes)
+
     def stop(self, who: str) -> dict[str, str | None]:
         """Quick stop of both axes, now, whatever else happens; a run that is under way is aborted.
 
-        Returns, by axis, None when it confirmed the stop, else what went wrong.
+        Returns, by axis, None when it confirmed the stop, else what went wrong.  The answer is that of the
+        drives; it is recorded afterwards.
         """
         return self._halt(self._run, who)
 
@@ -184,11 +213,22 @@ class Orchestrator:
         outcome = self._machine.quick_stop()
         trouble = {name: text for name, text in outcome.items() if text}
         log.warning("Stop by %s: %s", who, trouble or "both axes confirmed")
+        # Aside: a database that is locked must not keep the answer of the drives from anybody.
+        record = Thread(
+            target=self._record_stop,
+            args=(run.id if run else None, who, trouble),
+            name="record of a stop",
+            daemon=True,
+        )
+        self._stop_records = [thread for thread in self._stop_records if thread.is_alive()] + [record]
+        record.start()
+        return outcome
+
+    def _record_stop(self, run_id: int | None, who: str, trouble: dict[str, str]) -> None:
         try:
-            self._store.add_event(run.id if run else None, "stop", {"by": who, **trouble})
+            self._store.add_event(run_id, "stop", {"by": who, **trouble})
         except StoreUnavailable:
             log.exception("The stop could not be recorded")  # it was carried out all the same
-        return outcome
 
     def wait(self, calibration_id: int, timeout_s: float | None = None) -> State:
         """Until the run has ended or the time is over; its state then.  :raises NotFound:"""
@@ -208,6 +248,8 @@ class Orchestrator:
         self._worker.join(SHUTDOWN_LIMIT_S)
         if self._worker.is_alive():
             log.error("The worker hangs in a device; the run will be marked interrupted at the next start")
+        for record in self._stop_records:
+            record.join(SHUTDOWN_LIMIT_S)
         self._machine.close()
 
     # Watching ------------------------------------------------------------------------------------
@@ -232,6 +274,7 @@ class Orchestrator:
             interlocks=self._machine.interlocks(),
             machine=self._machine.view(),
             workspace=Workspace(x=robot.workspace_x, y=robot.workspace_y),
+            retract=self._machine.retract(),
             run=run.view() if run else None,
             last=last,
         )
@@ -260,7 +303,8 @@ class Orchestrator:
     def _execute(self, run: Run) -> None:
         ending = self._perform(run)
         ending = self._bring_to_rest(run, ending)
-        run.state = self._store.finish(run.id, ending.state, ending.result, ending.reason)
+        judged = self._kinds[run.request.kind].judged
+        run.state = self._store.finish(run.id, ending.state, ending.result, ending.reason, judged=judged)
         try:
             summary = self._store.summary(run.id)
         except StoreUnavailable as error:
@@ -308,6 +352,8 @@ class Orchestrator:
         except Exception as error:  # the worker must outlive any mistake in a procedure
             log.exception("Run %d failed unexpectedly", run.id)
             return _Ending(State.FAILED, because("unexpected", type=type(error).__name__, text=str(error)))
+        if not self._kinds[run.request.kind].judged:
+            return _Ending(State.SUCCEEDED, result.reason)
         return _Ending(State.SUCCEEDED, result.reason, result)
 
     def _bring_to_rest(self, run: Run, ending: _Ending) -> _Ending:
@@ -336,16 +382,24 @@ class Orchestrator:
         walker = Walker(
             self._machine, run.robot, self._settings.joints, run.cancel, time.monotonic() - elapsed_s
         )
-        walker.prepare()
+        walker.prepare(from_outside=kind.from_outside)
         zeroing = Zeroing(run.id, self._machine, walker, self._store)
         zeroing.settle()
         procedure = kind.procedure(Start(self._store, run.request, run.robot))
 
-        def carry_out(step: Walk | SetZeros) -> Any:
-            return self._walk(run, walker, step) if isinstance(step, Walk) else self._set(run, zeroing, step)
+        def carry_out(step: Step) -> Any:
+            match step:
+                case Walk():
+                    return self._walk(run, walker, step)
+                case SetZeros():
+                    self._begin(run, step)
+                    return zeroing.carry_out(step)
+                case Retract():
+                    self._begin(run, step)
+                    return Retracting(self._machine, walker).carry_out()
 
         try:
-            result = _follow(procedure, carry_out)
+            result = follow_procedure(procedure, carry_out)
         finally:
             procedure.close()
         self._listeners.publish("residuals", run.add_result(result))
@@ -360,10 +414,10 @@ class Orchestrator:
         run.inherit(len(earlier.readings))
         return max(earlier.elapsed_s, earlier.readings[-1].t_s / self._machine.devices.speed)
 
-    def _set(self, run: Run, zeroing: Zeroing, step: SetZeros) -> tuple[float, float]:
+    def _begin(self, run: Run, step: SetZeros | Retract) -> None:
+        """A step without readings."""
         self._listeners.publish("walk", run.begin_walk(Walk(step.title, step.number, ())))
         self._listeners.publish("run", run.brief())
-        return zeroing.carry_out(step)
 
     def _walk(self, run: Run, walker: Walker, walk: Walk) -> list[Reading]:
         self._listeners.publish("walk", run.begin_walk(walk))
@@ -393,22 +447,3 @@ def _with_doubt(reason: Reason | None, doubt: str | None) -> Reason | None:
         return reason
     said = [reason.text] if reason else []
     return because("step_failed", text=" ".join([*said, doubt]))
-
-
-def _follow(procedure: Procedure, carry_out: Callable[[Walk | SetZeros], Any]) -> CalibrationResult:
-    """Step by step to the result.
-
-    What a step fails with is raised in the procedure, which may have a way back.
-    """
-    try:
-        step = next(procedure)
-        while True:
-            try:
-                answer = carry_out(step)
-            except (DeviceError, StepFailed) as error:
-                step = procedure.throw(error)
-            else:
-                step = procedure.send(answer)
-    except StopIteration as end:
-        result: CalibrationResult = end.value
-        return result

@@ -35,6 +35,8 @@ class Runtime:
     store: Store
     orchestrator: Orchestrator
     _closing: ExitStack
+    rig: EmulatedRig | None = None
+    """The emulated machine; None with real devices."""
 
     @classmethod
     def open(cls, settings: Settings, home: Path, emulate: Path | None = None) -> Self:
@@ -54,6 +56,7 @@ class Runtime:
                 log.warning("Run %d was cut off by the last stop of the station: interrupted", calibration_id)
             emulated = emulate is not None or settings.scale is None
             speed = 1.0
+            rig: EmulatedRig | None = None
             if emulated:
                 rig = EmulatedRig(
                     emulate or settings.emulated.rig, home / "emulated-rig.json", settings.emulated.speed
@@ -66,7 +69,7 @@ class Runtime:
             opened.callback(orchestrator.shutdown)
             opened.enter_context(backup_timer(store, backup_folder(settings, home), settings.backup))
             opened.enter_context(retention_timer(store, settings.retention))
-            return cls(settings, home, store, orchestrator, opened.pop_all())
+            return cls(settings, home, store, orchestrator, opened.pop_all(), rig)
 
     def backup(self) -> BackupMade:
         """One more backup, now.  :raises InputRefused: it cannot be written."""

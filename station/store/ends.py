@@ -60,12 +60,23 @@ class End:
         )
 
 
-def end_of(state: State, result: CalibrationResult | None, reason: Reason | None, at: datetime) -> End:
+def end_of(
+    state: State,
+    result: CalibrationResult | None,
+    reason: Reason | None,
+    at: datetime,
+    *,
+    judged: bool = True,
+) -> End:
     """It fails closed.
 
     A result with a number that is not finite, or one of a run that did not succeed, is never a pass.
+
+    :param judged: False for a run that says nothing about a robot: it needs no result
     """
     if result is None:
+        if state is State.SUCCEEDED and not judged:
+            return End(state, None, "good", reason, at)
         if state is State.SUCCEEDED:
             return End(State.FAILED, None, "failed", reason or because("no_result"), at)
         return End(state, None, _OUTCOMES[state], reason, at)

@@ -170,15 +170,19 @@ class Store(Memories, ZeroJournal):
         state: State,
         result: CalibrationResult | None = None,
         reason: Reason | None = None,
+        *,
+        judged: bool = True,
     ) -> State:
         """End a calibration, once: the first end stands.  Returns the state that it has now.
 
         It fails closed (`end_of`).  What a pass leaves to the next run is kept with it.  An end that the
         store does not take is shown from memory, as a failure, until `repeat_ends` has stored it.
+
+        :param judged: False for a run that says nothing about a robot: it has no verdict and no result
         """
         if (earlier := self._unstored[calibration_id]) is not None:
             return earlier.state
-        end = end_of(state, result, reason, self._times.now(calibration_id))
+        end = end_of(state, result, reason, self._times.now(calibration_id), judged=judged)
         try:
             return self._end(calibration_id, end)
         except StoreUnavailable as error:

@@ -20,8 +20,10 @@ from station.records import (
     CalibrationResult,
     Procedure,
     Reading,
+    Retract,
     SetZeros,
     State,
+    Step,
     Walk,
     from_readings,
 )
@@ -60,6 +62,7 @@ class Drives:
         try:
             step = next(procedure)
             while True:
+                assert not isinstance(step, Retract)
                 self.steps.append(step)
                 if isinstance(step, Walk):
                     step = procedure.send(self._read(step))
@@ -89,9 +92,10 @@ class Drives:
         return -step.offsets_deg[0], -step.offsets_deg[1]
 
 
-def stated(step: Walk | SetZeros) -> tuple[str, int, tuple[str, ...] | tuple[int, tuple[float, float]]]:
+def stated(step: Step) -> tuple[str, int, tuple[str, ...] | tuple[int, tuple[float, float]]]:
     if isinstance(step, Walk):
         return step.title, step.number, tuple(stop.position for stop in step.stops)
+    assert isinstance(step, SetZeros)
     return step.title, step.number, (step.of, step.offsets_deg)
 
 

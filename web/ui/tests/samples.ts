@@ -78,6 +78,7 @@ export const stationNow = (given: Partial<Station> = {}): Station => ({
   interlocks: [],
   machine: null,
   workspace: { x: [-200, 200], y: [300, 500] },
+  retract: { needed: false, excess_mm: 0, text: "" },
   run: null,
   last: null,
   ...given,
