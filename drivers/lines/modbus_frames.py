@@ -1,7 +1,8 @@
 """Modbus requests and replies as bytes: protocol data units, RTU frames, TCP frames.
 
 After *Modbus Application Protocol* V1.1b3 (functions 03, 06, 08, 10h, 17h), *Modbus over Serial Line* V1.02
-(RTU frame, check sum) and *Modbus Messaging on TCP/IP* V1.0b (header).
+(RTU frame, check sum) and *Modbus Messaging on TCP/IP* V1.0b (header).  Requests and check sums are encoded
+by pymodbus; which bytes answer a request, and where they stand among others, is decided here.
 """
 
 from __future__ import annotations
@@ -10,7 +11,15 @@ import struct
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-READ, WRITE_ONE, WRITE = 0x03, 0x06, 0x10
+from pymodbus.framer import FramerRTU
+from pymodbus.pdu import ModbusPDU
+from pymodbus.pdu.register_message import (
+    ReadHoldingRegistersRequest,
+    WriteMultipleRegistersRequest,
+    WriteSingleRegisterRequest,
+)
+
+READ = 0x03
 _EXCEPTION = 0x80
 _HEADER = struct.Struct(">HHHB")  # transaction, protocol, length, unit
 _LONGEST_PDU = 253
@@ -51,22 +60,24 @@ class Request:
 
 def read_request(unit: int, address: int, count: int) -> Request:
     """Holding registers."""
-    return Request(
-        unit, struct.pack(">BHH", READ, address, count), bytes((READ, 2 * count)), reply_length=2 + 2 * count
-    )
+    pdu = _encoded(ReadHoldingRegistersRequest(address=address, count=count))
+    return Request(unit, pdu, bytes((READ, 2 * count)), reply_length=2 + 2 * count)
 
 
 def write_one_request(unit: int, address: int, value: int) -> Request:
     """One register; the reply is a copy."""
-    pdu = struct.pack(">BHH", WRITE_ONE, address, value)
+    pdu = _encoded(WriteSingleRegisterRequest(address=address, registers=[value]))
     return Request(unit, pdu, pdu, reply_length=5)
 
 
 def write_request(unit: int, address: int, values: Sequence[int]) -> Request:
     """Several registers."""
-    count = len(values)
-    pdu = struct.pack(f">BHHB{count}H", WRITE, address, count, 2 * count, *values)
+    pdu = _encoded(WriteMultipleRegistersRequest(address=address, registers=list(values)))
     return Request(unit, pdu, pdu[:5], reply_length=5)
+
+
+def _encoded(request: ModbusPDU) -> bytes:
+    return bytes((request.function_code,)) + request.encode()
 
 
 def registers_of(pdu: bytes) -> list[int]:
@@ -76,12 +87,8 @@ def registers_of(pdu: bytes) -> list[int]:
 
 def with_check_sum(frame: bytes) -> bytes:
     """The frame and its CRC, low byte first (Modbus over Serial Line, 6.2.2)."""
-    crc = 0xFFFF
-    for byte in frame:
-        crc ^= byte
-        for _ in range(8):
-            crc = (crc >> 1) ^ (0xA001 if crc & 1 else 0)
-    return frame + crc.to_bytes(2, "little")
+    # the library keeps the sum with its bytes in the order of the wire
+    return frame + FramerRTU.compute_CRC(frame).to_bytes(2, "big")
 
 
 def find_rtu_reply(received: bytes, request: Request) -> bytes | None:
