@@ -15,7 +15,7 @@ run: $(VENV)/installed  ## install and start the service on the emulated rig; pr
 test: $(VENV)/installed-for-tests  ## everything that can be checked
 	$(NPM) test
 	deploy/debian-packages chromium mbpoll
-	$(BIN)/pytest --cov=station --cov=drivers --cov=web
+	$(BIN)/pytest --numprocesses 2 --dist loadfile --cov=station --cov=drivers --cov=web
 
 record: $(VENV)/installed-for-tests  ## the closed loop in the browser, recorded; prints the folder
 	deploy/debian-packages chromium
@@ -38,9 +38,11 @@ format: $(VENV)/installed-for-tests
 bench: $(VENV)/installed-for-tests  ## the figures of docs/benchmarks.md
 	$(BIN)/station bench
 
-mutate: $(VENV)/installed-for-tests  ## changes what decides, one place at a time; lists what no test notices
-	$(BIN)/mutmut run
-	$(BIN)/mutmut results
+mutate: $(VENV)/installed-for-tests  ## changes what decides, one place at a time; lists what no test notices (hours)
+	mkdir -p mutants
+	@echo "Progress goes to mutants/progress.log"
+	$(BIN)/mutmut run > mutants/progress.log 2>&1
+	$(BIN)/python tests/mutation_score.py mutants
 
 reference: $(VENV)/installed-for-tests  ## docs/reference and web/openapi.json, made from the code
 	$(BIN)/python -m web.openapi

@@ -39,6 +39,10 @@ class KeyReused(Exception):
         self.calibration_id = calibration_id
 
 
+class StoreUnavailable(Exception):
+    """The database cannot be read or written at this moment; says why."""
+
+
 class StepFailed(Exception):
     """A stop could not be measured; one sentence that names it."""
 

@@ -140,8 +140,29 @@ class ServiceSettings(_Section):
     """Port to listen at; 0 takes a free one."""
     database: Path | None = None
     """File of the history; by default `station.db` in the home folder."""
+    least_free_mb: Annotated[float, Field(ge=0, le=1e6)] = 4.0
+    """No run starts with less room on the disk of the history, MB."""
     api_keys: Path | None = None
     """Not used yet."""
+
+
+class BackupSettings(_Section):
+    """`[backup]`: copies of the history that the station makes by itself."""
+
+    every_h: Annotated[float, Field(gt=0, le=8760)] | None = None
+    """Hours from one to the next; without it only on request."""
+    folder: Path | None = None
+    """Where they are written, best on another disk; by default `backups` in the home folder."""
+    keep: Annotated[int, Field(ge=1, le=10_000)] = 14
+    """The newest so many stay; older ones are deleted, and an event says so."""
+
+
+class RetentionSettings(_Section):
+    """`[retention]`: what is deleted from the history by and by.  Readings and results never are."""
+
+    samples_days: Annotated[float, Field(ge=1)] | None = None
+    """Days after the end of a run after which the single samples of its readings are dropped; their mean and
+    number stay.  An event says so.  Without it they are kept."""
 
 
 class EmulatedSettings(_Section):
@@ -162,6 +183,8 @@ class Settings(_Section):
     servo: ServoSettings | None = None
     limits: LimitSettings = LimitSettings()
     service: ServiceSettings = ServiceSettings()
+    backup: BackupSettings = BackupSettings()
+    retention: RetentionSettings = RetentionSettings()
     emulated: EmulatedSettings = EmulatedSettings()
 
     @model_validator(mode="after")
@@ -209,6 +232,11 @@ def _sentence(error: ErrorDetails, inside: tuple[int | str, ...] = ()) -> str:
     given = error["input"]
     value = f" (given: {given!r})" if not isinstance(given, dict) else ""
     return f"{where}: {message}{value}.".removeprefix(": ")
+
+
+def backup_folder(settings: Settings, home: Path) -> Path:
+    """Where the station's own backups are: the station file's `[backup] folder`, else in the home folder."""
+    return settings.backup.folder or home / "backups"
 
 
 def database_path(settings: Settings, home: Path) -> Path:

@@ -12,7 +12,20 @@ from station import __version__
 from station.service import Runtime
 from web import headers, pages, problems
 from web.live import LiveFeed
-from web.routes import calibrations, datasets, diagnoses, health, live, readings, robots, station, stop
+from web.routes import (
+    backups,
+    calibrations,
+    datasets,
+    diagnoses,
+    emulator,
+    health,
+    live,
+    readings,
+    retract,
+    robots,
+    station,
+    stop,
+)
 
 DESCRIPTION = """Zero-offset calibration of a 2-DOF five-bar robot, for the operator's page and the MES alike.
 
@@ -39,7 +52,9 @@ def create_app(runtime: Runtime, *, static: Path = pages.STATIC) -> FastAPI:
     )
     app.state.runtime = runtime
     app.state.feed = LiveFeed(runtime.orchestrator, build=pages.build_id(static))
-    for module in (station, calibrations, datasets, diagnoses, readings, robots, stop):
+    for module in (
+        station, backups, calibrations, datasets, diagnoses, emulator, readings, retract, robots, stop,
+    ):  # fmt: skip
         app.include_router(module.router, prefix="/api/v1")
     app.include_router(live.router, prefix="/api/v1")
     app.include_router(health.router)

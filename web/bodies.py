@@ -203,10 +203,14 @@ class ReadingList(Record):
 
 
 class Stopped(Record):
-    """Both axes confirmed the quick stop; a run under way is being aborted."""
+    """What the drives answered to the quick stop; a run under way is being aborted."""
 
-    stopped: Literal[True] = True
-    by: str
+    axes: dict[str, str | None] = Field(description="by axis: null when it confirmed, else what went wrong")
+    confirmed: bool = Field(description="whether every axis confirmed; if not, use the emergency stop")
+
+    @classmethod
+    def of(cls, axes: dict[str, str | None]) -> Stopped:
+        return cls(axes=axes, confirmed=bool(axes) and all(trouble is None for trouble in axes.values()))
 
 
 class Alive(Record):

@@ -14,6 +14,7 @@ from station.records import (
     MachineView,
     Record,
     ResidualOfReading,
+    RetractView,
     RunBrief,
     RunReading,
     SequenceView,
@@ -92,6 +93,13 @@ class InterlockMessage(_Message):
     data: tuple[Interlock, ...]
 
 
+class RetractMessage(_Message):
+    """Whether the arm has to be brought back has changed, or how far."""
+
+    type: Literal["retract"]
+    data: RetractView
+
+
 class EndedMessage(_Message):
     """The run has ended."""
 
@@ -109,6 +117,7 @@ LiveMessage = Annotated[
     | MachineMessage
     | DeviceMessage
     | InterlockMessage
+    | RetractMessage
     | EndedMessage,
     Field(discriminator="type"),
 ]

@@ -12,10 +12,20 @@ from fastapi.responses import JSONResponse
 from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
 
-from station.errors import Busy, FieldRefused, InputRefused, KeyReused, NotApplicable, NotFound
+from station.errors import (
+    Busy,
+    FieldRefused,
+    InputRefused,
+    KeyReused,
+    NotApplicable,
+    NotFound,
+    StoreUnavailable,
+)
 from web.live_messages import LIVE_MESSAGE
 
 MEDIA_TYPE = "application/problem+json"
+RETRY_AFTER = {"Retry-After": "5"}
+"""Of what passes by itself: s."""
 
 
 class FieldAtFault(BaseModel):
@@ -72,7 +82,7 @@ def documented(*statuses: int) -> dict[int | str, dict[str, Any]]:
     }
 
 
-RESPONSES = documented(422, 500)
+RESPONSES = documented(422, 500, 503)
 """What any route may answer."""
 
 
@@ -115,11 +125,16 @@ def add(app: FastAPI) -> None:
 
     @app.exception_handler(Busy)
     async def busy(request: Request, error: Busy) -> ProblemResponse:
-        return problem(409, str(error), kind="busy", calibration_id=error.calibration_id)
+        return problem(409, str(error), kind="busy", headers=RETRY_AFTER, calibration_id=error.calibration_id)
 
     @app.exception_handler(NotApplicable)
     async def not_applicable(request: Request, error: NotApplicable) -> ProblemResponse:
         return problem(409, str(error), kind="not-applicable")
+
+    @app.exception_handler(StoreUnavailable)
+    async def store_unavailable(request: Request, error: StoreUnavailable) -> ProblemResponse:
+        text = f"The history cannot be used at this moment ({error}). Nothing was changed; try again."
+        return problem(503, text, kind="store-unavailable", headers=RETRY_AFTER)
 
     @app.exception_handler(KeyReused)
     async def key_reused(request: Request, error: KeyReused) -> ProblemResponse:

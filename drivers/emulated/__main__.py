@@ -1,7 +1,8 @@
 """Run an emulated rig: `python -m drivers.emulated RIG.toml [--speed X] [--state FILE]`.
 
 One JSON line on standard output tells the addresses; the rig runs until standard input ends (so it
-never outlives whoever started it) or until it is terminated.
+never outlives whoever started it) or until it is terminated.  A line of standard input is JSON with
+`faults` or `effects` that replace those ordered before; one line on standard output answers it.
 """
 
 from __future__ import annotations
@@ -12,8 +13,21 @@ import signal
 import sys
 from pathlib import Path
 
+from pydantic import BaseModel, ConfigDict, ValidationError
+
+from drivers.emulated.imperfections import AnyEffect
+from drivers.emulated.orders import FaultOrder
 from drivers.emulated.rig import EmulatedRig, StateFileError
 from drivers.emulated.rig_file import DEFAULT_RIG, RigFileError, load_rig
+
+
+class Order(BaseModel):
+    """A line of standard input: what replaces what was ordered before; what is not given stays."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    faults: tuple[FaultOrder, ...] | None = None
+    effects: tuple[AnyEffect, ...] | None = None
 
 
 def main() -> int:
@@ -28,13 +42,29 @@ def main() -> int:
         rig = EmulatedRig(load_rig(arguments.rig), speed=arguments.speed, state_file=arguments.state)
         with rig:
             print(json.dumps({"scale_url": rig.scale_url, "servo_url": rig.servo_url}), flush=True)
-            sys.stdin.buffer.read()
+            for line in sys.stdin:
+                print(_ordered(rig, line), flush=True)
     except (RigFileError, StateFileError) as error:
         print(error, file=sys.stderr)
         return 2
     except KeyboardInterrupt:
         return 0
     return 0
+
+
+def _ordered(rig: EmulatedRig, line: str) -> str:
+    """Carry out one line of standard input, and say what is ordered now."""
+    try:
+        order = Order.model_validate_json(line)
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = " ".join(str(part) for part in first["loc"])
+        return json.dumps({"error": f"{where}: {first['msg'].removeprefix('Value error, ')}"})
+    if order.faults is not None:
+        rig.orders.replace(order.faults)
+    if order.effects is not None:
+        rig.machine.replace_effects(order.effects)
+    return order.model_dump_json()
 
 
 def _positive(text: str) -> float:

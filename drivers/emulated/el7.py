@@ -20,6 +20,7 @@ _RUN_PATH_0, _DECLARE_ZERO, _QUICK_STOP = 0x0010, 0x0021, 0x0040
 _RESETS = (0x1111, 0x1122)
 _ABSOLUTE, _RELATIVE = 0x0001, 0x0041
 _POSITION_DEVIATION_ALARM: Final = 0x180
+_LOST_PULSES = 500
 
 _PARAMETERS = {
     _CONTROL_MODE: 6,
@@ -48,6 +49,33 @@ class EL7Drive:
         self._alarm = 0
         self._in_position = True
         self._never_in_position = False
+        self.never_in_position = False
+        self.frozen = False
+        """While true, the feedback does not change."""
+        self._frozen_pulses: int | None = None
+        self._lost_pulses = 0
+
+    def raise_alarm(self, code: int = 0) -> None:
+        """Stop and show an alarm; 0 is that of a following error."""
+        self._machine.quick_stop(self._joint)
+        self._alarm = code or _POSITION_DEVIATION_ALARM
+
+    def lose_counts(self) -> None:
+        """The encoder has missed pulses: from now on it counts from elsewhere."""
+        self._axis.zero_pulses += _LOST_PULSES
+        self._lost_pulses += _LOST_PULSES
+
+    def reboot(self) -> None:
+        """As after a power cut: switched off, stopped, and counting from where it stands."""
+        self._machine.quick_stop(self._joint)
+        self._registers[_DIGITAL_INPUT_1] = _PARAMETERS[_DIGITAL_INPUT_1]
+        self._lost_pulses += self._axis.feedback_pulses()
+        self._axis.declare_zero()
+
+    def find_reference(self) -> None:
+        """What was lost is found again, as after homing."""
+        self._axis.zero_pulses -= self._lost_pulses
+        self._lost_pulses = 0
 
     def answer(self, request: bytes) -> bytes:
         """The reply PDU, an exception included."""
@@ -112,6 +140,7 @@ class EL7Drive:
             if self._axis.moving:
                 return ILLEGAL_VALUE
             self._machine.declare_zero(self._joint)
+            self._lost_pulses = 0
         elif value:
             return ILLEGAL_VALUE
         return 0
@@ -137,11 +166,20 @@ class EL7Drive:
     def _enabled(self) -> bool:
         return self._registers[_DIGITAL_INPUT_1] == _SERVO_ON_ALWAYS and not self._alarm
 
+    def _feedback_pulses(self) -> int:
+        if not self.frozen:
+            self._frozen_pulses = None
+            return self._axis.feedback_pulses()
+        if self._frozen_pulses is None:
+            self._frozen_pulses = self._axis.feedback_pulses()
+        return self._frozen_pulses
+
     def _live(self) -> dict[int, int]:
         """Registers that show the drive's state."""
         moving = self._axis.moving
-        complete = not moving and self._in_position and not self._never_in_position
-        pulses = self._axis.feedback_pulses()
+        in_position = self._in_position and not (self._never_in_position or self.never_in_position)
+        complete = not moving and in_position
+        pulses = self._feedback_pulses()
         high, low = (pulses >> 16) & 0xFFFF, pulses & 0xFFFF
         enabled = self._enabled
         status = (self._alarm > 0) | enabled << 1 | moving << 2 | complete << 4 | complete << 5

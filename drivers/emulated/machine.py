@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from random import Random
@@ -162,13 +162,8 @@ class Machine:
             Axis(spec, 0, clock, speed, Random(f"{seed} servo 1")),
             Axis(spec, 1, clock, speed, Random(f"{seed} servo 2")),
         )
-        self._effects = [_fresh(effect) for effect in spec.effects]
-        self._joint_effects = sorted(self._effects, key=lambda effect: effect.stage)
-        self._steps = 1 if self._effects else 0
-        if any(effect.follows_path for effect in self._effects):
-            self._steps = _PATH_STEPS
-        for number, effect in enumerate(self._effects):
-            effect.start(Random(f"{seed} effect {number}"))
+        self._seed = seed
+        self._take(spec.effects)
         self._on_s = self._looked_s = clock()
         self._rested = True
         self._commanded_s = -math.inf
@@ -240,6 +235,24 @@ class Machine:
                 axis.put(shaft)
                 axis.zero_pulses = zero
             self._start_memories()
+
+    # -- effects on order ----------------------------------------------------------------------
+
+    def replace_effects(self, effects: Sequence[Effect]) -> None:
+        """These and no others from now on."""
+        with self._lock:
+            self._look()
+            self._take(effects)
+            self._start_memories()
+
+    def _take(self, effects: Sequence[Effect]) -> None:
+        self._effects = [_fresh(effect) for effect in effects]
+        self._joint_effects = sorted(self._effects, key=lambda effect: effect.stage)
+        self._steps = 1 if self._effects else 0
+        if any(effect.follows_path for effect in self._effects):
+            self._steps = _PATH_STEPS
+        for number, effect in enumerate(self._effects):
+            effect.start(Random(f"{self._seed} effect {number}"))
 
     def _start_memories(self) -> None:
         """Let effects with a memory see where everything stands before the first move."""

@@ -20,10 +20,16 @@ class DriveReply:
 
     pdu: bytes | None
     delay_s: float = 0.0
+    spoil: Callable[[bytes], bytes] | None = None
+    """What becomes of the frame on its way."""
 
 
 class DropLink(Exception):
     """A drive's answer that makes the gateway close the connection."""
+
+
+class HalfOpen(Exception):
+    """A drive's answer that makes the connection dead without a word, for as long as it lives."""
 
 
 class ModbusTcpGateway:
@@ -64,18 +70,27 @@ class ModbusTcpGateway:
             thread.start()
 
     def _serve(self, connection: socket.socket) -> None:
+        dead = False
         with connection, suppress(OSError, DropLink):
             while frame := _read_frame(connection):
+                if dead:
+                    continue
                 transaction, unit, pdu = frame
-                with self._line:
-                    reply = self._ask(unit, pdu)
-                connection.sendall(_HEADER.pack(transaction, 0, len(reply) + 1, unit) + reply)
+                try:
+                    with self._line:
+                        reply = self._ask(unit, pdu)
+                except HalfOpen:
+                    dead = True
+                    continue
+                answer = bytes((pdu[0] | 0x80, _TARGET_SILENT)) if reply.pdu is None else reply.pdu
+                whole = _HEADER.pack(transaction, 0, len(answer) + 1, unit) + answer
+                connection.sendall(reply.spoil(whole) if reply.spoil else whole)
 
-    def _ask(self, unit: int, pdu: bytes) -> bytes:
+    def _ask(self, unit: int, pdu: bytes) -> DriveReply:
         drive = self._units.get(unit)
         reply = DriveReply(None) if drive is None else drive(pdu)
         self._closing.wait(reply.delay_s)
-        return bytes((pdu[0] | 0x80, _TARGET_SILENT)) if reply.pdu is None else reply.pdu
+        return reply
 
 
 def _read_frame(connection: socket.socket) -> tuple[int, int, bytes] | None:

@@ -55,6 +55,14 @@ class ND280:
                 replies.append(reply)
         return replies
 
+    def shift(self, by_mm: float) -> None:
+        """Every value from now on is that much longer, as after a miscount."""
+        self._datum_mm -= by_mm
+
+    def reboot(self) -> None:
+        """As after a power cut: the datum is gone."""
+        self._special(0)
+
     def _next_request(self) -> bytes:
         """One complete request out of the input buffer, or nothing yet."""
         while self._input:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from contextlib import ExitStack
+from dataclasses import replace
 from pathlib import Path
 from threading import Event, Thread
 from types import TracebackType
@@ -14,8 +15,10 @@ from drivers.emulated.faults import Faults
 from drivers.emulated.machine import Machine, MachineState
 from drivers.emulated.modbus_tcp import DriveReply, DropLink, ModbusTcpGateway
 from drivers.emulated.nd280 import ND280
+from drivers.emulated.orders import Orders
 from drivers.emulated.pty_line import PtyLine
 from drivers.emulated.spec import Fault, RigSpec
+from drivers.emulated.spoiled import ReadoutOnLine, SpoiledDrive
 
 _SAVE_EVERY_S = 0.05
 
@@ -32,6 +35,7 @@ class EmulatedRig:
         self.spec = spec
         self.machine = Machine(spec.machine, speed=speed or spec.emulated.speed)
         self._faults = Faults(spec.faults)
+        self.orders = Orders(spec.orders)
         self._state_file = state_file
         if state_file is None and spec.emulated.state_file is not None:
             self._state_file = Path(spec.emulated.state_file)
@@ -43,7 +47,8 @@ class EmulatedRig:
         with ExitStack() as stack:
             if self._state_file is not None:
                 stack.enter_context(_StateKeeper(self.machine, self._state_file))
-            line = PtyLine(ND280(self.machine.head_mm, self._faults).receive)
+            readout = ReadoutOnLine(ND280(self.machine.head_mm, self._faults), self.orders)
+            line = PtyLine(readout.receive)
             stack.callback(line.close)
             gateway = ModbusTcpGateway({joint: self._drive(joint) for joint in (1, 2)})
             stack.callback(gateway.close)
@@ -66,13 +71,14 @@ class EmulatedRig:
         self._faults.clear()
 
     def _drive(self, joint: int) -> _DriveOnLine:
-        return _DriveOnLine(EL7Drive(self.machine, joint, self._faults), joint, self._faults)
+        drive = EL7Drive(self.machine, joint, self._faults)
+        return _DriveOnLine(SpoiledDrive(drive, joint, self.orders), joint, self._faults)
 
 
 class _DriveOnLine:
     """A drive with the faults of the line in front of it."""
 
-    def __init__(self, drive: EL7Drive, joint: int, faults: Faults) -> None:
+    def __init__(self, drive: SpoiledDrive, joint: int, faults: Faults) -> None:
         self._drive = drive
         self._joint = joint
         self._faults = faults
@@ -83,7 +89,8 @@ class _DriveOnLine:
         if self._faults.due("drive_silent", self._joint):
             return DriveReply(None)
         late = self._faults.due("drive_late", self._joint)
-        return DriveReply(self._drive.answer(request), late.delay_s if late else 0.0)
+        reply = self._drive.answer(request)
+        return replace(reply, delay_s=late.delay_s) if late else reply
 
 
 class _StateKeeper:

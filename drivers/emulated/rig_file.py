@@ -50,9 +50,12 @@ def parse_rig(text: str, name: str = "rig file") -> RigSpec:
     if "effects" in machine:
         raise RigFileError(f"{name}: effects are written as [[effect]] tables of their own.")
     machine = machine | {"effects": tables.get("effect", [])}
+    faults = tables.get("fault", [])
+    orders = [fault for fault in faults if isinstance(fault, dict) and "device" in fault]
+    scripted = [fault for fault in faults if fault not in orders]
     try:
         return RigSpec.model_validate(
-            {"machine": machine, "emulated": emulated, "faults": tables.get("fault", [])}
+            {"machine": machine, "emulated": emulated, "faults": scripted, "orders": orders}
         )
     except ValidationError as error:
         raise RigFileError(_sentence(name, error)) from error
@@ -65,7 +68,7 @@ def dump_rig(spec: RigSpec) -> str:
     lines = ["[machine]", *_entries(machine), "", "[emulated]", *_entries(_given(spec.emulated))]
     for effect in spec.machine.effects:
         lines += ["", "[[effect]]", *_entries({"kind": effect.kind, **_given(effect)})]
-    for fault in spec.faults:
+    for fault in (*spec.faults, *spec.orders):
         lines += ["", "[[fault]]", *_entries(_given(fault))]
     return "\n".join(lines) + "\n"
 
@@ -84,7 +87,7 @@ def _sentence(name: str, error: ValidationError) -> str:
     place = list(first["loc"])
     if place[:2] == ["machine", "effects"]:
         table, rest = "[[effect]]", place[2:]
-    elif place[:1] == ["faults"]:
+    elif place[:1] in (["faults"], ["orders"]):
         table, rest = "[[fault]]", place[1:]
     else:
         table, rest = f"[{place[0]}]", place[1:]

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from drivers.emulated.imperfections import AnyEffect
+from drivers.emulated.orders import FaultOrder
 
 Pair = tuple[float, float]
 Positive = Annotated[float, Field(gt=0)]
@@ -104,3 +105,5 @@ class RigSpec(_Table):
     machine: MachineSpec = MachineSpec()
     emulated: EmulationSpec = EmulationSpec()
     faults: tuple[Fault, ...] = ()
+    orders: tuple[FaultOrder, ...] = ()
+    """Written as `[[fault]]` too, with `device`."""

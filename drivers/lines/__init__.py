@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from drivers.lines.modbus import ModbusBus, UnansweredWrite
+from drivers.lines.retrying import within
 from drivers.lines.serial import SerialLine, Trace
 
 __all__ = [
@@ -10,4 +11,5 @@ __all__ = [
     "SerialLine",
     "Trace",
     "UnansweredWrite",
+    "within",
 ]

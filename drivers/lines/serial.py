@@ -1,177 +1,189 @@
-"""One serial line: opened from a URL, written to, and read into a parser of one's own with a deadline."""
+"""One line: opened from a URL, written to, and read into a parser of one's own with a deadline.
+
+A line that broke heals: the next use opens it anew, and says why if that fails.
+"""
 
 from __future__ import annotations
 
-import errno
-import sys
 import time
 from collections.abc import Callable
-from contextlib import suppress
 from typing import Literal
 
-import serial
-
-from drivers.errors import DeviceError, LinkLost
-from drivers.lines.url import LineFormat, SerialAddress, parse_line_url
-
-if sys.platform == "win32":
-    _FORMAT_REFUSED = serial.SerialException
-else:
-    import termios
-
-    _FORMAT_REFUSED = termios.error
+from drivers.errors import DeviceError, GarbledReply, LinkLost
+from drivers.lines.ports import Port, open_port, reason
+from drivers.lines.url import NetAddress, SerialAddress, parse_line_url
 
 Trace = Callable[[Literal["tx", "rx"], bytes], None]
 """A flight recorder's hook: what crossed the wire, and which way."""
 
-# Waiting happens in slices: changing a port's time-out re-applies all its settings, which a
-# pseudo-terminal refuses, so the time-out is set once and deadlines are kept here.
-_SLICE_S = 0.02
+XON = b"\x11"
+_ECHO_LIMIT_S = 0.1
 
 
 class SerialLine:
-    """An open line.  XON/XOFF is honoured by the operating system on serial ports."""
+    """A line that stays open, and is opened again when it broke, until it is closed."""
 
-    def __init__(self, url: str, *, default_baud: int = 9600, default_format: str = "8N1") -> None:
+    def __init__(
+        self, url: str, *, default_baud: int = 9600, default_format: str = "8N1", flow_control: bool = False
+    ) -> None:
         """Read the URL; nothing is opened yet.
 
+        :param flow_control: XON/XOFF, honoured by the operating system on serial ports
         :raises BadUrl: one sentence about what is wrong in it
         """
-        self.address = parse_line_url(
-            url, serial="serial", net="socket", default_baud=default_baud, default_format=default_format
+        address = parse_line_url(
+            url, serial="serial", net=("socket",), default_baud=default_baud, default_format=default_format
         )
+        self._set_up(address, flow_control=flow_control)
+
+    @classmethod
+    def at(cls, address: SerialAddress | NetAddress) -> SerialLine:
+        """A line without flow control, for a protocol that has its own URLs."""
+        line = cls.__new__(cls)
+        line._set_up(address, flow_control=False)
+        return line
+
+    def _set_up(self, address: SerialAddress | NetAddress, *, flow_control: bool) -> None:
+        self.address = address
         self.trace: Trace | None = None
-        self._port: serial.Serial | None = None
+        self._flow_control = flow_control
+        self._port: Port | None = None
+        self._wanted = False
+        self._unread = b""
 
     @property
     def notice(self) -> str | None:
         """One sentence to log at start when the line format is overridden, else None."""
         return self.address.notice if isinstance(self.address, SerialAddress) else None
 
+    @property
+    def is_open(self) -> bool:
+        return self._port is not None
+
     def open(self) -> None:
-        """Open for this process alone.
+        """Open for this process alone; open it again whenever it breaks, until it is closed.
 
         :raises LinkLost: the port is missing, busy or unreachable
         :raises DeviceError: the port cannot carry the line format
         """
         self.close()
-        if isinstance(self.address, SerialAddress):
-            self._port = open_serial_port(self.address, xonxoff=True)
-            return
-        try:
-            self._port = serial.serial_for_url(f"socket://{self.address}", timeout=_SLICE_S)
-        except OSError as error:
-            raise LinkLost(f"{self.address} cannot be reached: {_reason(error)}.") from error
+        self._opened(first=True)
+        self._wanted = True
 
     def close(self) -> None:
         """Release the port; never raises."""
-        if self._port is not None:
-            port, self._port = self._port, None
-            with suppress(OSError):  # the cable may be out
-                port.close()
+        self._wanted = False
+        self._drop()
+
+    def renew(self) -> None:
+        """After a reply that did not come: a connection may be dead without a word, so the next use
+        opens a new one.  A serial port stays open."""
+        if isinstance(self.address, NetAddress):
+            self._drop()
+
+    def interrupt(self) -> None:
+        """Let a network reader in another thread give up now; from any thread."""
+        port = self._port
+        if port is not None:
+            port.interrupt()
 
     def write(self, data: bytes) -> None:
-        """:raises LinkLost: the line is not open or broke"""
+        """Send; on a line that echoes, also take back what was sent.
+
+        :raises LinkLost: the line broke
+        :raises GarbledReply: the echo is not what was sent
+        """
         port = self._opened()
         try:
             port.write(data)
         except OSError as error:
-            self.close()
-            raise LinkLost(f"{self.address} broke while writing: {_reason(error)}.") from error
-        if self.trace is not None:
-            self.trace("tx", data)
+            self._drop()
+            raise LinkLost(f"{self.address} broke while writing: {reason(error)}.") from error
+        self._record("tx", data)
+        if self.address.echo:
+            self._take_echo(data)
 
     def read_some(self, deadline_s: float) -> bytes:
         """Whatever has come in, at least one byte; empty once `time.monotonic()` passes the deadline.
 
-        :raises LinkLost: the line is not open or broke
+        :raises LinkLost: the line broke
         """
         port = self._opened()
-        while True:
-            expired = time.monotonic() >= deadline_s
-            try:
-                # read() waits for a slice of time when nothing is there
-                data = b"" if expired and not port.in_waiting else bytes(port.read(max(1, port.in_waiting)))
-            except OSError as error:
-                self.close()
-                raise LinkLost(f"{self.address} broke while reading: {_reason(error)}.") from error
-            if data:
-                if self.trace is not None:
-                    self.trace("rx", data)
-                return data
-            if expired:
-                return b""
+        if self._unread:
+            data, self._unread = self._unread, b""
+            return data
+        try:
+            data = port.read_some(deadline_s)
+        except OSError as error:
+            self._drop()
+            raise LinkLost(f"{self.address} broke while reading: {reason(error)}.") from error
+        self._record("rx", data)
+        return data
 
     def drain(self, seconds: float) -> None:
         """Throw away everything that arrives within the next `seconds` (0: what is there already).
 
-        :raises LinkLost: the line is not open or broke
+        :raises LinkLost: the line broke
         """
         deadline_s = time.monotonic() + seconds
         while self.read_some(deadline_s):
             pass
 
-    def _opened(self) -> serial.Serial:
+    def refuse_echo(self, sent: bytes, received: bytes) -> None:
+        """:raises GarbledReply: what came begins with the very bytes that were sent"""
+        if sent and received.startswith(sent):
+            raise self.echoes()
+
+    def echoes(self) -> GarbledReply:
+        """The error for a line that sends back what it is sent."""
+        return GarbledReply(
+            f"{self.address} sends back what it is sent (echo): switch the echo of its adapter off,"
+            " or add echo=1 to its address."
+        )
+
+    def _take_echo(self, sent: bytes) -> None:
+        """A collision or noise shows here too: the adapter hears what was on the wire."""
+        wire_s = 0.0
+        if isinstance(self.address, SerialAddress):
+            wire_s = len(sent) * self.address.format.bits_per_byte / self.address.baud
+        deadline_s = time.monotonic() + wire_s + _ECHO_LIMIT_S
+        heard = b""
+        while len(heard) < len(sent):
+            more = self.read_some(deadline_s)
+            if not more:
+                raise GarbledReply(
+                    f"{self.address} does not echo what it is sent, although its address says echo=1;"
+                    " remove that, or check the adapter."
+                )
+            heard += more
+        if heard[: len(sent)] != sent:
+            raise GarbledReply(f"{self.address} echoed something else than it was sent; check the line.")
+        self._unread = heard[len(sent) :]
+
+    def _opened(self, *, first: bool = False) -> Port:
         if self._port is None:
-            raise LinkLost(f"{self.address} is not open; connect again.")
+            if not (first or self._wanted):
+                raise DeviceError(f"{self.address} is not open; connect first.")
+            self._port = open_port(self.address, xonxoff=self._flow_control)
+            if self._flow_control:
+                self._resume_output(self._port)
         return self._port
 
+    def _resume_output(self, port: Port) -> None:
+        """A device that was told to pause, by a program that then died, would be silent for ever."""
+        try:
+            port.write(XON)
+        except OSError as error:
+            self._drop()
+            raise LinkLost(f"{self.address} broke while writing: {reason(error)}.") from error
+        self._record("tx", XON)
 
-def open_serial_port(address: SerialAddress, *, xonxoff: bool) -> serial.Serial:
-    """Open a port for this process alone, and make sure that it took the line format.
+    def _drop(self) -> None:
+        self._unread = b""
+        if self._port is not None:
+            port, self._port = self._port, None
+            port.close()
 
-    :raises LinkLost: the port is missing or busy
-    :raises DeviceError: the port cannot carry the line format
-    """
-    wanted = address.effective_format
-    try:
-        port = serial.Serial(
-            address.port,
-            baudrate=address.baud,
-            bytesize=wanted.data_bits,
-            parity=wanted.parity,
-            stopbits=wanted.stop_bits,
-            xonxoff=xonxoff,
-            timeout=_SLICE_S,
-            write_timeout=1.0,
-            exclusive=True,
-        )
-    except (OSError, ValueError) as error:
-        raise LinkLost(f"{address} cannot be opened: {_reason(error)}.") from error
-    except _FORMAT_REFUSED as error:
-        raise _cannot_carry(address) from error
-    if not _carries(port, wanted):
-        port.close()
-        raise _cannot_carry(address)
-    return port
-
-
-def _cannot_carry(address: SerialAddress) -> DeviceError:
-    return DeviceError(
-        f"{address} cannot carry {address.effective_format}"
-        " (a pseudo-terminal has neither parity nor 7 bits);"
-        " add override=8N1 to its URL if that is intended."
-    )
-
-
-def _carries(port: serial.SerialBase, wanted: LineFormat) -> bool:
-    """Whether the port took data bits and parity.
-
-    A pseudo-terminal drops both without a word the first time, and refuses the second time.
-    """
-    if sys.platform == "win32":
-        return True  # the port's driver refuses by itself there
-    control_flags = termios.tcgetattr(port.fileno())[2]
-    data_bits = {termios.CS7: 7, termios.CS8: 8}.get(control_flags & termios.CSIZE)
-    return data_bits == wanted.data_bits and bool(control_flags & termios.PARENB) == (wanted.parity != "N")
-
-
-def _reason(error: Exception) -> str:
-    code = error.errno if isinstance(error, OSError) else None
-    if code == errno.ENOENT:
-        return "there is no such port (is the adapter plugged in?)"
-    if code == errno.EACCES:
-        return "permission denied (is the user in the group of serial ports?)"
-    if code in (errno.EAGAIN, errno.EBUSY):
-        return "another program holds it"
-    return str(error).rstrip(".")
+    def _record(self, direction: Literal["tx", "rx"], data: bytes) -> None:
+        if self.trace is not None and data:
+            self.trace(direction, data)

@@ -1,16 +1,18 @@
 """Where a device hangs: the URLs of the station file, read strictly.
 
 `serial:///dev/ttyUSB0?baud=9600&format=7E2`, `socket://host:port`,
-`modbus+rtu:///dev/ttyUSB1?baud=38400&format=8N2`, `modbus+tcp://host:port`.
+`modbus+rtu:///dev/ttyUSB1?baud=38400&format=8N2`, `modbus+tcp://host:port`,
+`modbus+rtuovertcp://host:port` (RTU frames through a serial device server).
 
 `override=8N1` may follow on a serial URL: the line is then opened with that format instead,
 for a port that cannot carry the wanted one (a pseudo-terminal has no parity), and the opened
-line says so in its `notice`.
+line says so in its `notice`.  `echo=1` says that the RS-485 adapter sends back all that it is sent.
 """
 
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
 from urllib.parse import SplitResult, parse_qsl, urlsplit
 
@@ -46,6 +48,8 @@ class SerialAddress:
     baud: int
     format: LineFormat
     override: LineFormat | None
+    echo: bool = False
+    """Whether the adapter sends back what it is sent."""
 
     def __str__(self) -> str:
         return self.port
@@ -69,26 +73,29 @@ class NetAddress:
 
     host: str
     port: int
+    echo: bool = False
+    """Whether the far adapter sends back what it is sent."""
 
     def __str__(self) -> str:
         return f"{self.host}:{self.port}"
 
 
 def parse_line_url(
-    url: str, *, serial: str, net: str, default_baud: int, default_format: str
+    url: str, *, serial: str, net: Sequence[str], default_baud: int, default_format: str
 ) -> SerialAddress | NetAddress:
     """A serial or network address out of `url`.
 
     :param serial: scheme of the serial form, for instance "serial"
-    :param net: scheme of the network form, for instance "socket"
+    :param net: schemes of the network form, for instance "socket"
     :raises BadUrl: with what is wrong in it
     """
     parts = urlsplit(url)
     if parts.scheme == serial:
         return _serial_address(url, parts, default_baud, default_format)
-    if parts.scheme == net:
+    if parts.scheme in net:
         return _net_address(url, parts)
-    raise BadUrl(f'The address "{url}" must begin with {serial}:// or {net}://.')
+    *most, last = (f"{scheme}://" for scheme in (serial, *net))
+    raise BadUrl(f'The address "{url}" must begin with {", ".join(most)} or {last}.')
 
 
 def _serial_address(url: str, parts: SplitResult, default_baud: int, default_format: str) -> SerialAddress:
@@ -96,12 +103,7 @@ def _serial_address(url: str, parts: SplitResult, default_baud: int, default_for
         raise BadUrl(
             f'The address "{url}" must name a port after three slashes, as in {parts.scheme}:///dev/ttyUSB0.'
         )
-    options = dict(parse_qsl(parts.query, keep_blank_values=True))
-    unknown = sorted(options.keys() - {"baud", "format", "override"})
-    if unknown:
-        raise BadUrl(
-            f'The address "{url}" has the unknown setting "{unknown[0]}"; baud, format and override exist.'
-        )
+    options = _options(url, parts, ("baud", "format", "override", "echo"))
     baud_text = options.get("baud", str(default_baud))
     if not re.fullmatch(r"[1-9]\d{2,6}", baud_text):
         raise BadUrl(
@@ -113,7 +115,24 @@ def _serial_address(url: str, parts: SplitResult, default_baud: int, default_for
         baud=int(baud_text),
         format=_line_format(url, options.get("format", default_format)),
         override=None if override is None else _line_format(url, override),
+        echo=_echo(url, options),
     )
+
+
+def _options(url: str, parts: SplitResult, known: tuple[str, ...]) -> dict[str, str]:
+    options = dict(parse_qsl(parts.query, keep_blank_values=True))
+    if unknown := sorted(options.keys() - {*known}):
+        *most, last = known
+        there_are = f"{', '.join(most)} and {last} exist" if most else f"{last} exists"
+        raise BadUrl(f'The address "{url}" has the unknown setting "{unknown[0]}"; {there_are}.')
+    return options
+
+
+def _echo(url: str, options: dict[str, str]) -> bool:
+    echo = options.get("echo", "0")
+    if echo not in ("0", "1"):
+        raise BadUrl(f'The address "{url}" has echo={echo}; 1 is for an adapter that echoes, else 0.')
+    return echo == "1"
 
 
 def _line_format(url: str, text: str) -> LineFormat:
@@ -127,6 +146,6 @@ def _net_address(url: str, parts: SplitResult) -> NetAddress:
         port = parts.port
     except ValueError:
         port = None
-    if not parts.hostname or not port or parts.path.strip("/") or parts.query:
-        raise BadUrl(f'The address "{url}" must be {parts.scheme}://host:port and nothing more.')
-    return NetAddress(parts.hostname, port)
+    if not parts.hostname or not port or parts.path.strip("/"):
+        raise BadUrl(f'The address "{url}" must be {parts.scheme}://host:port.')
+    return NetAddress(parts.hostname, port, _echo(url, _options(url, parts, ("echo",))))

@@ -18,11 +18,9 @@ from enum import IntEnum
 from threading import RLock
 from typing import TypeVar
 
-from tenacity import Retrying, retry_if_exception_type, stop_after_attempt
-
 from drivers.driver import DriverSettings, ScaleDriver, Seconds
 from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
-from drivers.lines import SerialLine, Trace
+from drivers.lines import SerialLine, Trace, within
 
 log = logging.getLogger(__name__)
 
@@ -39,7 +37,7 @@ _INDICATORS = (
     *("REF", "datum 1", "datum 2", "SET", "START", "PRINT", "inch", "<", "=", ">"),
     *("MIN", "ACTL", "MAX", "DIFF"),
 )
-_READ_ATTEMPTS = 3
+_BUDGET_S = 0.5
 _LONGEST_REPLY_BYTES = 64
 _PAUSE_S = 0.05  # between the lines of one reply it is far shorter
 _AGREEMENT_MM = 0.01
@@ -65,14 +63,21 @@ class HeidenhainSettings(DriverSettings):
 class HeidenhainND:
     """A position display as a `LinearScale`; may be called from any thread."""
 
-    def __init__(self, url: str, *, name: str = "linear scale", timeout_s: float = 1.0) -> None:
-        """:raises BadUrl: one sentence about what is wrong in `url`"""
-        self._line = SerialLine(url, default_baud=9600, default_format="7E2")
+    def __init__(
+        self, url: str, *, name: str = "linear scale", timeout_s: float = 1.0, budget_s: float | None = None
+    ) -> None:
+        """:param budget_s: for how long a question is repeated; by default three time-outs and half a second
+
+        :raises BadUrl: one sentence about what is wrong in `url`
+        """
+        self._line = SerialLine(url, default_baud=9600, default_format="7E2", flow_control=True)
         self._name = name
         self._timeout_s = timeout_s
+        self._budget_s = 3 * timeout_s + _BUDGET_S if budget_s is None else budget_s
         self._lock = RLock()
         self._may_have_stale_bytes = False
         self._identity_reply = b""
+        self._sent = b""
 
     @property
     def name(self) -> str:
@@ -151,21 +156,17 @@ class HeidenhainND:
 
     def _retried(self, ask: Callable[[], _T]) -> _T:
         """`ask` again when its reply is late or malformed: reading twice changes nothing."""
-        attempts = Retrying(
-            stop=stop_after_attempt(_READ_ATTEMPTS),
-            retry=retry_if_exception_type((GarbledReply, LinkLost)),
-            reraise=True,
-        )
 
         def attempt() -> _T:
-            self._discard_stale_bytes()
             try:
+                self._discard_stale_bytes()
                 return ask()
-            except DeviceError:
+            except (GarbledReply, LinkLost):
                 self._may_have_stale_bytes = True
+                self._line.renew()
                 raise
 
-        return attempts(attempt)
+        return within(self._budget_s, attempt)
 
     def _discard_stale_bytes(self) -> None:
         """Make sure that the next reply is the answer to the next question.
@@ -193,7 +194,7 @@ class HeidenhainND:
             received += more
 
     def _ask_value(self) -> float:
-        self._line.write(_ASK_VALUE)
+        self._send(_ASK_VALUE)
         line = self._read_lines(1)
         self._refuse_trailing_bytes()
         return self._value_mm(line)
@@ -203,6 +204,8 @@ class HeidenhainND:
         if match is None:
             raise self._garbled(line)
         sign, number, unit, sorting, series = match.groups()
+        if not _printable(unit + sorting + series):
+            raise self._garbled(line)
         if unit == _FAULT:
             raise DeviceFault(f"The {self._name} marks its value as faulty: {self._shown_error()}.")
         if unit == _INCH:
@@ -286,7 +289,11 @@ class HeidenhainND:
         return reply
 
     def _send_screen_command(self, command: str) -> None:
-        self._line.write(b"\x1b" + command.encode("ascii") + b"\r")
+        self._send(b"\x1b" + command.encode("ascii") + b"\r")
+
+    def _send(self, request: bytes) -> None:
+        self._line.write(request)
+        self._sent = request
 
     def _read_lines(self, count: int) -> bytes:
         """Bytes up to the `count`-th CR LF, or a lone NAK, within the time-out."""
@@ -301,6 +308,7 @@ class HeidenhainND:
                     raise self._garbled(reply)
                 raise self._silent()
             reply += more
+            self._line.refuse_echo(self._sent, reply)
         return reply
 
     def _refuse_trailing_bytes(self) -> None:

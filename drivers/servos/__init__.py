@@ -6,13 +6,18 @@ from collections.abc import Mapping
 from typing import Any
 
 from drivers.driver import ServoDriver
-from drivers.servos import leadshine_el7
+from drivers.servos import leadshine_el7, orientalmotor_blvr
 from drivers.servos.leadshine_el7 import LeadshineEL7
+from drivers.servos.orientalmotor_blvr import OrientalMotorBLVR
 
-SERVOS: Mapping[str, ServoDriver[Any]] = {"leadshine-el7": leadshine_el7.DRIVER}
+SERVOS: Mapping[str, ServoDriver[Any]] = {
+    "leadshine-el7": leadshine_el7.DRIVER,
+    "orientalmotor": orientalmotor_blvr.DRIVER,
+}
 """By `[servo] profile` of the station file."""
 
 __all__ = [
     "SERVOS",
     "LeadshineEL7",
+    "OrientalMotorBLVR",
 ]

@@ -49,7 +49,6 @@ _IN_POSITION_PULSES = 20
 _ENABLE_TIMEOUT_S = 2.0
 _RESET_TIMEOUT_S = 1.0
 _POLL_S = 0.01
-_STOP_ATTEMPTS = 3
 _RPM_PER_DEG_S = 1 / 6
 
 
@@ -139,7 +138,9 @@ class LeadshineEL7:
             time.sleep(_POLL_S)
 
     def move_to(self, theta_deg: float, speed_deg_s: float) -> None:
-        """Start an absolute move and return at once (one frame on the wire, never sent twice).
+        """Start an absolute move and return at once (one frame on the wire).
+
+        It is sent again, once, only where its reply is missing and the drive does not hold its target.
 
         :raises DeviceFault: not enabled, in alarm, out of range, refused, or overtaken by a stop
         :raises LinkLost: the reply is missing and the state read back does not show the move
@@ -162,9 +163,11 @@ class LeadshineEL7:
         ]
         try:
             self._bus.write(self._unit, PATH_0, block, stops_seen=asked_at)
-        except UnansweredWrite as error:
-            if not self._shows_move_to(target):
-                raise LinkLost(f"{self._title} did not confirm its move and does not show it.") from error
+        except UnansweredWrite:
+            if not self._holds_target(target):
+                self._bus.write(self._unit, PATH_0, block, stops_seen=asked_at)
+            elif not self._runs_or_stands_at(target):
+                raise
         self._target_pulses = target
 
     def status(self) -> AxisStatus:
@@ -206,21 +209,16 @@ class LeadshineEL7:
     def quick_stop(self) -> None:
         """Stop now, ahead of any queued request on the line.
 
-        This is the one write that is repeated when its reply is lost: stopping twice is stopping.
-
         :raises DeviceError: no attempt was confirmed
         """
         self._target_pulses = None
-        for attempt in range(1, _STOP_ATTEMPTS + 1):
-            try:
-                self._bus.write_one(self._unit, TRIGGER, QUICK_STOP, urgent=True)
-            except (LinkLost, GarbledReply) as error:
-                if attempt == _STOP_ATTEMPTS:
-                    raise LinkLost(
-                        f"{self._title} did not confirm its stop; use the emergency stop."
-                    ) from error
-            else:
-                return
+        try:
+            self._bus.stop(self._unit, TRIGGER, QUICK_STOP, look_at=MOTION_STATUS)
+        except (LinkLost, GarbledReply) as error:
+            cause = str(error).rstrip(".")
+            raise LinkLost(
+                f"{self._title} did not confirm its stop; use the emergency stop. {cause}."
+            ) from error
 
     def preset(self, theta_deg: float) -> None:
         """Declare the present place to be `theta_deg`.
@@ -262,10 +260,11 @@ class LeadshineEL7:
         target = self._target_pulses  # a stop may take it away meanwhile
         return target is not None and abs(self._feedback_pulses() - target) <= _IN_POSITION_PULSES
 
-    def _shows_move_to(self, target: int) -> bool:
-        """After a lost reply: whether the drive holds this target and runs towards it or is there."""
-        if _signed(self._bus.read(self._unit, PATH_0 + 1, 2)) != target:
-            return False
+    def _holds_target(self, target: int) -> bool:
+        """After a lost reply: whether the drive got the move."""
+        return _signed(self._bus.read(self._unit, PATH_0 + 1, 2)) == target
+
+    def _runs_or_stands_at(self, target: int) -> bool:
         running = MotionStatus(self._read(MOTION_STATUS)) & MotionStatus.RUNNING
         return bool(running) or abs(self._feedback_pulses() - target) <= _IN_POSITION_PULSES
 

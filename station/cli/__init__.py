@@ -9,7 +9,7 @@ from typing import Any
 import click
 
 from station import __version__
-from station.errors import InputRefused, NotFound
+from station.errors import InputRefused, NotFound, StoreUnavailable
 from station.home import station_home
 
 _COMMANDS = {
@@ -27,11 +27,14 @@ _COMMANDS = {
     "plan": ("plan", "The positions of a plan, their order and the accuracy they predict."),
     "real-robot": ("real_robot", "The closed loop on logs of a real arm, as figures and drawings."),
     "reproduce": ("studies", "The paper's tables and figures, computed again beside ours."),
+    "restore": ("restoring", "Put a backup in the place of the history; what was there is kept."),
+    "retract": ("apply", "Bring the arm back into its workspace, slowly."),
     "rollback": ("apply", "Put the zeros back that the drives had before a run was applied."),
     "runs": ("history", "The runs, newest first."),
     "serve": ("serve", "The service with the operator's page."),
     "show": ("history", "One run."),
     "solve": ("diagnosis", "Joint commands for target positions under the identified model."),
+    "verify": ("archive", "Whether every finished run is as it ended."),
     "transfer": ("diagnosis", "Apply the effects learned on one log, unchanged, to another log."),
 }
 """Module and purpose of each command; imported when it is asked for, since the numerics take long to load."""
@@ -74,7 +77,7 @@ class StationGroup(click.Group):
     def invoke(self, ctx: click.Context) -> Any:
         try:
             return super().invoke(ctx)
-        except (click.UsageError, InputRefused, NotFound) as error:
+        except (click.UsageError, InputRefused, NotFound, StoreUnavailable) as error:
             raise _refusal(error) from error
 
 

@@ -1,4 +1,4 @@
-"""`station apply` and `station rollback`: the zeros of the drives from the terminal."""
+"""`station apply`, `station rollback`, `station retract`: what moves the machine without a plan."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from pathlib import Path
 
 import click
 
+from station.cli.kept import run_argument
 from station.cli.machine_options import machine_options, read_settings
 from station.cli.one_run import one_run
 
-_id = click.argument("calibration_id", metavar="ID", type=click.IntRange(1, 2**63 - 1))
 _operator = click.option("--operator", help="Who is responsible; else the user of this terminal.")
 
 
 @click.command("apply")
-@_id
+@run_argument
 @_operator
 @machine_options
 @click.pass_obj
@@ -36,7 +36,7 @@ def apply_command(
 
 
 @click.command("rollback")
-@_id
+@run_argument
 @_operator
 @machine_options
 @click.pass_obj
@@ -54,3 +54,16 @@ def rollback_command(
     one_run(
         home, settings, emulate, lambda runtime: runtime.orchestrator.follow("rollback", calibration_id, who)
     )
+
+
+@click.command("retract")
+@_operator
+@machine_options
+@click.pass_obj
+def retract_command(
+    home: Path, operator: str | None, config: Path | None, emulate: Path | None, speed: float | None
+) -> None:
+    """Bring the arm back into its workspace, slowly."""
+    who = operator or getpass.getuser()
+    settings = read_settings(config, speed)
+    one_run(home, settings, emulate, lambda runtime: runtime.orchestrator.retract(who))

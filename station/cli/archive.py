@@ -1,4 +1,4 @@
-"""`station export` and `station backup`: what was measured, taken elsewhere."""
+"""`station export`, `backup` and `verify`: what was measured, taken elsewhere, and whether it is whole."""
 
 from __future__ import annotations
 
@@ -6,18 +6,38 @@ from pathlib import Path
 
 import click
 
-from station.cli.kept import config_option, kept
+from station.cli.kept import config_option, kept, run_argument
 from station.records import readings_to_csv
 
 
 @click.command("export")
-@click.argument("calibration_id", metavar="ID", type=click.IntRange(1, 2**63 - 1))
+@run_argument
 @config_option
 @click.pass_obj
 def export_command(home: Path, calibration_id: int, config: Path | None) -> None:
     """One run's readings as a measurement file on standard output."""
     with kept(home, config) as store:
         click.echo(readings_to_csv(store.readings(calibration_id)), nl=False)
+
+
+@click.command("verify")
+@click.option("--head", help="Hash that an earlier verify printed; it must be in the chain.")
+@config_option
+@click.pass_obj
+def verify_command(home: Path, head: str | None, config: Path | None) -> None:
+    """Whether every finished run is as it ended; names the first that is not."""
+    with kept(home, config) as store:
+        found = store.verify()
+        known = head is None or store.in_chain(head)
+    if found.older:
+        click.echo(f"{found.older} runs are older than the chain and not covered.")
+    if found.broken is not None:
+        click.echo(f"Run {found.broken.id}, uid {found.broken.uid}: {found.broken.why}.")
+        raise SystemExit(1)
+    if not known:
+        click.echo(f"No run has the hash {head}: runs were removed, or the chain was made again.")
+        raise SystemExit(1)
+    click.echo(f"{found.runs} runs are as they ended. Head of the chain: {found.head or 'none'}")
 
 
 @click.command("backup")

@@ -17,12 +17,13 @@ from rich.box import SIMPLE
 from rich.console import Console
 from rich.table import Table
 
-from station.cli.kept import config_option, kept
+from station.cli.kept import config_option, kept, run_argument
 from station.records import State
 from station.store import Store
 
 _COLUMNS = (
     "id",
+    "uid",
     "created_at",
     "robot_serial",
     "kind",
@@ -44,8 +45,8 @@ _COLUMNS = (
     "reason",
 )
 _TOLD = (
-    "id", "robot_serial", "kind", "plan", "operator", "work_order", "state", "verdict", "outcome", "reason",
-    "created_at", "started_at", "ended_at",
+    "id", "uid", "robot_serial", "kind", "plan", "operator", "work_order", "state", "verdict", "outcome",
+    "reason", "created_at", "started_at", "ended_at",
 )  # fmt: skip
 _SHOWN = ("id", "created_at", "robot_serial", "plan", "state", "verdict", "dtheta1_deg", "dtheta2_deg")
 
@@ -113,7 +114,7 @@ def _cell(value: object) -> str:
 
 
 @click.command("show")
-@click.argument("calibration_id", metavar="ID", type=click.IntRange(1, 2**63 - 1))
+@run_argument
 @click.option("--json", "as_json", is_flag=True, help="Everything, readings and events included, as JSON.")
 @config_option
 @click.pass_obj
@@ -158,7 +159,7 @@ def show_command(home: Path, calibration_id: int, as_json: bool, config: Path | 
 def memory_command(home: Path, serial: str, clear: bool, config: Path | None) -> None:
     """What a robot's next run knows of its geometry and mechanism."""
     console = Console(highlight=False)
-    with kept(home, config) as store:
+    with kept(home, config, writing=clear) as store:
         store.robot(serial)
         if clear:
             store.forget(serial, getpass.getuser())

@@ -9,6 +9,7 @@ from pathlib import Path
 import click
 
 from station.errors import InputRefused
+from station.records import LARGEST_ID
 from station.settings import database_path, load_settings
 from station.store import Store
 
@@ -16,10 +17,12 @@ config_option = click.option(
     "--config", type=click.Path(path_type=Path), help="Station file that names the database."
 )
 
+run_argument = click.argument("calibration_id", metavar="ID", type=click.IntRange(1, LARGEST_ID))
+
 
 @contextmanager
-def kept(home: Path, config: Path | None) -> Iterator[Store]:
-    """The store that is there; a mistyped folder does not begin a new one.
+def kept(home: Path, config: Path | None, *, writing: bool = False) -> Iterator[Store]:
+    """The store that is there, to be read alone by default; a mistyped folder does not begin a new one.
 
     :raises InputRefused: there is none.
     """
@@ -28,7 +31,7 @@ def kept(home: Path, config: Path | None) -> Iterator[Store]:
         raise InputRefused(
             f"There is no history at {path}; check --home, STATION_HOME and --config, or measure first."
         )
-    with closing(Store(path)) as store:
+    with closing(Store(path, read_only=not writing)) as store:
         yield store
 
 

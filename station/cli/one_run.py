@@ -27,7 +27,7 @@ _STOP_LIMIT_S = 15.0
 def one_run(
     home: Path, settings: Settings, emulate: Path | None, submit: Callable[[Runtime], Submitted]
 ) -> NoReturn:
-    """Take the rig, submit, wait for the end, say how it ended; exits with 0 for a pass, else 1.
+    """Take the rig, submit, wait for the end, say how it ended; exits with 0 for a good outcome, else 1.
 
     :raises InputRefused: the station cannot be opened or refuses the run.
     :raises click.UsageError: the offsets it is about cannot be written or taken back.
@@ -46,7 +46,8 @@ def one_run(
             state = _end_of(runtime, calibration_id)
         calibration = runtime.store.calibration(calibration_id)
     _print_outcome(console, state, calibration)
-    sys.exit(0 if calibration.verdict == "pass" else 1)
+    done = calibration.verdict == "pass" or (calibration.verdict is None and calibration.outcome == "good")
+    sys.exit(0 if done else 1)
 
 
 def _end_of(runtime: Runtime, calibration_id: int) -> State:

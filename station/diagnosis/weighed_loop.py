@@ -112,10 +112,12 @@ def weighed(
     context = context or Context.of(measurements)
     mistake = _mistake(robot, measurements, fresh, context, explained=True)
     files = _Files(measurements, _distinct(fresh, measurements))
-    if mistake is not None:
+    entry = None
+    if mistake is not None and mistake.severity == "as_effect":
+        mistake, entry = None, mistake
+    elif mistake is not None:
         files = files.without(mistake)
     found, files = _explained(robot, files)
-    entry = None
     if found.decision.verdict not in ("adequate", "explained"):
         late = _mistake(robot, files.walk, files.fresh, context, explained=False)
         if late is not None and late.severity == "as_effect":

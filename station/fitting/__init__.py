@@ -5,14 +5,25 @@ from __future__ import annotations
 from station.fitting.accuracy import common_sd_deg, position_error_field, position_error_summary, rms_and_max
 from station.fitting.least_squares import BLIND, NotConvergedError, Prior, Residuals, Solution, solve
 from station.fitting.linear import positive, solved
-from station.fitting.noise import MINIMUM_DOF, Noise, estimate_noise, lack_of_fit, pure_error, specified_noise
+from station.fitting.noise import (
+    FEWEST_REPEATS,
+    MINIMUM_DOF,
+    REFUSED_P,
+    Noise,
+    estimate_noise,
+    lack_of_fit,
+    pure_error,
+    specified_noise,
+)
 from station.fitting.outliers import Outlier, check_outlier_share, find_outliers, outliers_of_fit
 from station.fitting.prior import tolerance_prior
 from station.fitting.separability import describe_separability
 
 __all__ = [
     "BLIND",
+    "FEWEST_REPEATS",
     "MINIMUM_DOF",
+    "REFUSED_P",
     "Noise",
     "NotConvergedError",
     "Outlier",

@@ -17,6 +17,10 @@ from station.records import Measurements, NoiseOfReadings, Real
 
 MINIMUM_DOF = 8
 """Fewer repeats say less about the noise than the specification does."""
+FEWEST_REPEATS = 6
+"""Degrees of freedom; fewer repeats are no yardstick for a residual."""
+REFUSED_P = 1e-3
+"""A model that is true is refused by fresh readings this often."""
 
 
 @dataclass(frozen=True)

@@ -13,16 +13,26 @@ from station.five_bar.error_model import (
     pose,
     position_jacobian,
 )
-from station.five_bar.kinematics import HOME, Geometry, Unreachable, forward, inverse
+from station.five_bar.kinematics import HOME, Geometry, Unreachable, elbows, forward, inverse
 from station.five_bar.mechanism import GRID, MOST_ZERO_OFFSET, SCALE_SD_MM, FiveBar, lengths, load, pull
 from station.five_bar.plausibility import check_distances, check_places, check_poses
-from station.five_bar.robot_file import FIVE_BAR_MODEL, Robot, RobotFile, Tolerances, read_sections
+from station.five_bar.robot_file import (
+    FIVE_BAR_MODEL,
+    FRESH_INSET_MM,
+    INSET_MM,
+    Robot,
+    RobotFile,
+    Tolerances,
+    read_sections,
+)
 from station.five_bar.weak_direction import describe_weak_direction
 
 __all__ = [
     "FIVE_BAR_MODEL",
+    "FRESH_INSET_MM",
     "GRID",
     "HOME",
+    "INSET_MM",
     "KEPT",
     "MOST_ZERO_OFFSET",
     "NAMES",
@@ -41,6 +51,7 @@ __all__ = [
     "describe_weak_direction",
     "distance_by_joint",
     "distance_jacobian",
+    "elbows",
     "forward",
     "inverse",
     "lengths",

@@ -153,13 +153,15 @@ class FiveBar:
         theta = m.theta + p[:2]
         at = pose(perturbed(self.nominal, p[:SIZE]), theta)
         came_from = readings_before(m, None if first else reference)
+        direction, by_each = last_motion(m, distance_by_joint(at), came_from)
         return Conditions(
             t_s=m.t_s,
             theta=theta,
             drive_angle=m.theta - np.radians(self.robot.zero_at_deg),
             approach=m.approach.astype(float),
             travel=self.observe(p, m.theta).value,
-            slider_direction=last_motion(m, distance_by_joint(at), came_from),
+            slider_direction=direction,
+            slider_by_joint=by_each,
             slider_net=net_travel(m, came_from),
             temperature_rise=temperature_rise(m, reference),
             payload_kg=m.payload_kg,

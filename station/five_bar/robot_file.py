@@ -28,6 +28,10 @@ from station.records import Complex, Finite, Positive, Section, Sections, refusa
 
 Pair = tuple[float, float]
 FIVE_BAR_MODEL = "five-bar"
+INSET_MM = 4.0
+"""Kept free of the workspace's edge by what is measured, for the overshoot of an approach."""
+FRESH_INSET_MM = 15.0
+"""Kept free of it by fresh positions, which are predicted: the fit is surest in the interior."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,9 +5,11 @@ from __future__ import annotations
 from station.identification.document import gate_record, identification_document, position_error_map
 from station.identification.estimate import Gate, Identification, identify
 from station.identification.memory import Memory
+from station.identification.readout_jump import without_jump
 from station.identification.verification import (
     Verification,
     fresh_stops,
+    fresh_stops_of,
     not_identified,
     prediction_fault,
     result_of,
@@ -20,6 +22,7 @@ __all__ = [
     "Memory",
     "Verification",
     "fresh_stops",
+    "fresh_stops_of",
     "gate_record",
     "identification_document",
     "identify",
@@ -28,4 +31,5 @@ __all__ = [
     "prediction_fault",
     "result_of",
     "verify",
+    "without_jump",
 ]

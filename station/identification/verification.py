@@ -8,7 +8,8 @@ import numpy as np
 from scipy.linalg import null_space
 from scipy.special import chdtrc
 
-from station.five_bar import FiveBar, inverse
+from station.fitting import REFUSED_P
+from station.five_bar import FRESH_INSET_MM, FiveBar, Robot, inverse
 from station.identification.estimate import Identification
 from station.records import (
     LIMIT_SDS,
@@ -25,9 +26,6 @@ from station.records import (
 )
 
 FRESH_PLACES = 8
-FRESH_INSET_MM = 15.0
-REFUSED_P = 1e-3
-"""A true model fails the verification this often."""
 
 
 def fresh_stops(
@@ -37,16 +35,23 @@ def fresh_stops(
 
     :param count: a power of two
     """
+    seed = len(fit.measurements) if seed is None else seed
+    return fresh_stops_of(fit.mechanism.robot, fit.dtheta, seed, count, label)
+
+
+def fresh_stops_of(
+    robot: Robot, dtheta: Real, seed: int, count: int = FRESH_PLACES, label: str = "V"
+) -> tuple[Stop, ...]:
+    """The same for zero offsets (2,) rad, however they were identified."""
     from scipy.stats import qmc  # here, because it takes a second to load and only a run needs it
 
-    robot = fit.mechanism.robot
     low = (robot.workspace_x[0] + FRESH_INSET_MM, robot.workspace_y[0] + FRESH_INSET_MM)
     high = (robot.workspace_x[1] - FRESH_INSET_MM, robot.workspace_y[1] - FRESH_INSET_MM)
     # a new set each run, so that no place is ever learned by heart
-    sequence = qmc.Sobol(2, rng=len(fit.measurements) if seed is None else seed)
+    sequence = qmc.Sobol(2, rng=seed)
     points = qmc.scale(sequence.random(count), low, high)
     places = points[:, 0] + 1j * points[:, 1]
-    theta = np.degrees(inverse(robot.geometry, places) - fit.dtheta)
+    theta = np.degrees(inverse(robot.geometry, places) - dtheta)
     return tuple(
         Stop(f"{label}{k + 1}", (float(r.real), float(r.imag)), (float(t[0]), float(t[1])))
         for k, (r, t) in enumerate(zip(places, theta, strict=True))

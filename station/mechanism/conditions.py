@@ -14,6 +14,10 @@ from station.records import Measurements, Real
 WARMED_BY_K = 0.05
 """A temperature column that moves less shows no warming."""
 SAME_PLACE_RAD = 1e-6
+RUN_UP_RAD = np.radians(0.5)
+"""Run-up of a joint, as the station makes it unless its file says another."""
+SHORT_MM = 0.2
+"""A slider that moved less may hang on either side or between."""
 
 
 @dataclass(frozen=True)
@@ -32,6 +36,8 @@ class Conditions:
     """(K,) where the slider stands on the scale, mm: what a perfect scale would read."""
     slider_direction: Real
     """(K,) sign of the slider's last motion, 0 unknown."""
+    slider_by_joint: Real
+    """(K, n) the same if that joint alone arrives last, 0 unknown."""
     slider_net: Real
     """(K,) sign of the change of reading since the reading before, 0 unknown: what counts where the slider
     follows late or the way between is not known."""
@@ -96,15 +102,23 @@ def readings_before(m: Measurements, reference: Reference | None) -> Real:
     return came_from
 
 
-def last_motion(m: Measurements, by_joint: Real, came_from: Real) -> Real:
-    """(K,) sign in which the distance last changed: by the way from the reading before, or by the run-up
-    where the recorded approach says that the last motion was another; 0 unknown."""
+def last_motion(m: Measurements, by_joint: Real, came_from: Real) -> tuple[Real, Real]:
+    """(K,) sign in which the distance last changed, and (K, n) by each joint alone; 0 unknown or too short to
+    be sure.
+
+    By the run-up where the recorded approach says that the last motion was another than the way from the
+    reading before, else by that way; a slider that turned round on it is not known, for the joints do not
+    arrive quite together.
+    """
     way = m.theta - came_from[:, :-1]
     way[np.abs(way) < SAME_PLACE_RAD] = 0.0
-    run_up = (m.approach != 0) & (m.approach != np.sign(way))
-    last = np.where(run_up.any(axis=1)[:, None], m.approach, way)
-    direction = np.sign(np.sum(by_joint * last, axis=1))
-    return np.where(np.isnan(came_from).any(axis=1), 0.0, direction)
+    run_up = ((m.approach != 0) & (m.approach != np.sign(way))).any(axis=1)
+    last = np.where(run_up[:, None], RUN_UP_RAD * m.approach, way)
+    each = np.nan_to_num(by_joint * last)
+    moved = np.sum(each, axis=1)
+    direction = np.sign(moved)
+    known = (np.abs(moved) >= SHORT_MM) & (run_up | (direction == net_travel(m, came_from)))
+    return np.where(known, direction, 0.0), np.where(np.abs(each) >= SHORT_MM, np.sign(each), 0.0)
 
 
 def net_travel(m: Measurements, came_from: Real) -> Real:

@@ -171,6 +171,7 @@ class IdentifiedMachine:
             approach=situation.approach,
             travel=unknown,
             slider_direction=unknown,
+            slider_by_joint=np.zeros_like(theta),
             slider_net=unknown,
             temperature_rise=situation.temperature_rise,
             payload_kg=situation.payload_kg,

@@ -10,12 +10,16 @@ import json
 import logging
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from queue import Empty, Queue
-from threading import Thread
+from threading import Lock, Thread
 from typing import IO
 
+from pydantic import JsonValue
+
+from drivers.emulated.orders import ORDERS
+from drivers.emulated.orders import FaultOrder as FaultOrder
 from station.errors import InputRefused
 from station.settings import DEFAULT_JOINTS, ScaleSettings, ServoSettings, Settings
 
@@ -23,6 +27,11 @@ log = logging.getLogger(__name__)
 
 _START_LIMIT_S = 20.0
 _END_LIMIT_S = 3.0
+_ORDER_LIMIT_S = 5.0
+
+
+EffectTable = dict[str, JsonValue]
+"""`kind` and the fields of that kind."""
 
 
 class EmulatedRig:
@@ -37,6 +46,11 @@ class EmulatedRig:
         :raises InputRefused: it did not start, with what it said.
         """
         self.speed = speed
+        self.faults: tuple[FaultOrder, ...] = ()
+        """As ordered last while it runs."""
+        self.effects: tuple[EffectTable, ...] = ()
+        """Likewise; those of the rig file are not listed."""
+        self._ordering = Lock()
         state_file.parent.mkdir(parents=True, exist_ok=True)
         command = [sys.executable, "-m", "drivers.emulated"]
         command += ["--state", str(state_file), "--speed", f"{speed:g}"]
@@ -68,6 +82,37 @@ class EmulatedRig:
             self.close()
             said = self._complaints[-1] if self._complaints else "it did not say why"
             raise InputRefused(f"The emulated rig did not start: {said.rstrip('.')}.") from error
+
+    def order(self, faults: Sequence[FaultOrder]) -> tuple[FaultOrder, ...]:
+        """These faults and no others from now on; what is ordered then.
+
+        :raises InputRefused: the rig does not take them, or does not answer.
+        """
+        given = ORDERS.dump_python(tuple(faults), mode="json")
+        self.faults = ORDERS.validate_python(self._order("faults", given))
+        return self.faults
+
+    def order_effects(self, effects: Sequence[EffectTable]) -> tuple[EffectTable, ...]:
+        """These imperfections of the machine and no others from now on, as `[[effect]]` of a rig file.
+
+        :raises InputRefused: as `order`.
+        """
+        self.effects = tuple(self._order("effects", list(effects)))
+        return self.effects
+
+    def _order(self, what: str, tables: list[EffectTable]) -> list[EffectTable]:
+        assert self._process.stdin is not None
+        with self._ordering:
+            try:
+                self._process.stdin.write(json.dumps({what: tables}) + "\n")
+                self._process.stdin.flush()
+                answer = json.loads(self._lines.get(timeout=_ORDER_LIMIT_S))
+            except (OSError, Empty, json.JSONDecodeError) as error:
+                raise InputRefused("The emulated rig does not answer; start the station again.") from error
+        if "error" in answer:
+            raise InputRefused(f"The emulated rig refuses the {what}: {answer['error']}.")
+        ordered: list[EffectTable] = answer[what]
+        return ordered
 
     def settings(self, settings: Settings) -> Settings:
         """The same station with its devices at this rig's addresses."""

@@ -14,6 +14,7 @@ from station.records import (
     Interlock,
     MachineView,
     ResidualOfReading,
+    RetractView,
     RunBrief,
     RunReading,
     SequenceView,
@@ -21,7 +22,9 @@ from station.records import (
 
 log = logging.getLogger(__name__)
 
-EventType = Literal["run", "walk", "reading", "residuals", "machine", "device", "interlock", "ended"]
+EventType = Literal[
+    "run", "walk", "reading", "residuals", "machine", "device", "interlock", "retract", "ended"
+]
 
 
 EventData = (
@@ -32,6 +35,7 @@ EventData = (
     | MachineView
     | DeviceView
     | tuple[Interlock, ...]
+    | RetractView
     | CalibrationSummary
     | None
 )

@@ -18,7 +18,8 @@ from station.motion.devices import Devices
 from station.motion.events import Listeners
 from station.motion.limits import outside_text
 from station.motion.time_limit import each_within
-from station.records import DeviceState, DeviceView, Interlock, MachineView
+from station.motion.way_back import outside_mm
+from station.records import DeviceState, DeviceView, Interlock, MachineView, RetractView
 from station.settings import LimitSettings
 
 STOP_LIMIT_S = 1.5
@@ -62,7 +63,10 @@ class Machine:
         self._all: tuple[Device, ...] = (devices.scale, *devices.axes)
         self._known = {device.name: _Known() for device in self._all}
         self._pose: Pose | None = None
+        self._stands_deg: tuple[float, float] | None = None
+        """As in the pose; known without the scale, too."""
         self._told: tuple[Interlock, ...] = ()
+        self._told_retract: RetractView | None = None
 
     # Working with the devices --------------------------------------------------------------------
 
@@ -80,13 +84,13 @@ class Machine:
             if self._known[device.name].alarm is None:
                 self._learn(device, "ok", "")
 
-    def connect_missing(self) -> None:
+    def connect_missing(self, *, axes_only: bool = False) -> None:
         """Connect every device that was never connected or was lost.
 
         :raises NotReady: naming all that could not be connected, each with its cause.
         """
         failures = []
-        for device in self._all:
+        for device in self.devices.axes if axes_only else self._all:
             if self._known[device.name].connected:
                 continue
             device.close()
@@ -121,6 +125,7 @@ class Machine:
     def moved(self, theta_deg: tuple[float, float], scale_mm: float) -> Pose:
         """Keep and publish where the arm stands now."""
         pose = self._pose = Pose(theta_deg, scale_mm, time.monotonic())
+        self._stands_deg = theta_deg
         self._listeners.publish("machine", self.view())
         self._tell_interlocks()
         return pose
@@ -134,7 +139,19 @@ class Machine:
             self.look()
         except DeviceError:
             self._pose = None  # a place that is not known is not shown
+            self._look_at_axes()
             self._tell_interlocks()
+
+    def _look_at_axes(self) -> None:
+        """Where the arm stands is known without the scale: enough to bring it back."""
+        self._stands_deg = None
+        if not all(self._known[axis.name].connected for axis in self.devices.axes):
+            return
+        try:
+            first, second = (axis.feedback_deg() for axis in self.devices.axes)
+        except DeviceError:
+            return
+        self._stands_deg = (first, second)
 
     def ready_axes(self) -> None:
         """Reset what alarm can be reset and power both axes.  :raises DeviceError:"""
@@ -248,6 +265,27 @@ class Machine:
             _interlock("scale", "The scale reads", "" if math.isfinite(scale_mm) else "no reading"),
         )
 
+    def retract(self) -> RetractView:
+        """The `retract` part of the snapshot."""
+        if self._stands_deg is None:
+            return RetractView(needed=False, excess_mm=None, text="It is not known where the arm stands.")
+        excess_mm = outside_mm(self.robot, self._stands_deg)
+        if not math.isfinite(excess_mm):
+            return RetractView(
+                needed=True, excess_mm=None, text="The linkage cannot close at these joint angles."
+            )
+        if excess_mm <= self.limits.workspace_margin_mm:
+            return RetractView(
+                needed=False,
+                excess_mm=max(0.0, round(excess_mm, 3)),
+                text="The arm stands within its workspace.",
+            )
+        return RetractView(
+            needed=True,
+            excess_mm=round(excess_mm, 3),
+            text=f"The arm stands {excess_mm:.1f} mm outside its workspace.",
+        )
+
     def _outside(self) -> str:
         if self._pose is None:
             return "its place is not known"
@@ -269,6 +307,10 @@ class Machine:
         if interlocks != self._told:
             self._told = interlocks
             self._listeners.publish("interlock", interlocks)
+        retract = self.retract()
+        if retract != self._told_retract:
+            self._told_retract = retract
+            self._listeners.publish("retract", retract)
 
 
 def _expect_standstill(axis: ServoAxis) -> None:

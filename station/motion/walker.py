@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 import statistics
 import time
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from threading import Event
 
@@ -24,6 +25,8 @@ _LOOK_S = 0.25
 _ARRIVAL_MARGIN_S = 3.0
 _SLOWEST_DEG_S = 1.0
 _DIGITS = 9
+_FROZEN_MM = 1e-6
+_MOVED_MM = 5.0
 _STILL_DEG = 0.004
 """Two pulses: less is no motion that could have a direction."""
 
@@ -45,16 +48,27 @@ class Walker:
     _direction: tuple[int, int] = (0, 0)
     _origin: tuple[float, float] | None = None
     """Scale and nominal distance at the first reading: what travel is counted from."""
+    _before: tuple[float, float] | None = None
+    """The last sample of the reading before, and its nominal distance."""
 
-    def prepare(self) -> None:
+    @property
+    def theta_deg(self) -> Angles:
+        """Where the joints stood at the last look."""
+        return self._theta
+
+    def prepare(self, *, from_outside: bool = False) -> None:
         """Connect, reset, enable, look, and check every interlock.
 
+        :param from_outside: only what it takes to bring the arm back into the workspace
         :raises DeviceError: naming what is missing or forbids to start.
         """
         self.machine.robot, self.machine.compensation_deg = self.robot, (0.0, 0.0)
-        self.machine.connect_missing()
+        self.machine.connect_missing(axes_only=from_outside)
         self.check_cancel()
         self.machine.ready_axes()
+        if from_outside:
+            self._theta = self._feedback()
+            return
         self.look()
         broken = [f"{lock.text}: {lock.detail}" for lock in self.machine.interlocks() if not lock.ok]
         if broken:
@@ -63,7 +77,7 @@ class Walker:
     def look(self) -> None:
         """Where the joints stand now, in the frames of their drives as they are now.  :raises DeviceError:"""
         self._theta = self.machine.look().theta_deg
-        self._origin = None
+        self._origin = self._before = None
 
     def measure(self, stop: Stop, number: int, walk: int) -> Reading:
         """Go there and read.
@@ -75,7 +89,8 @@ class Walker:
         self.stand_at(stop)
         samples, theta = self._samples(stop, number)
         scale_mm = round(statistics.fmean(samples), _DIGITS)
-        self._check_travel(stop, number, scale_mm, theta)
+        self._check_stands(stop, theta)
+        self._check_travel(stop, number, samples, theta)
         t_s = round((time.monotonic() - self.started) * self.machine.devices.speed, 3)
         self.machine.moved(theta, scale_mm)
         return Reading(number, t_s, theta, self._direction, scale_mm, stop.position, walk, tuple(samples))
@@ -86,8 +101,15 @@ class Walker:
         check_way(self.robot, self.joints, self.machine.limits, stop, [self._theta, *way])
         self.machine.compensation_deg = self._compensation(stop)
         for target in way:
-            self._go(stop, target)
+            self._go(stop, target, self.machine.limits.speed_deg_s)
         self._pause(self.machine.limits.settle_s)
+
+    def go(self, stop: Stop, speed_deg_s: float, *, scale: bool) -> None:
+        """Straight there at a speed, without a check of limits.  :raises: as `measure`
+
+        :param scale: whether the scale is watched on the way
+        """
+        self._go(stop, stop.theta_deg, speed_deg_s, scale=scale)
 
     # The way --------------------------------------------------------------------------------------
 
@@ -111,18 +133,17 @@ class Walker:
 
     # Motion ---------------------------------------------------------------------------------------
 
-    def _go(self, stop: Stop, target: Angles) -> None:
+    def _go(self, stop: Stop, target: Angles, speed: float, *, scale: bool = True) -> None:
         """Both joints at once, so timed that they arrive together."""
         start = self._theta
         travel = [abs(end - begin) for begin, end in zip(start, target, strict=True)]
         longest = max(travel)
-        speed = self.machine.limits.speed_deg_s
         for axis, angle, distance in zip(self.machine.devices.axes, target, travel, strict=True):
             self.check_cancel()
             share = speed * distance / longest if longest else speed
             with self.machine.using(axis):
                 axis.move_to(angle, max(share, min(speed, _SLOWEST_DEG_S)))
-        self._wait_in_position(stop, start, target, longest / speed + _ARRIVAL_MARGIN_S)
+        self._wait_in_position(stop, start, target, longest / speed + _ARRIVAL_MARGIN_S, scale)
         theta = self._feedback()
         for joint in (0, 1):
             if not abs(theta[joint] - target[joint]) <= self.machine.limits.feedback_deg:
@@ -136,7 +157,9 @@ class Walker:
         )
         self._theta = theta
 
-    def _wait_in_position(self, stop: Stop, start: Angles, target: Angles, limit_s: float) -> None:
+    def _wait_in_position(
+        self, stop: Stop, start: Angles, target: Angles, limit_s: float, scale: bool
+    ) -> None:
         deadline = time.monotonic() + limit_s
         next_look = time.monotonic() + _LOOK_S
         while True:
@@ -151,7 +174,7 @@ class Walker:
                     f"{sentence(names)} did not reach position {stop.position} within {limit_s:.1f} s."
                 )
             if time.monotonic() > next_look:
-                self._check_corridor(stop, start, target)
+                self._check_corridor(stop, start, target, scale)
                 next_look = time.monotonic() + _LOOK_S
             self._wait(_POLL_S)
 
@@ -166,9 +189,9 @@ class Walker:
             raise StepFailed(f"{sentence(axis.name)} lost its power on the way to position {stop.position}.")
         return status.in_position and not status.moving
 
-    def _check_corridor(self, stop: Stop, start: Angles, target: Angles) -> None:
+    def _check_corridor(self, stop: Stop, start: Angles, target: Angles, scale: bool) -> None:
         """Each joint stays between where it came from and where it goes; the scale keeps reading."""
-        theta = self.machine.look().theta_deg
+        theta = self.machine.look().theta_deg if scale else self._feedback()
         room = self.machine.limits.corridor_deg
         for joint in (0, 1):
             low, high = sorted((start[joint], target[joint]))
@@ -212,10 +235,34 @@ class Walker:
                 angles.append(axis.feedback_deg())
         return angles[0], angles[1]
 
-    def _check_travel(self, stop: Stop, number: int, scale_mm: float, theta: Angles) -> None:
-        """The scale must have moved about as far as the joints say: a rod that slipped does not."""
+    def _check_stands(self, stop: Stop, theta: Angles) -> None:
+        """Both drives have held their position while the scale was read: one that restarted has not."""
+        for axis in self.machine.devices.axes:
+            self._arrived(stop, axis)
+        for joint in (0, 1):
+            if not abs(theta[joint] - stop.theta_deg[joint]) <= self.machine.limits.feedback_deg:
+                raise StepFailed(
+                    f"While position {stop.position} was read, joint {joint + 1} came to stand at"
+                    f" {theta[joint]:.4f} deg instead of {stop.theta_deg[joint]:.4f};"
+                    " has its drive restarted?"
+                )
+
+    def _check_travel(self, stop: Stop, number: int, samples: Sequence[float], theta: Angles) -> None:
+        """The scale must have moved about as far as the joints say: a rod that slipped does not.
+
+        And it must have moved at all: a readout that froze goes on to answer.
+        """
         geometry = self.robot.geometry
         distance = float(abs(forward(geometry, np.radians(np.array([theta])))[0] - geometry.cd))
+        scale_mm = statistics.fmean(samples)
+        if self._before is not None:
+            stood = abs(samples[0] - self._before[0]) < _FROZEN_MM
+            if stood and abs(distance - self._before[1]) > _MOVED_MM:
+                raise StepFailed(
+                    f"Reading {number} at position {stop.position} is implausible: the scale shows"
+                    f" {scale_mm:.4f} mm as before, although the joints moved; check its display and its rod."
+                )
+        self._before = (samples[-1], distance)
         if self._origin is None:
             self._origin = (scale_mm, distance)
         doubt = (scale_mm - self._origin[0]) - (distance - self._origin[1])

@@ -5,7 +5,8 @@ Each plan is a module that registers itself.  Importing the package registers th
 
 from __future__ import annotations
 
-from station.plans import boundary, diagnostic_sequence, full  # noqa: F401 - they register themselves
+# they register themselves, in the order in which they are offered
+from station.plans import boundary, full, diagnostic_sequence  # isort: skip  # noqa: F401
 from station.plans.diagnostic_sequence import FRESH_PLACES, SIDES, diagnostic_fresh_stops
 from station.plans.drawing import plan_as_text, plan_page
 from station.plans.plan import PLANS, PlanDesign, Visits, each_once, make_plan, register

@@ -9,15 +9,13 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from station.five_bar import Robot, inverse
-from station.plans.full import INSET_MM
+from station.five_bar import FRESH_INSET_MM, INSET_MM, Robot, inverse
 from station.plans.plan import PlanDesign, Visits, register
 from station.records import Complex, Real, Stop
 
 COLUMNS, ROWS = 9, 5
 REPEATED = 10
 FRESH_PLACES = 40
-FRESH_INSET_MM = 15.0
 SIDES = ((1, 1), (-1, -1), (1, -1), (-1, 1))
 
 

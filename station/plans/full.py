@@ -9,15 +9,13 @@ from __future__ import annotations
 import numpy as np
 
 from station.errors import InputRefused
-from station.five_bar import GRID, Robot
+from station.five_bar import GRID, INSET_MM, Robot
 from station.plans.exchange_algorithm import choose
 from station.plans.plan import PlanDesign, Visits, register
 from station.plans.prediction import information_rows, known_beforehand, measured_at
 from station.records import Complex
 
 CANDIDATES = (41, 17)
-INSET_MM = 4.0
-"""Kept free of the workspace's edge for the overshoot of an approach."""
 FULL_PLACES = 24
 APART_MM = 10.0
 TIMES = (3, 2)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from station.records.accuracy import PositionError, Remedy, WeakDirection
+from station.records.backup import BackupMade
 from station.records.calibration import (
     Application,
     ApplicationRun,
@@ -63,6 +64,7 @@ from station.records.live import (
     Interlock,
     MachineView,
     ResidualOfReading,
+    RetractView,
     RunBrief,
     RunReading,
     RunStop,
@@ -109,20 +111,24 @@ from station.records.result import (
 from station.records.run import (
     CalibrationRequest,
     PlanName,
+    Retract,
     SetZeros,
     State,
+    Step,
     Stop,
     Submitted,
     Walk,
     ZeroWrite,
 )
 from station.records.sections import Finite, Positive, Section, Sections, refusal
-from station.records.types import Angles, Complex, Index, Real
+from station.records.types import LARGEST_ID, Angles, Complex, Index, Real
+from station.records.uid import uid7
 from station.records.visited import inside_visited, visited_in_degrees, visited_ranges
 
 __all__ = [
     "DIAGNOSIS_SCHEMA",
     "FIVE_BAR",
+    "LARGEST_ID",
     "LIMIT_SDS",
     "MIXTURE_SCHEMA",
     "MODEL_SCHEMA",
@@ -133,6 +139,7 @@ __all__ = [
     "Application",
     "ApplicationRun",
     "ApplicationState",
+    "BackupMade",
     "Calibration",
     "CalibrationRequest",
     "CalibrationResult",
@@ -201,6 +208,8 @@ __all__ = [
     "ResidualOfReading",
     "ResidualSummary",
     "ResultParts",
+    "Retract",
+    "RetractView",
     "RunBrief",
     "RunReading",
     "RunStop",
@@ -217,6 +226,7 @@ __all__ = [
     "State",
     "StationInfo",
     "StationView",
+    "Step",
     "Stop",
     "StoredEvent",
     "Submitted",
@@ -246,6 +256,7 @@ __all__ = [
     "refusal",
     "residual_rows",
     "translated",
+    "uid7",
     "visited_in_degrees",
     "visited_ranges",
     "with_guesses",

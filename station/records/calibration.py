@@ -19,6 +19,8 @@ class CalibrationSummary(Record):
     """One line of the history."""
 
     id: int
+    uid: str
+    """UUIDv7; other than the number, no other station gives it away, nor this one after a restore."""
     robot_serial: str
     kind: str
     """What the run did: `calibrate`, `diagnose`, `separate`, `apply`, `rollback` or `import`."""

@@ -55,6 +55,15 @@ class MachineView(Record):
     age_s: float | None
 
 
+class RetractView(Record):
+    """Whether the arm has to be brought back into its workspace."""
+
+    needed: bool
+    excess_mm: float | None
+    """How far outside it stands; null when that is not known or the linkage cannot close there."""
+    text: str
+
+
 class Workspace(Record):
     """Limits of the workspace, mm."""
 
@@ -110,6 +119,7 @@ class RunBrief(Record):
     """The run that holds the rig, without its positions and readings."""
 
     id: int
+    uid: str
     state: State
     robot_serial: str
     kind: str
@@ -142,5 +152,6 @@ class StationView(Record):
     machine: MachineView | None
     """Null while it is not known where the arm stands."""
     workspace: Workspace
+    retract: RetractView
     run: RunView | None
     last: CalibrationSummary | None

@@ -20,7 +20,7 @@ import numpy as np
 from station.errors import InputRefused
 from station.records.measurements import Measurements, number
 from station.records.reading import Reading
-from station.records.types import Real
+from station.records.types import LARGEST_ID, Real
 
 log = logging.getLogger(__name__)
 
@@ -28,8 +28,6 @@ MINIMUM_READINGS = 5
 """Four unknowns and the reading offset (paper, section 5: K >= 5)."""
 LARGEST_NUMBER = 1e12
 """Whatever its unit, also of seconds since 1970; its square is still a number."""
-LARGEST_ID = 2**63 - 1
-"""The database takes no larger number."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,10 +6,10 @@ from collections.abc import Generator
 from typing import Any
 
 from station.records.result import CalibrationResult
-from station.records.run import SetZeros, Walk
+from station.records.run import Step
 
-Procedure = Generator[Walk | SetZeros, Any, CalibrationResult]
-"""Yields measurement sequences and is sent the readings of each, yields zeros and is sent their shifts.
+Procedure = Generator[Step, Any, CalibrationResult]
+"""Yields steps and is sent what each came to: readings of a sequence, shifts of the zeros, the distance back.
 
 An error in a step is raised where it was yielded, so that the procedure may still put something right.
 A procedure never touches a device: the orchestrator moves, stores and sends.

@@ -99,6 +99,18 @@ class SetZeros:
 
 
 @dataclass(frozen=True, slots=True)
+class Retract:
+    """The arm to be brought back into the workspace; answered with how far outside it stood, mm."""
+
+    title: str
+    number: int
+
+
+Step = Walk | SetZeros | Retract
+"""What a procedure may ask for."""
+
+
+@dataclass(frozen=True, slots=True)
 class ZeroWrite:
     """One zero written to a drive: theta in the frame before = theta after it + `shift_deg`."""
 

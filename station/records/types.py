@@ -15,3 +15,7 @@ Angles = tuple[float, float]
 
 
 Index = NDArray[np.intp]
+
+
+LARGEST_ID = 2**63 - 1
+"""SQLite's largest row id; the database takes no larger number."""

@@ -2,7 +2,14 @@
 
 from __future__ import annotations
 
-from station.run_kinds import apply, calibrate, diagnose, import_file, separate  # noqa: F401 - they register themselves
+from station.run_kinds import (  # noqa: F401 - they register themselves
+    apply,
+    calibrate,
+    diagnose,
+    import_file,
+    retract,
+    separate,
+)
 from station.run_kinds.diagnose import diagnosed
 from station.run_kinds.import_file import Upload, import_dataset
 from station.run_kinds.kind import RUN_KINDS, Continued, RunKind, Start, kind_of_plan

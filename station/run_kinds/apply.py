@@ -60,16 +60,19 @@ def source_of(store: Store, calibration_id: int) -> Source:
     calibration = store.calibration(calibration_id)
     readings = store.readings(calibration_id)
     if calibration.plan == "paper":  # a place's passes stand at different angles: they are no repeats
+        # without the walk that verified: it took no part in the fit
+        if calibration.after is not None and calibration.after.fresh_reading_rms_mm is not None:
+            readings = [r for r in readings if r.walk < readings[-1].walk]
         readings = [replace(r, position=f"{r.position} pass {r.walk}") for r in readings]
     else:  # the second walk verified, it took no part in the fit
         readings = [r for r in readings if r.walk == 1]
     use = calibration.memory
     memory = store.memory_left_by(use.from_calibration) if use and use.used else None
     fit = fit_of(store.robot_of(calibration_id), readings, memory, (use.age_days if use else None) or 0.0)
-    first, second = (zero.value_deg for zero in calibration.zero_offsets)
-    if first is None or second is None:
+    offsets = [zero.value_deg for zero in calibration.zero_offsets if zero.value_deg is not None]
+    if len(offsets) != 2:
         raise InputRefused(f"Run {calibration_id} has no zero offsets; calibrate again.")
-    return Source(calibration_id, fit, (first, second))
+    return Source(calibration_id, fit, (offsets[0], offsets[1]))
 
 
 def start_apply(start: Start) -> Procedure:

@@ -68,6 +68,10 @@ class RunKind:
     """The run that has done this for an earlier run already, so that asking again is harmless."""
     continues: Callable[[Store, CalibrationRequest], Continued] | None = None
     """What is taken over from the earlier run before anything moves."""
+    from_outside: bool = False
+    """Whether it may start where the arm stands outside its workspace, or the scale does not read."""
+    judged: bool = True
+    """Whether it ends with a verdict on the robot."""
     offsets: bool = False
     """Whether the zero offsets of a pass may be written to the drives."""
 

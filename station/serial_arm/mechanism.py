@@ -184,6 +184,7 @@ class SerialArm:
             approach=m.approach.astype(float),
             travel=self.observe(p, m.theta).value if self.by_range else unknown,
             slider_direction=unknown,
+            slider_by_joint=np.zeros_like(theta),
             slider_net=unknown,
             temperature_rise=temperature_rise(m, reference),
             payload_kg=m.payload_kg,

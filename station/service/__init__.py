@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from station.service.orchestrator import LiveEvent, Orchestrator, Submitted
-from station.service.runtime import Runtime
+from station.service.runtime import Runtime, holding
 
 __all__ = [
     "LiveEvent",
     "Orchestrator",
     "Runtime",
     "Submitted",
+    "holding",
 ]

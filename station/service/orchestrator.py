@@ -8,7 +8,6 @@ to the drives directly, past the worker and past every queue.
 from __future__ import annotations
 
 import logging
-import sqlite3
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
@@ -18,31 +17,45 @@ from threading import Lock, Thread
 from typing import Any
 
 from drivers.errors import DeviceError
-from station.errors import Busy, InputRefused, KeyReused, NotFound, StepFailed
+from station.errors import Busy, InputRefused, KeyReused, NotFound, StepFailed, StoreUnavailable
 from station.five_bar import Robot
 from station.messages import display_name
-from station.motion import Cancelled, Devices, Listener, Listeners, LiveEvent, Machine, Walker, Zeroing
+from station.motion import (
+    Cancelled,
+    Devices,
+    Listener,
+    Listeners,
+    LiveEvent,
+    Machine,
+    Retracting,
+    Walker,
+    Zeroing,
+)
 from station.plans import PLANS
 from station.records import (
     CalibrationRequest,
     CalibrationResult,
     CalibrationSummary,
-    Procedure,
     Reading,
     Reason,
+    Retract,
     SetZeros,
     State,
     StationInfo,
     StationView,
+    Step,
     Submitted,
     Walk,
     Workspace,
     because,
+    uid7,
 )
 from station.run_kinds import RUN_KINDS, RunKind, Start
+from station.service.clock_watch import ClockWatch
+from station.service.procedures import follow_procedure
 from station.service.run import Run
 from station.settings import Settings
-from station.store import Store, request_hash
+from station.store import Store, request_hash, too_full
 
 __all__ = ["Busy", "InputRefused", "KeyReused", "LiveEvent", "NotFound", "Orchestrator", "Submitted"]
 
@@ -78,7 +91,11 @@ class Orchestrator:
         self._lock = Lock()
         self._run: Run | None = None
         self._last = store.last_on_rig()
+        self._clock = ClockWatch(store)
+        if self._last is not None:
+            self._machine.robot = store.robot_or_nominal(self._last.robot_serial)
         self._closing = False
+        self._stop_records: list[Thread] = []
         self._queue: Queue[Run | None] = Queue()
         self._worker = Thread(target=self._work, name="orchestrator", daemon=True)
         self._worker.start()
@@ -92,6 +109,7 @@ class Orchestrator:
         :raises KeyReused: the key came with another request.
         :raises InputRefused: the robot does not fit this station, or the station is shutting down.
         :raises NotApplicable: the offsets of the run it is about cannot be written or taken back.
+        :raises StoreUnavailable: it cannot be recorded, so nothing was started.
         """
         kind = self._kinds[request.kind]
         body_hash = request_hash(request)
@@ -106,10 +124,15 @@ class Orchestrator:
                 raise Busy(holder.id)
             if kind.procedure is None:
                 raise InputRefused(f"{display_name('run_kinds', kind.name)} is not carried out on the rig.")
+            if trouble := self.no_room():
+                raise StoreUnavailable(trouble)
             robot = self._robot(request.robot_serial)
             kind.check(self._store, request)
-            calibration_id = self._store.create(request, robot, key=idempotency_key, body_hash=body_hash)
-            run = Run(calibration_id, request, robot)
+            uid = uid7()
+            calibration_id = self._store.create(
+                request, robot, key=idempotency_key, body_hash=body_hash, uid=uid
+            )
+            run = Run(calibration_id, uid, request, robot)
             with self._lock:
                 self._run = run
         self._listeners.publish("run", run.brief())
@@ -130,6 +153,18 @@ class Orchestrator:
             return Submitted(done, created=False)
         serial = self._store.summary(calibration_id).robot_serial
         request = CalibrationRequest(serial, kind, operator, of=calibration_id)
+        return self.submit(request, idempotency_key=idempotency_key)
+
+    def no_room(self) -> str | None:
+        """Why the disk is too full for a run; None when it is not."""
+        return too_full(self._store.path, self._settings.service.least_free_mb)
+
+    def retract(self, operator: str, *, idempotency_key: str | None = None) -> Submitted:
+        """Start a run that brings the arm back into the workspace of the robot measured last.
+
+        :raises: as `submit`.
+        """
+        request = CalibrationRequest(self._machine.robot.serial, "retract", operator)
         return self.submit(request, idempotency_key=idempotency_key)
 
     def _robot(self, serial: str) -> Robot:
@@ -158,10 +193,16 @@ class Orchestrator:
         else:
             self._store.summary(calibration_id)
 
+    @property
+    def axes(self) -> tuple[str, ...]:
+        """Names of what `stop` stops."""
+        return tuple(axis.name for axis in self._machine.devices.axes)
+
     def stop(self, who: str) -> dict[str, str | None]:
         """Quick stop of both axes, now, whatever else happens; a run that is under way is aborted.
 
-        Returns, by axis, None when it confirmed the stop, else what went wrong.
+        Returns, by axis, None when it confirmed the stop, else what went wrong.  The answer is that of the
+        drives; it is recorded afterwards.
         """
         return self._halt(self._run, who)
 
@@ -172,11 +213,22 @@ class Orchestrator:
         outcome = self._machine.quick_stop()
         trouble = {name: text for name, text in outcome.items() if text}
         log.warning("Stop by %s: %s", who, trouble or "both axes confirmed")
-        try:
-            self._store.add_event(run.id if run else None, "stop", {"by": who, **trouble})
-        except sqlite3.Error:
-            log.exception("The stop could not be recorded")  # it was carried out all the same
+        # Aside: a database that is locked must not keep the answer of the drives from anybody.
+        record = Thread(
+            target=self._record_stop,
+            args=(run.id if run else None, who, trouble),
+            name="record of a stop",
+            daemon=True,
+        )
+        self._stop_records = [thread for thread in self._stop_records if thread.is_alive()] + [record]
+        record.start()
         return outcome
+
+    def _record_stop(self, run_id: int | None, who: str, trouble: dict[str, str]) -> None:
+        try:
+            self._store.add_event(run_id, "stop", {"by": who, **trouble})
+        except StoreUnavailable:
+            log.exception("The stop could not be recorded")  # it was carried out all the same
 
     def wait(self, calibration_id: int, timeout_s: float | None = None) -> State:
         """Until the run has ended or the time is over; its state then.  :raises NotFound:"""
@@ -196,6 +248,8 @@ class Orchestrator:
         self._worker.join(SHUTDOWN_LIMIT_S)
         if self._worker.is_alive():
             log.error("The worker hangs in a device; the run will be marked interrupted at the next start")
+        for record in self._stop_records:
+            record.join(SHUTDOWN_LIMIT_S)
         self._machine.close()
 
     # Watching ------------------------------------------------------------------------------------
@@ -220,6 +274,7 @@ class Orchestrator:
             interlocks=self._machine.interlocks(),
             machine=self._machine.view(),
             workspace=Workspace(x=robot.workspace_x, y=robot.workspace_y),
+            retract=self._machine.retract(),
             run=run.view() if run else None,
             last=last,
         )
@@ -242,29 +297,30 @@ class Orchestrator:
             self._machine.watch()
         except Exception:  # the worker must outlive whatever an idle device does
             log.exception("Looking at the idle machine failed")
+        self._store.repeat_ends()
+        self._clock.look()
 
     def _execute(self, run: Run) -> None:
         ending = self._perform(run)
         ending = self._bring_to_rest(run, ending)
+        judged = self._kinds[run.request.kind].judged
+        run.state = self._store.finish(run.id, ending.state, ending.result, ending.reason, judged=judged)
         try:
-            run.state = self._store.finish(run.id, ending.state, ending.result, ending.reason)
             summary = self._store.summary(run.id)
-        except sqlite3.Error as error:
-            log.exception(
-                "The end of run %d could not be stored; the next start marks it interrupted", run.id
-            )
-            run.state = State.FAILED
-            summary = self._unstored(run, because("store_failed", text=str(error)))
+        except StoreUnavailable as error:
+            log.exception("The end of run %d cannot be read back", run.id)
+            summary = self._unread(run, because("store_failed", text=str(error)))
         with self._lock:
             self._last, self._run = summary, None
         run.ended.set()
         self._listeners.publish("ended", summary)
 
-    def _unstored(self, run: Run, reason: Reason) -> CalibrationSummary:
-        """How a run ended whose end the store did not take."""
+    def _unread(self, run: Run, reason: Reason) -> CalibrationSummary:
+        """How a run ended that the store does not give back."""
         brief = run.brief()
         return CalibrationSummary(
             id=run.id,
+            uid=run.uid,
             robot_serial=brief.robot_serial,
             kind=brief.kind,
             plan=brief.plan,
@@ -273,7 +329,7 @@ class Orchestrator:
             work_order=brief.work_order,
             state=run.state,
             verdict=None,
-            outcome="failed",
+            outcome="failed" if run.state is State.FAILED else None,
             step=brief.step,
             steps=brief.steps,
             started_at=brief.started_at,
@@ -290,12 +346,14 @@ class Orchestrator:
             return _Ending(State.ABORTED)
         except (DeviceError, StepFailed, InputRefused) as error:
             return _Ending(State.FAILED, because("step_failed", text=str(error)))
-        except sqlite3.Error as error:
+        except StoreUnavailable as error:
             log.exception("Run %d cannot be stored", run.id)
             return _Ending(State.FAILED, because("store_failed", text=str(error)))
         except Exception as error:  # the worker must outlive any mistake in a procedure
             log.exception("Run %d failed unexpectedly", run.id)
             return _Ending(State.FAILED, because("unexpected", type=type(error).__name__, text=str(error)))
+        if not self._kinds[run.request.kind].judged:
+            return _Ending(State.SUCCEEDED, result.reason)
         return _Ending(State.SUCCEEDED, result.reason, result)
 
     def _bring_to_rest(self, run: Run, ending: _Ending) -> _Ending:
@@ -324,16 +382,24 @@ class Orchestrator:
         walker = Walker(
             self._machine, run.robot, self._settings.joints, run.cancel, time.monotonic() - elapsed_s
         )
-        walker.prepare()
+        walker.prepare(from_outside=kind.from_outside)
         zeroing = Zeroing(run.id, self._machine, walker, self._store)
         zeroing.settle()
         procedure = kind.procedure(Start(self._store, run.request, run.robot))
 
-        def carry_out(step: Walk | SetZeros) -> Any:
-            return self._walk(run, walker, step) if isinstance(step, Walk) else self._set(run, zeroing, step)
+        def carry_out(step: Step) -> Any:
+            match step:
+                case Walk():
+                    return self._walk(run, walker, step)
+                case SetZeros():
+                    self._begin(run, step)
+                    return zeroing.carry_out(step)
+                case Retract():
+                    self._begin(run, step)
+                    return Retracting(self._machine, walker).carry_out()
 
         try:
-            result = _follow(procedure, carry_out)
+            result = follow_procedure(procedure, carry_out)
         finally:
             procedure.close()
         self._listeners.publish("residuals", run.add_result(result))
@@ -348,10 +414,10 @@ class Orchestrator:
         run.inherit(len(earlier.readings))
         return max(earlier.elapsed_s, earlier.readings[-1].t_s / self._machine.devices.speed)
 
-    def _set(self, run: Run, zeroing: Zeroing, step: SetZeros) -> tuple[float, float]:
+    def _begin(self, run: Run, step: SetZeros | Retract) -> None:
+        """A step without readings."""
         self._listeners.publish("walk", run.begin_walk(Walk(step.title, step.number, ())))
         self._listeners.publish("run", run.brief())
-        return zeroing.carry_out(step)
 
     def _walk(self, run: Run, walker: Walker, walk: Walk) -> list[Reading]:
         self._listeners.publish("walk", run.begin_walk(walk))
@@ -381,22 +447,3 @@ def _with_doubt(reason: Reason | None, doubt: str | None) -> Reason | None:
         return reason
     said = [reason.text] if reason else []
     return because("step_failed", text=" ".join([*said, doubt]))
-
-
-def _follow(procedure: Procedure, carry_out: Callable[[Walk | SetZeros], Any]) -> CalibrationResult:
-    """Step by step to the result.
-
-    What a step fails with is raised in the procedure, which may have a way back.
-    """
-    try:
-        step = next(procedure)
-        while True:
-            try:
-                answer = carry_out(step)
-            except (DeviceError, StepFailed) as error:
-                step = procedure.throw(error)
-            else:
-                step = procedure.send(answer)
-    except StopIteration as end:
-        result: CalibrationResult = end.value
-        return result

@@ -33,6 +33,7 @@ class Run:
     """Written by the worker, read by anybody; every view is a copy."""
 
     id: int
+    uid: str
     request: CalibrationRequest
     robot: Robot
     cancel: Event = field(default_factory=Event)
@@ -122,6 +123,7 @@ class Run:
         own = self.step - self.inherited
         return RunBrief(
             id=self.id,
+            uid=self.uid,
             state=self.state,
             robot_serial=request.robot_serial,
             kind=request.kind,

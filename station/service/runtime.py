@@ -5,18 +5,25 @@ from __future__ import annotations
 import fcntl
 import logging
 import os
-from contextlib import ExitStack
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Self
 
 from station.errors import InputRefused
 from station.motion import EmulatedRig, build_devices
+from station.records import BackupMade
+from station.service.backups import backup_timer, make_backup
 from station.service.orchestrator import Orchestrator
-from station.settings import Settings, database_path
+from station.service.retention import retention_timer
+from station.settings import Settings, backup_folder, database_path
 from station.store import Store
 
 log = logging.getLogger(__name__)
+
+LAST_HISTORY = "last-history"
+"""File in the home folder: the database that was used last."""
 
 
 @dataclass
@@ -28,6 +35,8 @@ class Runtime:
     store: Store
     orchestrator: Orchestrator
     _closing: ExitStack
+    rig: EmulatedRig | None = None
+    """The emulated machine; None with real devices."""
 
     @classmethod
     def open(cls, settings: Settings, home: Path, emulate: Path | None = None) -> Self:
@@ -37,13 +46,17 @@ class Runtime:
         :raises InputRefused: another process holds the rig, or something cannot be opened.
         """
         with ExitStack() as opened:
-            opened.callback(os.close, _own(home))
-            store = Store(database_path(settings, home))
+            opened.enter_context(holding(home))
+            path = database_path(settings, home)
+            _check_still_there(path, home)
+            store = Store(path)
             opened.callback(store.close)
+            (home / LAST_HISTORY).write_text(str(path.resolve()), encoding="utf-8")
             for calibration_id in store.interrupt_unfinished():
                 log.warning("Run %d was cut off by the last stop of the station: interrupted", calibration_id)
             emulated = emulate is not None or settings.scale is None
             speed = 1.0
+            rig: EmulatedRig | None = None
             if emulated:
                 rig = EmulatedRig(
                     emulate or settings.emulated.rig, home / "emulated-rig.json", settings.emulated.speed
@@ -54,7 +67,13 @@ class Runtime:
 
             orchestrator = Orchestrator(devices, store, settings)
             opened.callback(orchestrator.shutdown)
-            return cls(settings, home, store, orchestrator, opened.pop_all())
+            opened.enter_context(backup_timer(store, backup_folder(settings, home), settings.backup))
+            opened.enter_context(retention_timer(store, settings.retention))
+            return cls(settings, home, store, orchestrator, opened.pop_all(), rig)
+
+    def backup(self) -> BackupMade:
+        """One more backup, now.  :raises InputRefused: it cannot be written."""
+        return make_backup(self.store, backup_folder(self.settings, self.home), self.settings.backup.keep)
 
     def close(self) -> None:
         """Abort what runs, make the machine safe, release everything.  Twice is harmless."""
@@ -67,8 +86,22 @@ class Runtime:
         self.close()
 
 
-def _own(home: Path) -> int:
-    """Take the rig's lock; it is released with the process, however that ends.
+def _check_still_there(path: Path, home: Path) -> None:
+    """A history that was used here before and is gone does not begin anew in silence.
+
+    :raises InputRefused: it is not there.
+    """
+    note = home / LAST_HISTORY
+    if not path.exists() and note.exists() and note.read_text(encoding="utf-8") == str(path.resolve()):
+        raise InputRefused(
+            f"The history {path}, used here before, is gone: mount its disk or restore a backup."
+            f" To begin a new one, delete {note}."
+        )
+
+
+@contextmanager
+def holding(home: Path) -> Iterator[None]:
+    """Hold the rig of a home folder; it is released with the process, however that ends.
 
     :raises InputRefused: another process holds it, or the folder cannot be written.
     """
@@ -84,4 +117,7 @@ def _own(home: Path) -> int:
         raise InputRefused(
             f"Another station process holds the rig of {home}; use its page, or end it first."
         ) from error
-    return lock
+    try:
+        yield
+    finally:
+        os.close(lock)

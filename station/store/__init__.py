@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from station.store.health import too_full
+from station.store.opening import restore
 from station.store.rows import Page, compact, request_hash
 from station.store.store import Store
 
@@ -10,4 +12,6 @@ __all__ = [
     "Store",
     "compact",
     "request_hash",
+    "restore",
+    "too_full",
 ]

@@ -1,73 +1,53 @@
-"""Opening the database file: the one writer, and as many readers as ask at the same time."""
+"""Connections to the database file: one that writes, and as many that read as ask at the same time."""
 
 from __future__ import annotations
 
 import sqlite3
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing, contextmanager
 from pathlib import Path
 from threading import Lock
 from typing import Any
 
-from sqlite_utils import Database
-
-from station.errors import InputRefused
-from station.store.migrations import APPLICATION_ID, migrations
+from station.errors import InputRefused, StoreUnavailable
+from station.store.copies import copy_to
+from station.store.health import first_damage
 
 _BUSY_MS = 5000
 
 
-def open_writer(path: Path) -> Database:
-    """Open or create, check whose it is, migrate.
-
-    :raises InputRefused: not a database, another program's, or from a newer station.
-    """
-    try:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        connection = _connect(path)
-    except (OSError, sqlite3.Error) as error:
-        raise InputRefused(f"The database {path} cannot be opened: {error}.") from error
-    try:
-        db = Database(connection)
-        _check_owner(db, path)
-        db.execute("PRAGMA journal_mode = WAL")
-        db.execute("PRAGMA synchronous = FULL")
-        migrations.apply(db)
-    except sqlite3.Error as error:
-        connection.close()
-        raise InputRefused(
-            f"The database {path} cannot be used: {error}; restore it from a backup or move it away."
-        ) from error
-    except InputRefused:
-        connection.close()
-        raise
-    return db
-
-
-def _check_owner(db: Database, path: Path) -> None:
-    owner = db.execute("PRAGMA application_id").fetchone()[0]
-    empty = not db.execute("SELECT count(*) FROM sqlite_master").fetchone()[0]
-    if owner != APPLICATION_ID and not (owner == 0 and empty):
-        raise InputRefused(f"The database {path} belongs to another program; choose another --home.")
-    known = {migration.name for migration in migrations.pending(Database(memory=True))}
-    if newer := [step.name for step in migrations.applied(db) if step.name not in known]:
-        raise InputRefused(
-            f"The database {path} was written by a newer station ({newer[0]}); update this one first."
-        )
-
-
-def _connect(path: Path) -> sqlite3.Connection:
-    # Handed from thread to thread, never used by two at once: the lock and the pool see to that.
+def connect(path: Path) -> sqlite3.Connection:
+    """Handed from thread to thread, never used by two at once: the lock and the pool see to that."""
     connection = sqlite3.connect(path, check_same_thread=False)
     connection.execute(f"PRAGMA busy_timeout = {_BUSY_MS}")
     return connection
 
 
+def connect_read_only(path: Path) -> sqlite3.Connection:
+    """Changes no byte of the file, and makes none beside it where no station has it open."""
+    open_elsewhere = path.with_name(f"{path.name}-wal").exists()
+    address = f"{path.resolve().as_uri()}?mode=ro{'' if open_elsewhere else '&immutable=1'}"
+    connection = sqlite3.connect(address, uri=True, check_same_thread=False)
+    connection.execute(f"PRAGMA busy_timeout = {_BUSY_MS}")
+    return connection
+
+
+@contextmanager
+def available(path: Path) -> Iterator[None]:
+    """:raises StoreUnavailable: the database is locked, full, read-only or damaged."""
+    try:
+        yield
+    except (sqlite3.OperationalError, sqlite3.DatabaseError) as error:
+        if isinstance(error, sqlite3.IntegrityError | sqlite3.ProgrammingError):
+            raise  # a mistake of ours, not of the file
+        raise StoreUnavailable(f"{path.name}: {error}") from error
+
+
 class Readers:
     """A pool of connections that can only read."""
 
-    def __init__(self, path: Path) -> None:
-        self._path = path
+    def __init__(self, path: Path, connect: Callable[[Path], sqlite3.Connection] = connect) -> None:
+        self._path, self._connect = path, connect
         self._lock = Lock()
         self._idle: list[sqlite3.Connection] = []
         self._closed = False
@@ -83,12 +63,17 @@ class Readers:
         with self._borrowed() as connection:
             return connection.execute(sql, values).fetchall()
 
+    def damage(self) -> str | None:
+        """What is wrong with the file, by a look at every page on the disk."""
+        with available(self._path), closing(self._connect(self._path)) as connection:
+            return first_damage(connection)
+
     def copy(self, target: Path) -> None:
         """A consistent copy in one file.  :raises InputRefused: it cannot be written."""
         try:
-            with closing(sqlite3.connect(target)) as copy, self._borrowed() as connection:
-                connection.backup(copy)
-        except sqlite3.Error as error:
+            with self._borrowed() as connection:
+                copy_to(connection, target)
+        except StoreUnavailable as error:
             raise InputRefused(f"The backup {target} cannot be written: {error}.") from error
 
     def close(self) -> None:
@@ -104,11 +89,13 @@ class Readers:
         with self._lock:
             connection = self._idle.pop() if self._idle else None
         if connection is None:
-            connection = _connect(self._path)
-            connection.row_factory = sqlite3.Row
-            connection.execute("PRAGMA query_only = ON")
+            with available(self._path):
+                connection = self._connect(self._path)
+                connection.row_factory = sqlite3.Row
+                connection.execute("PRAGMA query_only = ON")
         try:
-            yield connection
+            with available(self._path):
+                yield connection
         finally:
             with self._lock:
                 keep = not self._closed

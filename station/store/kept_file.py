@@ -2,36 +2,68 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import ExitStack, closing, contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from threading import RLock
 
 from sqlite_utils import Database
 
 from station.errors import InputRefused
-from station.store.connections import Readers, open_writer
+from station.store.connections import Readers, available, connect, connect_read_only
+from station.store.copies import copy_to
+from station.store.health import Health
+from station.store.opening import check, migrated, open_writer
 
 
 class KeptFile:
     """Base of what is stored; each part of the store adds the methods for its own tables."""
 
-    def __init__(self, path: Path) -> None:
+    def __init__(self, path: Path, *, read_only: bool = False) -> None:
         """Open or create the database and bring it up to date.
 
+        :param read_only: leave it as it is; one of an older station is read through a copy.
         :raises InputRefused: not a database, not the station's, or from a newer station.
         """
         self.path = path
-        self._writer: Database = open_writer(path)
         self._lock = RLock()  # what is written in several steps, whole or not at all, takes it again
-        self._readers = Readers(path)
+        self._closing = ExitStack()
+        if read_only:
+            path = self._up_to_date(path)
+            self._writer = Database(connect_read_only(path))  # refuses to write, in words
+            self._readers = Readers(path, connect_read_only)
+        else:
+            self._writer = open_writer(path)
+            self._readers = Readers(path)
+        self._closing.callback(self._writer.close)
+        self._closing.callback(self._readers.close)
+        self._health = Health(path, self._readers.damage, self._write_nothing)
+
+    def troubles(self) -> list[str]:
+        """What keeps the history from being read and written, one sentence each."""
+        return self._health.troubles()
+
+    def _write_nothing(self) -> None:
+        """To the disk all the same: the first page, with a number that nothing else uses."""
+        with self._writing() as db:
+            (times,) = db.execute("PRAGMA user_version").fetchone()
+            db.execute(f"PRAGMA user_version = {(times + 1) % 2**31}")
 
     def close(self) -> None:
         """Release the file."""
         with self._lock:
-            self._readers.close()
-            self._writer.close()
+            self._closing.close()
+
+    def _up_to_date(self, path: Path) -> Path:
+        if not check(path):
+            return path
+        folder = Path(self._closing.enter_context(TemporaryDirectory()))
+        with closing(connect_read_only(path)) as connection:
+            copy_to(connection, folder / path.name)
+        with closing(connect(folder / path.name)) as copy:
+            migrated(copy)
+        return folder / path.name
 
     def backup(self, target: Path) -> None:
         """A copy of everything stored so far in one new file, made while the station works.
@@ -44,10 +76,22 @@ class KeptFile:
 
     @contextmanager
     def _writing(self) -> Iterator[Database]:
-        with self._lock, self._writer.atomic():
-            yield self._writer
+        """One transaction; what is written within another becomes part of that.
 
+        It takes the write lock at once: a transaction that has read before it writes is refused when another
+        program wrote in between, however long it would wait.
 
-def now_ms() -> int:
-    """Milliseconds since 1970, UTC."""
-    return time.time_ns() // 1_000_000
+        :raises StoreUnavailable: nothing was written.
+        """
+        with self._lock, available(self.path):
+            db = self._writer
+            if db.conn.in_transaction:
+                yield db
+                return
+            db.conn.execute("BEGIN IMMEDIATE")
+            try:
+                yield db
+                db.conn.execute("COMMIT")
+            except BaseException:
+                db.conn.rollback()
+                raise

@@ -10,6 +10,8 @@ import zlib
 
 from sqlite_utils import Database, Migrations
 
+from station.records import uid7
+
 APPLICATION_ID = 0x35426172  # "5Bar": tells this database from anybody else's
 
 migrations = Migrations("station")
@@ -146,6 +148,26 @@ def readable_results(db: Database) -> None:
             WHEN verdict = 'fail' AND kind IN ('apply', 'rollback') THEN 'not_verified'
             WHEN verdict = 'fail' THEN 'unexplained' END
         WHERE state NOT IN ('queued', 'running')"""
+    )
+
+
+@migrations()
+def uids(db: Database) -> None:
+    """An identity for every run that no other station gives away."""
+    db.execute("ALTER TABLE calibrations ADD COLUMN uid TEXT")
+    rows = db.execute("SELECT id, created_ms FROM calibrations").fetchall()
+    for run, created_ms in rows:
+        db.execute("UPDATE calibrations SET uid = ? WHERE id = ?", [uid7(created_ms), run])
+    db.execute("CREATE UNIQUE INDEX calibrations_uid ON calibrations (uid)")
+
+
+@migrations()
+def chain(db: Database) -> None:
+    """The hash of each run that ends from now on, in the order of their ends."""
+    db.execute(
+        """CREATE TABLE chain (
+            n INTEGER PRIMARY KEY, run_id INTEGER NOT NULL UNIQUE, uid TEXT NOT NULL,
+            samples_sha256 TEXT NOT NULL, hash TEXT NOT NULL)"""
     )
 
 

@@ -9,8 +9,9 @@ from datetime import UTC, datetime
 from station.errors import NotFound
 from station.five_bar import Robot
 from station.records import KeptRobot, LastingParameters, Remembered
-from station.store.kept_file import KeptFile, now_ms
+from station.store.kept_file import KeptFile
 from station.store.rows import compact, moment
+from station.store.times import now_ms
 
 
 class RobotFiles(KeptFile):

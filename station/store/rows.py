@@ -7,14 +7,14 @@ import json
 import math
 import sqlite3
 import zlib
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
-from pydantic import BaseModel, JsonValue
+from pydantic import JsonValue
 
 from station.errors import InputRefused
 from station.records import (
+    LARGEST_ID,
     Calibration,
     CalibrationRequest,
     CalibrationResult,
@@ -30,7 +30,7 @@ READING_COLUMNS = (
     " samples, temperature_c, payload_kg, mount"
 )
 LIST_COLUMNS = (
-    "id, robot_serial, kind, plan, operator, work_order, of_id, state, verdict, outcome, reason,"
+    "id, uid, robot_serial, kind, plan, operator, work_order, of_id, state, verdict, outcome, reason,"
     " reason_code, reason_params, step, steps, created_ms, started_ms, ended_ms,"
     " zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg"
 )
@@ -68,23 +68,9 @@ def row_id(cursor: int | str) -> int:
         number = int(cursor)
     except ValueError:
         number = 0
-    if not 0 < number < 2**63:
+    if not 0 < number <= LARGEST_ID:
         raise InputRefused(f"The cursor {cursor!r} is not one that a page gave.")
     return number
-
-
-def unsound(value: object, where: str = "") -> str | None:
-    """Where in a result the first number stands that is not finite; None when all are."""
-    if isinstance(value, BaseModel):
-        value = value.model_dump()
-    if isinstance(value, float) and not math.isfinite(value):
-        return where
-    parts: list[tuple[str, object]] = []
-    if isinstance(value, Mapping):
-        parts = [(f"{where}.{key}" if where else str(key), part) for key, part in value.items()]
-    elif isinstance(value, Sequence) and not isinstance(value, str):
-        parts = [(f"{where}[{i}]", part) for i, part in enumerate(value)]
-    return next((bad for name, part in parts if (bad := unsound(part, name)) is not None), None)
 
 
 def result_row(
@@ -146,7 +132,7 @@ def calibration_from_row(row: sqlite3.Row) -> Calibration:
 
 def _summary(row: sqlite3.Row) -> dict[str, object]:
     same = (
-        "id", "robot_serial", "kind", "plan", "operator", "work_order", "state", "verdict", "outcome",
+        "id", "uid", "robot_serial", "kind", "plan", "operator", "work_order", "state", "verdict", "outcome",
         "reason", "reason_code", "step", "steps",
     )  # fmt: skip
     return {
@@ -232,5 +218,7 @@ def zero_write_from_row(row: sqlite3.Row) -> ZeroWrite:
 def _samples(scale_mm: float, units: str | None) -> tuple[float, ...]:
     if units is None:
         return ()
-    mean = round(scale_mm, _SAMPLE_DIGITS)
-    return tuple(round(mean + unit * _SAMPLE_UNIT_MM, _SAMPLE_DIGITS) for unit in json.loads(units))
+    mean, kept = round(scale_mm, _SAMPLE_DIGITS), json.loads(units)
+    if isinstance(kept, int):  # only their number was kept, which says how sure their mean is
+        return (mean,) * kept
+    return tuple(round(mean + unit * _SAMPLE_UNIT_MM, _SAMPLE_DIGITS) for unit in kept)

@@ -7,12 +7,15 @@ wait for it.  Rows become records in `station.store.rows`.
 from __future__ import annotations
 
 import json
+import logging
 from collections.abc import Sequence
 from datetime import datetime
+from pathlib import Path
+from typing import TypeVar
 
 from pydantic import JsonValue
 
-from station.errors import KeyReused, NotFound
+from station.errors import KeyReused, NotFound, StoreUnavailable
 from station.five_bar import Robot
 from station.records import (
     Calibration,
@@ -25,8 +28,10 @@ from station.records import (
     State,
     StoredEvent,
     because,
+    uid7,
 )
-from station.store.kept_file import now_ms
+from station.store.chain import Verified, append, verify
+from station.store.ends import End, UnstoredEnds, end_of
 from station.store.robots import Memories
 from station.store.rows import (
     LIST_COLUMNS,
@@ -43,15 +48,26 @@ from station.store.rows import (
     result_row,
     row_id,
     summary_from_row,
-    unsound,
 )
+from station.store.times import RunTimes, now, now_ms
 from station.store.zero_journal import ZeroJournal
 
+log = logging.getLogger(__name__)
+
+S = TypeVar("S", bound=CalibrationSummary)
 _UNFINISHED = (State.QUEUED, State.RUNNING)
 
 
 class Store(Memories, ZeroJournal):
-    """Thread safe.  Calibration numbers rise with their creation time."""
+    """Thread safe.  Order is by number: the clock that gives the times may jump.
+
+    Every method may raise `StoreUnavailable`, unless it says otherwise.
+    """
+
+    def __init__(self, path: Path, *, read_only: bool = False) -> None:
+        super().__init__(path, read_only=read_only)
+        self._unstored = UnstoredEnds(path)
+        self._times = RunTimes()
 
     # Calibrations ------------------------------------------------------------------------------
 
@@ -62,19 +78,19 @@ class Store(Memories, ZeroJournal):
         *,
         key: str | None = None,
         body_hash: bytes = b"",
+        uid: str | None = None,
     ) -> int:
         """A new calibration in state queued; its idempotency key is kept in the same transaction.
 
+        :param uid: where it is known already; else made here.
         :raises KeyReused: the key is taken (ask `find_key` first to answer a repeated request).
         """
         robot_id = self.save_robot(robot)
         with self._writing() as db:
-            # A station's clock may be set back; times still rise with the numbers, so that a
-            # period of time is a range of numbers.
-            latest = db.execute("SELECT max(created_ms) FROM calibrations").fetchone()[0] or 0
+            created_ms = now_ms()
             cursor = db.execute(
                 "INSERT INTO calibrations (robot_id, robot_serial, kind, plan, operator, work_order,"
-                " metadata, of_id, state, created_ms) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                " metadata, of_id, state, created_ms, uid) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
                 [
                     robot_id,
                     robot.serial,
@@ -85,7 +101,8 @@ class Store(Memories, ZeroJournal):
                     compact(request.metadata) if request.metadata else None,
                     request.of,
                     State.QUEUED,
-                    max(now_ms(), latest),
+                    created_ms,
+                    uid or uid7(created_ms),
                 ],
             )
             calibration_id = int(cursor.lastrowid or 0)
@@ -96,6 +113,7 @@ class Store(Memories, ZeroJournal):
                 if taken is not None:
                     raise KeyReused(int(taken[0]))
                 db.execute("INSERT INTO idempotency_keys VALUES (?, ?, ?)", [key, body_hash, calibration_id])
+        self._times.begin(calibration_id, created_ms)
         return calibration_id
 
     def add_run(
@@ -113,7 +131,7 @@ class Store(Memories, ZeroJournal):
             calibration_id = self.create(request, robot, key=key, body_hash=body_hash)
             self.set_state(calibration_id, State.RUNNING, steps=len(readings))
             self.add_readings(calibration_id, readings)
-            self.finish(calibration_id, State.SUCCEEDED, result)
+            self._end(calibration_id, end_of(State.SUCCEEDED, result, None, self._times.now(calibration_id)))
         return calibration_id
 
     def last_on_rig(self) -> CalibrationSummary | None:
@@ -123,7 +141,7 @@ class Store(Memories, ZeroJournal):
             " WHERE kind != 'import' ORDER BY id DESC LIMIT 1",
             [],
         )
-        return None if row is None else summary_from_row(row)
+        return None if row is None else self._as_ended(summary_from_row(row))
 
     def find_key(self, key: str, body_hash: bytes) -> int | None:
         """The calibration that a key started, None when the key is new.
@@ -143,7 +161,7 @@ class Store(Memories, ZeroJournal):
             db.execute(
                 "UPDATE calibrations SET state = ?, steps = coalesce(?, steps),"
                 " started_ms = coalesce(started_ms, ?) WHERE id = ? AND state IN (?, ?)",
-                [state, steps, now_ms(), calibration_id, *_UNFINISHED],
+                [state, steps, self._times.now_ms(calibration_id), calibration_id, *_UNFINISHED],
             )
 
     def finish(
@@ -152,30 +170,46 @@ class Store(Memories, ZeroJournal):
         state: State,
         result: CalibrationResult | None = None,
         reason: Reason | None = None,
+        *,
+        judged: bool = True,
     ) -> State:
-        """End a calibration, once: the first end stands.  Returns the state that is now stored.
+        """End a calibration, once: the first end stands.  Returns the state that it has now.
 
-        It fails closed: a result with a number that is not finite, or one of a run that did not
-        succeed, is never kept as a pass.  What a pass leaves to the next run is kept with it.
+        It fails closed (`end_of`).  What a pass leaves to the next run is kept with it.  An end that the
+        store does not take is shown from memory, as a failure, until `repeat_ends` has stored it.
+
+        :param judged: False for a run that says nothing about a robot: it has no verdict and no result
         """
-        verdict: str | None = None
-        outcome: str | None = state.value
-        if result is not None:
-            reason = reason or result.reason
-            verdict, outcome = result.verdict, result.outcome
-            if bad := unsound(result):
-                state, verdict, outcome = State.FAILED, "fail", "failed"
-                reason = because("not_a_number_at", where=bad)
-                result = _without_numbers(result)
-            elif state is not State.SUCCEEDED:
-                verdict, outcome = None, state.value
-        elif state is State.SUCCEEDED:
-            state, outcome, reason = State.FAILED, "failed", reason or because("no_result")
+        if (earlier := self._unstored[calibration_id]) is not None:
+            return earlier.state
+        end = end_of(state, result, reason, self._times.now(calibration_id), judged=judged)
+        try:
+            return self._end(calibration_id, end)
+        except StoreUnavailable as error:
+            log.exception("The end of run %d could not be stored; it is repeated", calibration_id)
+            return self._unstored.keep(calibration_id, end, error).state
+
+    def repeat_ends(self) -> None:
+        """Store the ends that the store did not take before, if it takes them now."""
+        self._unstored.repeat(self._end)
+
+    def _end(self, calibration_id: int, end: End) -> State:
+        """:raises StoreUnavailable:"""
+        result = end.result
         with self._writing() as db:
             ended = db.execute(
                 "UPDATE calibrations SET state = ?, verdict = ?, outcome = ?, reason = ?, reason_code = ?,"
-                " reason_params = ?, ended_ms = ? WHERE id = ? AND state IN (?, ?)",
-                [state, verdict, outcome, *_reason_columns(reason), now_ms(), calibration_id, *_UNFINISHED],
+                " reason_params = ?, ended_ms = max(?, created_ms, coalesce(started_ms, 0))"
+                " WHERE id = ? AND state IN (?, ?)",
+                [
+                    end.state,
+                    end.verdict,
+                    end.outcome,
+                    *_reason_columns(end.reason),
+                    millis(end.at),
+                    calibration_id,
+                    *_UNFINISHED,
+                ],
             ).rowcount
             if ended and result is not None:
                 db.execute(
@@ -183,25 +217,37 @@ class Store(Memories, ZeroJournal):
                     " result, diagnosis) VALUES (?, ?, ?, ?, ?, ?, ?)",
                     [calibration_id, *result_row(result), pack_document(result.diagnosis)],
                 )
-                if verdict == "pass" and result.lasting is not None:
+                if end.verdict == "pass" and result.lasting is not None:
                     db.execute(
                         "INSERT INTO memories (calibration_id, robot_serial, at_ms, memory)"
                         " SELECT id, robot_serial, ended_ms, ? FROM calibrations WHERE id = ?",
                         [result.lasting.model_dump_json(), calibration_id],
                     )
-        return state if ended else self.summary(calibration_id).state
+            if ended:
+                append(lambda sql, values: db.execute(sql, values).fetchall(), calibration_id)
+        self._times.end(calibration_id)
+        return end.state if ended else self.summary(calibration_id).state
 
     def interrupt_unfinished(self) -> list[int]:
-        """At start-up: what was queued or running when the station went down is interrupted.  Returns ids."""
+        """At start-up: what was queued or running when the station went down is interrupted.
+
+        Where the last process knew how such a run had ended, that is stored.  Returns the ids.
+        """
         rows = self._readers.all("SELECT id FROM calibrations WHERE state IN (?, ?)", list(_UNFINISHED))
+        known = self._unstored.left_behind()
         ids = [int(row["id"]) for row in rows]
-        for calibration_id in ids:
-            self.finish(
-                calibration_id,
-                State.INTERRUPTED,
-                reason=because("interrupted"),
-            )
+        for run in ids:
+            self._end(run, known.get(run) or end_of(State.INTERRUPTED, None, because("interrupted"), now()))
+        self._unstored.clear()
         return ids
+
+    def verify(self) -> Verified:
+        """Whether every finished run is as it ended."""
+        return verify(self._readers.all)
+
+    def in_chain(self, head: str) -> bool:
+        """Whether a run has this hash."""
+        return self._readers.one("SELECT 1 FROM chain WHERE hash = ?", [head]) is not None
 
     def calibration(self, calibration_id: int) -> Calibration:
         """One calibration with everything about it.  :raises NotFound:"""
@@ -212,7 +258,7 @@ class Store(Memories, ZeroJournal):
         )
         if row is None:
             raise NotFound(f"There is no calibration {calibration_id}.")
-        return calibration_from_row(row)
+        return self._as_ended(calibration_from_row(row))
 
     def diagnosis(self, calibration_id: int) -> DiagnosisDocument:
         """The diagnosis document of a run.  :raises NotFound: no such run, or it has none."""
@@ -233,7 +279,7 @@ class Store(Memories, ZeroJournal):
         )
         if row is None:
             raise NotFound(f"There is no calibration {calibration_id}.")
-        return summary_from_row(row)
+        return self._as_ended(summary_from_row(row))
 
     def calibrations(
         self,
@@ -257,30 +303,36 @@ class Store(Memories, ZeroJournal):
         for column, wanted in (("robot_serial", robot_serial), ("verdict", verdict), ("state", state)):
             if wanted is not None:
                 # Only the first, most selective one may choose the index: + takes the others out.
-                conditions.append(f"{'+' if conditions else ''}{column} = ?")
+                conditions.append(f"{'+' if conditions else ''}{column} = ?{self._or_unstored(column)}")
                 values.append(wanted)
         if cursor is not None:
             conditions.append("id < ?")
             values.append(row_id(cursor))
         if since is not None:
             conditions.append(
-                "id >= (SELECT id FROM calibrations WHERE created_ms >= ? ORDER BY created_ms, id LIMIT 1)"
+                # times may fall where the clock was set back: the range narrows, the time decides
+                "id >= (SELECT min(id) FROM calibrations WHERE created_ms >= ?) AND +created_ms >= ?"
             )
-            values.append(millis(since))
+            values += [millis(since)] * 2
         if until is not None:
             conditions.append(
-                "id <= (SELECT id FROM calibrations WHERE created_ms < ?"
-                " ORDER BY created_ms DESC, id DESC LIMIT 1)"
+                "id <= (SELECT max(id) FROM calibrations WHERE created_ms < ?) AND +created_ms < ?"
             )
-            values.append(millis(until))
-        where = f" WHERE {' AND '.join(conditions)}" if conditions else ""
+            values += [millis(until)] * 2
+        where = f" WHERE {' AND '.join(f'({condition})' for condition in conditions)}" if conditions else ""
         rows = self._readers.all(
             f"SELECT {LIST_COLUMNS} FROM calibrations LEFT JOIN results ON calibration_id = id{where}"
             " ORDER BY id DESC LIMIT ?",
             [*values, limit + 1],
         )
-        items = [summary_from_row(row) for row in rows[:limit]]
-        return Page(items, items[-1].id if len(rows) > limit else None)
+        items = [self._as_ended(summary_from_row(row)) for row in rows[:limit]]
+        matching = [item for item in items if state in (None, item.state) and verdict in (None, item.verdict)]
+        return Page(matching, items[-1].id if len(rows) > limit else None)
+
+    def _or_unstored(self, column: str) -> str:
+        """SQL that lets runs through whose stored state and verdict are not those that are shown."""
+        runs = ", ".join(map(str, self._unstored.runs))
+        return f" OR id IN ({runs})" if runs and column != "robot_serial" else ""
 
     def runs_of(self, calibration_id: int) -> list[CalibrationSummary]:
         """Summaries of the runs that applied or rolled back a calibration, oldest first."""
@@ -289,7 +341,12 @@ class Store(Memories, ZeroJournal):
             " WHERE of_id = ? ORDER BY id",
             [calibration_id],
         )
-        return [summary_from_row(row) for row in rows]
+        return [self._as_ended(summary_from_row(row)) for row in rows]
+
+    def _as_ended(self, row: S) -> S:
+        """With the end that is not stored yet."""
+        end = self._unstored[row.id]
+        return row if end is None else end.shown_in(row)
 
     # Readings and events -----------------------------------------------------------------------
 
@@ -308,6 +365,27 @@ class Store(Memories, ZeroJournal):
             db.execute(
                 "UPDATE calibrations SET step = step + ? WHERE id = ?", [len(readings), calibration_id]
             )
+
+    def drop_samples(self, ended_before: datetime) -> int:
+        """Keep mean and number alone of the samples of runs that ended before; how many readings had more.
+
+        A run at a time, so that nobody who measures waits; what was dropped is on record as an event.
+        """
+        rows = self._readers.all(
+            "SELECT DISTINCT calibration_id AS run FROM readings JOIN calibrations ON id = calibration_id"
+            " WHERE ended_ms < ? AND samples LIKE '[%' ORDER BY run",
+            [millis(ended_before)],
+        )
+        dropped = 0
+        for row in rows:
+            with self._writing() as db:
+                dropped += db.execute(
+                    "UPDATE readings SET samples = json_array_length(samples)"
+                    " WHERE calibration_id = ? AND samples LIKE '[%'",
+                    [row["run"]],
+                ).rowcount
+                self.add_event(row["run"], "samples_dropped")
+        return dropped
 
     def readings(self, calibration_id: int) -> list[Reading]:
         """In the order they were taken.  :raises NotFound: no such calibration."""
@@ -329,6 +407,15 @@ class Store(Memories, ZeroJournal):
                 [calibration_id, now_ms(), kind, compact(data) if data else None],
             )
 
+    def latest_time(self) -> datetime | None:
+        """The latest that is on record of any run or event; None before the first."""
+        row = self._readers.one(
+            "SELECT max(coalesce((SELECT max(created_ms) FROM calibrations), 0),"
+            " coalesce((SELECT ended_ms FROM calibrations ORDER BY id DESC LIMIT 1), 0),"
+            " coalesce((SELECT at_ms FROM events ORDER BY id DESC LIMIT 1), 0)) AS latest_ms"
+        )
+        return moment(row["latest_ms"] or None) if row is not None else None
+
     def events(self, calibration_id: int | None) -> list[StoredEvent]:
         """Of one run, or of the station itself (None)."""
         rows = self._readers.all(
@@ -343,13 +430,6 @@ class Store(Memories, ZeroJournal):
             )
             for row in rows
         ]
-
-
-def _without_numbers(result: CalibrationResult) -> CalibrationResult:
-    """Of a result that cannot be trusted: that there was one, and by which method.  Its readings are kept."""
-    return CalibrationResult(
-        verdict="fail", outcome="failed", reason=result.reason, method=result.method, zero_offsets=()
-    )
 
 
 def _reason_columns(reason: Reason | None) -> tuple[str | None, str | None, str | None]:

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from station.records import ZeroWrite
-from station.store.kept_file import KeptFile, now_ms
+from station.store.kept_file import KeptFile
 from station.store.rows import zero_write_from_row
+from station.store.times import now_ms
 
 
 class ZeroJournal(KeptFile):

@@ -29,7 +29,7 @@ class SimulatedMachine:
     """A five-bar with errors `truth` (12,), in the order of `station.five_bar.error_model`, mm and rad.
 
     `effects` are imperfections of the emulated machine (`drivers.emulated.imperfections`), each a table of a
-    rig file; `noise` False silences the head.
+    rig file; `noise` False silences the head; `tracked` records P by an instrument of its own too.
     """
 
     def __init__(
@@ -41,8 +41,10 @@ class SimulatedMachine:
         effects: Sequence[dict[str, Any]] = (),
         *,
         noise: bool = True,
+        tracked: bool = False,
     ) -> None:
         self.truth = truth
+        self._tracked = tracked
         self._stands = robot.zero_at_deg
         dtheta = np.degrees(truth[:2])
         self._rig = VirtualRig(
@@ -112,6 +114,7 @@ class SimulatedMachine:
             mount=np.zeros(len(taken), dtype=np.intp),
             samples=np.full(len(taken), samples, dtype=np.intp),
             temperature_c=np.array([ROOM_C + r.temperature_rise_k for r in taken]),
+            tracker=np.array([r.true_point_mm for r in taken]) if self._tracked else None,
         )
 
     def stand(self, theta_deg: Real) -> Complex:

@@ -8,7 +8,8 @@ import socket
 import threading
 import time
 import tty
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from dataclasses import dataclass
 from types import TracebackType
 from typing import Self
@@ -25,6 +26,8 @@ class Say:
 
 
 SILENCE = b""
+NEW_CONNECTION: tuple[bytes, bytes] = (b"", b"")
+"""The far end of a network connection takes the next one before the next exchange."""
 Exchange = tuple[bytes, bytes | Say]
 
 
@@ -58,6 +61,9 @@ class _FarEnd:
 
     def _play(self) -> None:
         for number, (expected, answer) in enumerate(self._exchanges):
+            if not expected:
+                self._next_connection()
+                continue
             received = b""
             while len(received) < len(expected):
                 if self._closing.is_set():
@@ -79,6 +85,9 @@ class _FarEnd:
         raise NotImplementedError
 
     def _release(self) -> None:
+        raise NotImplementedError
+
+    def _next_connection(self) -> None:
         raise NotImplementedError
 
 
@@ -104,7 +113,7 @@ class PtyEnd(_FarEnd):
 
 
 class TcpEnd(_FarEnd):
-    """The far end of a network connection; takes one connection."""
+    """The far end of a network connection."""
 
     def __init__(self, exchanges: Sequence[Exchange]) -> None:
         super().__init__(exchanges)
@@ -112,6 +121,13 @@ class TcpEnd(_FarEnd):
         self._listener.settimeout(0.05)
         self.port: int = self._listener.getsockname()[1]
         self._connection: socket.socket | None = None
+        self._earlier: list[socket.socket] = []
+
+    def _next_connection(self) -> None:
+        """The one before stays open on this side, as a host does that lost its peer without a word."""
+        if self._connection is not None:
+            self._earlier.append(self._connection)
+            self._connection = None
 
     def _read(self, wait_s: float, most: int = 1000) -> bytes:
         try:
@@ -128,8 +144,32 @@ class TcpEnd(_FarEnd):
 
     def _release(self) -> None:
         self._listener.close()
-        if self._connection is not None:
-            self._connection.close()
+        for connection in (*self._earlier, self._connection):
+            if connection is not None:
+                connection.close()
+
+
+@contextmanager
+def echoing_port() -> Iterator[str]:
+    """A serial port whose adapter sends back all that it is sent, with nobody else on the line."""
+    device, station = os.openpty()
+    tty.setraw(station)
+    ended = threading.Event()
+
+    def echo() -> None:
+        while not ended.is_set():
+            if select.select([device], [], [], 0.01)[0]:
+                os.write(device, os.read(device, 256))
+
+    thread = threading.Thread(target=echo)
+    thread.start()
+    try:
+        yield os.ttyname(station)
+    finally:
+        ended.set()
+        thread.join()
+        os.close(device)
+        os.close(station)
 
 
 def rtu(text: str) -> bytes:

@@ -11,7 +11,7 @@ import pytest
 from starlette.websockets import WebSocketDisconnect
 
 from station.motion.events import LiveEvent
-from station.records import MachineView, StationInfo, StationView, Workspace
+from station.records import MachineView, RetractView, StationInfo, StationView, Workspace
 from station.service.orchestrator import Orchestrator
 from tests.web.conftest import Service
 from web.live import LiveFeed
@@ -103,6 +103,7 @@ class Source:
                 age_s=0.0,
             ),
             workspace=Workspace(x=(-240, 240), y=(-782, -632)),
+            retract=RetractView(needed=False, excess_mm=None, text=""),
             run=None,
             last=None,
         )

@@ -11,7 +11,7 @@ from station.diagnosis.explanations import Around
 from station.diagnosis.weighed_loop import weighed
 from station.records import Complex, Real
 from tests.station.diagnosis.learned.test_commands import BACKLASH, rms, true_error_mm
-from tests.station.diagnosis.machines import ROBOT, Emulated, to_csv
+from tests.station.simulated import ROBOT, Drawn, to_csv
 from tests.web.conftest import Service
 from tests.web.test_problems import problem_of
 
@@ -30,7 +30,7 @@ def imported(service: Service, walk: str, fresh: str) -> str:
 
 @pytest.fixture
 def worn(service: Service) -> str:
-    machine = Emulated(BACKLASH, seed=2)
+    machine = Drawn(BACKLASH, seed=2)
     return imported(service, to_csv(machine.walk()), to_csv(machine.fresh()))
 
 
@@ -42,7 +42,7 @@ def targets(place: Complex, approach: Real) -> list[dict[str, Any]]:
 
 
 def test_the_true_position_error_falls(service: Service) -> None:
-    machine = Emulated(BACKLASH, seed=2)
+    machine = Drawn(BACKLASH, seed=2)
     walk = machine.walk()
     where = imported(service, to_csv(walk), to_csv(machine.fresh()))
     place = ROBOT.workspace_grid(7, 5)
@@ -89,7 +89,7 @@ def test_none_and_too_many_targets_are_refused(service: Service, worn: str) -> N
 
 
 def test_a_temperature_counts_where_growth_was_learned_by_it(service: Service) -> None:
-    machine = Emulated(WARM, seed=3)
+    machine = Drawn(WARM, seed=3)
     walk, fresh = (with_temperature(machine.walk()), with_temperature(machine.fresh()))
     where = imported(service, walk, fresh)
 

@@ -8,13 +8,20 @@ from typing import Annotated, Any, Literal
 from fastapi import APIRouter, Query, Response
 from starlette.exceptions import HTTPException
 
-from station.records import Calibration, CalibrationRequest, CalibrationSummary, State, Submitted
+from station.records import (
+    LARGEST_ID,
+    Calibration,
+    CalibrationRequest,
+    CalibrationSummary,
+    State,
+    Submitted,
+)
 from station.run_kinds import application, kind_of_plan
 from station.service import Runtime
 from web.aside import aside
 from web.bodies import ApplyBody, CalibrationBody, CalibrationList
 from web.problems import documented
-from web.routes.parts import LARGEST_ID, LOCATION, CalibrationId, IdempotencyKey, TheRuntime
+from web.routes.parts import LOCATION, CalibrationId, IdempotencyKey, TheRuntime
 
 ABORT_TIMEOUT_S = 5.0
 

@@ -11,7 +11,8 @@ from web.bodies import Alive, Ready
 from web.problems import documented, problem
 from web.routes.parts import TheRuntime
 
-SNAPSHOT_TIMEOUT_S = 2.0
+LOOK_TIMEOUT_S = 8.0
+"""Longer than a write waits for another program."""
 
 router = APIRouter(tags=["health"])
 
@@ -26,14 +27,15 @@ async def healthz() -> Alive:
 async def readyz(runtime: TheRuntime) -> Ready | JSONResponse:
     """200 when a run could start; else what is missing."""
 
-    def look() -> StationView:
-        runtime.store.calibrations(limit=1)
-        return runtime.orchestrator.snapshot()
+    def look() -> list[str]:
+        room = runtime.orchestrator.no_room()
+        troubles = [*runtime.store.troubles(), *([room] if room else [])]
+        return troubles + _missing(runtime.orchestrator.snapshot())
 
     try:
-        missing = _missing(await aside(look, timeout_s=SNAPSHOT_TIMEOUT_S))
+        missing = await aside(look, timeout_s=LOOK_TIMEOUT_S)
     except TimeoutError:
-        missing = ["the orchestrator does not answer"]
+        missing = ["the station does not answer"]
     except Exception as error:  # noqa: BLE001 - whatever fails here is what is missing
         missing = [f"{type(error).__name__}: {error}"]
     if missing:

@@ -7,10 +7,8 @@ from typing import Annotated
 from fastapi import Depends, Header, Path
 from starlette.requests import HTTPConnection
 
+from station.records import LARGEST_ID
 from station.service import Runtime
-
-LARGEST_ID = 2**63 - 1
-"""SQLite's largest row id; beyond it the database would refuse the number itself."""
 
 
 def _runtime(connection: HTTPConnection) -> Runtime:

@@ -2,29 +2,38 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter
+import logging
+
+from fastapi import APIRouter, Response
 
 from web.aside import aside
 from web.bodies import Stopped
-from web.problems import FieldAtFault, ProblemResponse, documented, problem
 from web.routes.parts import CallerName, TheRuntime
 
+log = logging.getLogger(__name__)
+
 STOP_TIMEOUT_S = 3.0
-REMEDY = "Use the emergency stop."
+NOT_CONFIRMED = 502
 
 router = APIRouter(tags=["stop"])
 
 
-@router.post("/stop", response_model=Stopped, responses=documented(502, 504))
-async def stop(runtime: TheRuntime, operator: CallerName = None) -> Stopped | ProblemResponse:
+@router.post(
+    "/stop",
+    response_model=Stopped,
+    responses={NOT_CONFIRMED: {"model": Stopped, "description": "At least one axis did not confirm."}},
+)
+async def stop(runtime: TheRuntime, response: Response, operator: CallerName = None) -> Stopped:
     """Stop both axes now.  Not the emergency stop: it needs this program, the network and the drives."""
-    who = operator or "REST"
+    orchestrator = runtime.orchestrator
     try:
-        outcome = await aside(lambda: runtime.orchestrator.stop(who), timeout_s=STOP_TIMEOUT_S)
+        axes = await aside(lambda: orchestrator.stop(operator or "REST"), timeout_s=STOP_TIMEOUT_S)
     except TimeoutError:
-        return problem(504, f"No drive confirmed the stop. {REMEDY}", kind="stop-not-confirmed")
-    failed = [FieldAtFault(field=axis, detail=text) for axis, text in outcome.items() if text]
-    if failed:
-        texts = "; ".join(f"{axis.field}: {axis.detail}" for axis in failed)
-        return problem(502, f"{texts}. {REMEDY}", kind="stop-not-confirmed", errors=failed)
-    return Stopped(by=who)
+        axes = dict.fromkeys(orchestrator.axes, f"no answer within {STOP_TIMEOUT_S:g} s")
+    except Exception as error:  # whatever fails here: who stops must get an answer about the axes
+        log.exception("The stop failed")
+        axes = dict.fromkeys(orchestrator.axes, f"the stop failed ({type(error).__name__})")
+    stopped = Stopped.of(axes)
+    if not stopped.confirmed:
+        response.status_code = NOT_CONFIRMED
+    return stopped

@@ -18,12 +18,13 @@ from station.diagnosis.explanations.family import Family
 from station.diagnosis.explanations.kept_set import KeptError, KeptExplanation, NotInCatalogue, restored
 from station.diagnosis.explanations.mixture import Mixture, PositionError, root_of
 from station.diagnosis.explanations.settle import Settled
-from station.diagnosis.explanations.situation import Around, Situation, at_readings
+from station.diagnosis.explanations.situation import TARGETS, Around, Situation, at_readings
 from station.diagnosis.explanations.stepwise import Step, steps
 from station.diagnosis.explanations.validation import Validation, tangent, together
 from station.diagnosis.explanations.verdict import Decision, Finding, Verdict
 
 __all__ = [
+    "TARGETS",
     "Around",
     "Choice",
     "Decision",

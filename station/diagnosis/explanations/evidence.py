@@ -22,7 +22,7 @@ from station.diagnosis.explanations.noise_level import NoiseLevel
 from station.records import Index, Real
 
 HOPELESS = 1e6
-WIDTHS = (1, 2, 4, 8, 16)
+WIDTHS = (1, 2, 4, 8, 16, 32)
 """Families are kept by the number of their amplitudes, filled up with empty columns to these."""
 SHARES = (0.5, 0.25, 0.12, 0.06, 0.03)
 """Of the search step, by which continuous hidden parameters are refined."""

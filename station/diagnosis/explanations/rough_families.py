@@ -6,7 +6,6 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.diagnosis.explanations.family import (
     Family,
@@ -30,7 +29,9 @@ OVERSAMPLING = 2.0
 """Search steps per independent frequency."""
 EDGE = 2
 """Readings on either side of a step, at least."""
-MOST_DOUBTFUL = 12
+LAST = (0, 2, 3)
+"""Columns of `Situation.slider` that the last motion may be."""
+MOST_DOUBTFUL = 30
 HEALING = (4, 8, 16, 32)
 """Lengths of a step that heals, in readings."""
 
@@ -195,24 +196,28 @@ def _scale_cyclic(s: Situation) -> Family:
 
 
 def _hysteresis(s: Situation) -> Family:
-    """Where the slider turned round on the way, or the way is unknown, it may hang on either side.
+    """The reading lags the slider, by last motion or by net travel where these differ.
 
-    Those readings have an amplitude of their own, as large as the width.
+    Joints that are started one after the other arrive so: the last motion may be of either alone.  Where the
+    slider moved too little, or its way is unknown, it may hang anywhere between: those readings have an
+    amplitude of their own, as large as the width.
     """
-    moments = s.t_s[_doubtful(s)][:MOST_DOUBTFUL]
+    moments = s.t_s[np.any(s.slider[:, LAST] == 0.0, axis=1)][:MOST_DOUBTFUL]
+
+    def shape(s: Situation, last: Real) -> Real:
+        net = s.slider[:, 1]
+        own = s.t_s[:, None] == moments[None]
+        own &= (last == 0.0)[:, None]
+        turned = np.where((last != net) & (last != 0.0), last, 0.0)
+        sure = np.where(own.any(axis=1) | (turned != 0.0), 0.0, net)
+        return 0.5 * np.column_stack([-sure, -turned, own])
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
-        own = 0.5 * (s.t_s[:, None] == moments)
-        sure = np.where(own.any(axis=1), 0.0, -0.5 * s.slider[:, 1])
-        return [Action("reading", np.column_stack([sure, own])[None])]
+        return [Action("reading", np.stack([shape(s, s.slider[:, int(h["last"])]) for h in hidden]))]
 
     part = Part("scale_hysteresis", None, None, (0,), scaled("width_mm", 1.0, "mm"))
-    return Family("hysteresis", (part,), 1.0, sizes(1e-3, 0.3), ({},), actions)
-
-
-def _doubtful(s: Situation) -> NDArray[np.bool_]:
-    """(K,) readings before which last motion and net travel differ or are unknown."""
-    return np.asarray((s.slider[:, 0] != s.slider[:, 1]) | (s.slider[:, 0] == 0.0))
+    hidden = tuple({"last": float(column)} for column in LAST)
+    return Family("hysteresis", (part,), 1.0, sizes(1e-3, 0.3), hidden, actions)
 
 
 def _drift() -> Family:

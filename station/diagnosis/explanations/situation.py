@@ -50,7 +50,8 @@ class Situation:
     travel: Real
     """(K,) mm, what a perfect scale would read."""
     slider: Real
-    """(K, 2) sign of the slider's last motion and of its net travel, 0 unknown."""
+    """(K, 4) sign of the slider's last motion and of its net travel, 0 unknown, and of its last motion if
+    joint 1 or 2 alone arrives last."""
     rise: Real | None
     """(K,) K since the first reading; None where none was recorded or nothing changed."""
     payload_kg: Real | None
@@ -114,7 +115,7 @@ def at_readings(
         drive_angle=c.drive_angle,
         approach=c.approach,
         travel=c.travel,
-        slider=np.column_stack([c.slider_direction, c.slider_net]),
+        slider=np.column_stack([c.slider_direction, c.slider_net, c.slider_by_joint]),
         rise=c.temperature_rise,
         payload_kg=None if c.payload_kg is None or not np.ptp(c.payload_kg) else c.payload_kg,
         mount=m.mount.astype(float),
@@ -169,7 +170,8 @@ def at_commands(mechanism: FiveBar, p: Real, last: Situation, theta: Real, aroun
     by_target = np.zeros((count, 2, len(TARGETS)))
     by_target[:, :, :10] = by_parameter[:, :, :10]
     by_target[:, 0, 10] = by_target[:, 1, 11] = 1.0
-    moving = np.sign(np.sum(distance_by_joint(at) * approach, axis=1))
+    by_each = distance_by_joint(at)
+    moving = np.sign(np.sum(by_each * approach, axis=1))
     situation = Situation(
         by_parameter=by_parameter,
         by_target=by_target,
@@ -178,7 +180,7 @@ def at_commands(mechanism: FiveBar, p: Real, last: Situation, theta: Real, aroun
         drive_angle=theta - np.radians(mechanism.robot.zero_at_deg),
         approach=approach,
         travel=at.rho - mechanism.offset(p)[now],
-        slider=np.column_stack([moving, moving]),
+        slider=np.column_stack([moving, moving, np.sign(by_each * approach)]),
         rise=_given(around.rise, last.rise, now, count),
         payload_kg=_given(around.payload_kg, last.payload_kg, now, count),
         mount=np.full(count, last.mount[now]),

@@ -71,12 +71,13 @@ def _gain(s: Situation, joint: int, hidden: Sequence[Hidden]) -> Real:
 def _sag(s: Situation, joint: int, hidden: Sequence[Hidden]) -> Real:
     """Wind-up under the arm's own weight, or under the platform's, held through the distal links.
 
-    The last three are of a drive train that becomes stiffer or softer the more it is loaded.
+    The last four are of a drive train that becomes stiffer or softer the more it is loaded.
     """
     i = joint - 1
     load = np.cos(s.theta[:, i])
     platform = s.force[:, i] * np.sin(s.phi[:, i] - s.theta[:, i])
-    uneven = (-(load**3), -load * np.abs(load), -2.0 * load / (1.0 + np.abs(load)))
+    stiffer = (-(1.0 + k) * load / (1.0 + k * np.abs(load)) for k in (1.0, 4.0))
+    uneven = (-(load**3), -load * np.abs(load), *stiffer)
     shapes = np.stack([-load, platform, *uneven])[[int(h["of"]) for h in hidden]][:, :, None]
     if s.payload_kg is not None:
         shapes = shapes * (1.0 + s.payload_kg[:, None])

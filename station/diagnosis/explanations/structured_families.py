@@ -92,7 +92,7 @@ def _centre(joint: int, range_: Real) -> Family:
         turning = wave(s.theta[:, joint - 1], _turns(hidden))
         return side_by_side((f"e{joint}x", f"e{joint}y"), (turning, turning))
 
-    return unnamed("bearing centre", f"joint{joint}", 0.2, range_, TURNS, actions)
+    return unnamed("bearing centre", f"joint{joint}", 0.12, range_, TURNS, actions)
 
 
 def _path(joint: int, range_: Real) -> Family:
@@ -118,7 +118,7 @@ def _path(joint: int, range_: Real) -> Family:
             y.append(dy)
         return [Action(f"e{joint}x", np.stack(x)), Action(f"e{joint}y", np.stack(y))]
 
-    return unnamed("bearing centre", f"joint{joint}", 0.5, range_, hidden, actions)
+    return unnamed("bearing centre", f"joint{joint}", 0.3, range_, hidden, actions)
 
 
 def _both_centres(range_: Real) -> Family:

@@ -19,6 +19,7 @@ from station.diagnosis.report.findings import Findings, FoundEffect, ResidualVie
 from station.diagnosis.report.joint_curves import Curve
 from station.diagnosis.report.stages import base_unknowns, errors_of, simplest
 from station.diagnosis.report.tracked import true_errors_of_set
+from station.diagnosis.report.unnamed_curves import unnamed_curves
 from station.diagnosis.report.weighed_sentence import weighed_reason
 from station.diagnosis.search import Hint, hints
 from station.diagnosis.tests_of_fit import rest_of
@@ -67,10 +68,10 @@ class WeighedFindings(Findings):
         """Of the whole set."""
         return "Mean over all explanations; the standard uncertainty covers their differences."
 
-    @property
+    @cached_property
     def curves(self) -> tuple[Curve, ...]:
-        """None: the errors of a joint are reported by their parameters."""
-        return ()
+        """Of each joint that errs without a name."""
+        return unnamed_curves(self.found)
 
     @property
     def mistake(self) -> MistakeRecord | None:
@@ -277,7 +278,7 @@ class WeighedFindings(Findings):
             parameters=self.parameters,
             weak_direction=self.weak_direction,
             findings=tuple(effect.record() for effect in self.effects),
-            curves=(),
+            curves=tuple(c.record() for c in self.curves),
             stages=self.stages,
             before=accuracy(self.stages[1], before, true_before),
             after=accuracy(self.stages[-1], after, true_after),

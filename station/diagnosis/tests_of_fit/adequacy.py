@@ -13,13 +13,13 @@ import numpy as np
 from scipy.special import chdtrc, fdtrc, ndtr
 
 from station.diagnosis.tests_of_fit.smooth_departures import departures, rest_of
+from station.fitting import FEWEST_REPEATS
 from station.mechanism import axis_of_row
 from station.model import Fit
 from station.records import Real
 
 ALPHA = 5e-4
 """Of each test: a clean machine is looked at twice in two of a thousand runs."""
-FEWEST_REPEATS = 6
 TENSION = 1e-4
 """Tolerances are rougher than noise: only a plain contradiction counts."""
 LOUD = 3.0

@@ -26,14 +26,12 @@ from station.diagnosis.tests_of_fit.smooth_departures import (
     rest_of,
 )
 from station.effects import doubtful
-from station.fitting import BLIND, solved
+from station.fitting import BLIND, REFUSED_P, solved
 from station.model import Fit, Model, is_long
 from station.records import Measurements, Real
 
-REFUSED_P = 0.001
-"""A true model is refused this often as a whole,"""
 DIRECTED_P = 1e-4
-"""and this often by each of the directed tests."""
+"""A true model is refused this often by each of the directed tests; as a whole by `REFUSED_P`."""
 FEWEST = 8
 FAR_OFF = 5.0
 """Standard deviations; and of few fresh readings, at most this share:"""

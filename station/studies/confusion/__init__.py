@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from station.studies.confusion.kinds import KINDS
 from station.studies.confusion.machines import draw
-from station.studies.confusion.matrix import KINDS, figures, markdown, run
+from station.studies.confusion.matrix import figures, label, run
+from station.studies.confusion.page import markdown
 
 __all__ = [
     "KINDS",
     "draw",
     "figures",
+    "label",
     "markdown",
     "run",
 ]

@@ -107,7 +107,8 @@ def test_a_stop_gets_through_although_nobody_is_connected(rig: EmulatedRig) -> N
     bus.trace = lambda direction, data: sent.append(data) if direction == "tx" else None
     axis = LeadshineEL7(bus, 1, JointScaling(10_000, 20, 0.0, 1), name="servo axis 1")
     axis.make_safe()
-    assert [frame[6:] for frame in sent] == [bytes.fromhex("01 06 6002 0040")]
+    stop, look = bytes.fromhex("01 06 6002 0040"), bytes.fromhex("01 03 0B05 0001")
+    assert [frame[6:] for frame in sent] == [stop, look]
 
 
 def test_preset_moves_the_zero(rig: EmulatedRig, axes: Axes) -> None:
@@ -185,7 +186,7 @@ def test_one_bad_scale_reply_is_overcome(rig: EmulatedRig, scale: HeidenhainND, 
 def test_bad_scale_replies_end_in_their_error_and_pass(
     rig: EmulatedRig, scale: HeidenhainND, kind: FaultKind, error: type[DeviceError], complaint: str
 ) -> None:
-    rig.inject(Fault(kind=kind, times=3))
+    rig.inject(Fault(kind=kind, times=10_000))
     with pytest.raises(error, match=complaint):
         scale.read_mm()
     rig.clear_faults()
@@ -228,22 +229,20 @@ def test_a_dead_drive_is_a_lost_link_and_comes_back(rig: EmulatedRig, axes: Axes
 
 
 def test_a_link_that_drops_for_long_comes_back(rig: EmulatedRig, axes: Axes) -> None:
-    rig.inject(Fault(kind="servo_link_dropped", times=20))
-    for _ in range(6):
-        with pytest.raises(LinkLost):
-            axes[0].feedback_deg()
+    rig.inject(Fault(kind="servo_link_dropped", times=10_000))
+    with pytest.raises(LinkLost):
+        axes[0].feedback_deg()
     rig.clear_faults()
     assert axes[0].feedback_deg() == 0.0
 
 
 def test_a_gateway_that_goes_quiet_for_long_comes_back(rig: EmulatedRig) -> None:
-    """More time-outs in a row than the client library forgives."""
-    bus = ModbusBus(rig.servo_url, timeout_s=0.02)
+    """Its line is busy with requests whose askers have given up."""
+    bus = ModbusBus(rig.servo_url, timeout_s=0.02, budget_s=0.1)
     bus.open("test")
-    rig.inject(Fault(kind="drive_late", times=12, delay_s=0.05))
-    for _ in range(4):
-        with pytest.raises(LinkLost):
-            bus.read(1, 0x602C, 2)
+    rig.inject(Fault(kind="drive_late", times=10_000, delay_s=0.05))
+    with pytest.raises(LinkLost):
+        bus.read(1, 0x602C, 2)
     rig.clear_faults()
     time.sleep(0.3)
     assert bus.read(1, 0x602C, 2) == [0, 0]

@@ -9,7 +9,7 @@ from drivers.lines.url import BadUrl, LineFormat, NetAddress, SerialAddress, par
 
 
 def parse(url: str) -> SerialAddress | NetAddress:
-    return parse_line_url(url, serial="serial", net="socket", default_baud=9600, default_format="7E2")
+    return parse_line_url(url, serial="serial", net=("socket",), default_baud=9600, default_format="7E2")
 
 
 def test_serial_port_with_its_settings() -> None:

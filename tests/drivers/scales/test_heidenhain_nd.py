@@ -12,20 +12,24 @@ from hypothesis import strategies as st
 from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
 from drivers.protocols import LinearScale
 from drivers.scales.heidenhain_nd import HeidenhainND, Indicator
-from tests.drivers.wire import SILENCE, Exchange, PtyEnd, Say, TcpEnd
+from tests.drivers.wire import NEW_CONNECTION, SILENCE, Exchange, PtyEnd, Say, TcpEnd
 
 IDENTITY = (b"\x1bA0000\r", b"\x02ND281B    \r\n 349797-03\r\n")
 INDICATORS = (b"\x1bA0900\r", b"\x0211000000000000\r\n")
 VALUE = (b"\x02", b"+  121.9750    \r\n")
 CURRENT = (b"\x1bA0200\r", b"\x02+001219750\r\n")
-CONNECT: list[Exchange] = [IDENTITY, INDICATORS, VALUE, CURRENT]
+OPENED: Exchange = (b"\x11", SILENCE)
+"""XON: whoever paused the display may be gone."""
+CONNECT: list[Exchange] = [OPENED, IDENTITY, INDICATORS, VALUE, CURRENT]
 
 
 @contextmanager
-def connected(*exchanges: Exchange, timeout_s: float = 0.1) -> Iterator[HeidenhainND]:
+def connected(
+    *exchanges: Exchange, timeout_s: float = 0.1, budget_s: float | None = None
+) -> Iterator[HeidenhainND]:
     """A driver that has connected and has `exchanges` before it."""
     with PtyEnd([*CONNECT, *exchanges]) as end:
-        scale = HeidenhainND(f"serial://{end.port}?override=8N1", timeout_s=timeout_s)
+        scale = HeidenhainND(f"serial://{end.port}?override=8N1", timeout_s=timeout_s, budget_s=budget_s)
         scale.connect()
         try:
             yield scale
@@ -120,18 +124,40 @@ def test_a_garbled_line_is_asked_for_again_after_the_line_is_clean() -> None:
         assert scale.read_mm() == 121.975
 
 
-def test_three_garbled_lines_are_an_error() -> None:
+def test_what_is_garbled_for_the_time_budget_is_an_error() -> None:
     bad = (b"\x02", b"+  121.97 0    \r\n")
+    with connected(bad, budget_s=0.0) as scale, pytest.raises(GarbledReply, match="not a r"):
+        scale.read_mm()
+
+
+@pytest.mark.parametrize("at", [0, 1, 5, 12, 13, 14, 15])
+def test_a_byte_that_the_line_marks_as_bad_is_refused(at: int) -> None:
+    """A byte of wrong parity arrives as NUL, wherever it stands."""
+    line = bytearray(VALUE[1] if isinstance(VALUE[1], bytes) else b"")
+    line[at] = 0
+    with connected((b"\x02", bytes(line)), budget_s=0.0) as scale, pytest.raises(GarbledReply):
+        scale.read_mm()
+
+
+def test_a_readout_that_echoes_is_named() -> None:
     with (
-        connected(bad, IDENTITY, bad, IDENTITY, bad) as scale,
-        pytest.raises(GarbledReply, match="not a r"),
+        connected((b"\x02", b"\x02+  121.9750    \r\n"), budget_s=0.0) as scale,
+        pytest.raises(GarbledReply, match=r"sends back what it is sent \(echo\)"),
     ):
         scale.read_mm()
 
 
+def test_a_connection_that_fell_silent_is_replaced() -> None:
+    with TcpEnd([*CONNECT, (b"\x02", SILENCE), NEW_CONNECTION, OPENED, IDENTITY, VALUE]) as end:
+        scale = HeidenhainND(f"socket://127.0.0.1:{end.port}", timeout_s=0.2)
+        scale.connect()
+        assert scale.read_mm() == 121.975
+        scale.close()
+
+
 def test_a_truncated_line_is_an_error() -> None:
     cut = (b"\x02", b"+  121.97")
-    with connected(cut, IDENTITY, cut, IDENTITY, cut) as scale, pytest.raises(GarbledReply):
+    with connected(cut, budget_s=0.0) as scale, pytest.raises(GarbledReply):
         scale.read_mm()
 
 
@@ -142,9 +168,8 @@ def test_two_lines_where_one_was_asked_for_are_an_error() -> None:
 
 
 def test_silence_is_a_lost_link() -> None:
-    silent = (b"\x02", SILENCE)
     with (
-        connected(silent, (IDENTITY[0], SILENCE), (IDENTITY[0], SILENCE)) as scale,
+        connected((b"\x02", SILENCE), budget_s=0.0) as scale,
         pytest.raises(LinkLost, match="does not answer"),
     ):
         scale.read_mm()
@@ -158,7 +183,7 @@ def test_a_late_line_is_never_taken_for_the_next_one() -> None:
 
 
 def test_a_refused_command_is_named() -> None:
-    with PtyEnd([IDENTITY, INDICATORS, VALUE, (b"\x1bA0200\r", b"\x15")]) as end:
+    with PtyEnd([OPENED, IDENTITY, INDICATORS, VALUE, (b"\x1bA0200\r", b"\x15")]) as end:
         scale = HeidenhainND(f"serial://{end.port}?override=8N1", timeout_s=0.1)
         with pytest.raises(DeviceFault, match="refuses A0200; is it an ND 280, 281B or 287"):
             scale.connect()
@@ -171,14 +196,14 @@ def test_a_model_without_indicators() -> None:
 
 def test_connect_refuses_values_that_disagree() -> None:
     odd = (b"\x1bA0200\r", b"\x02+012197500\r\n")
-    with PtyEnd([IDENTITY, INDICATORS, VALUE, odd, IDENTITY, VALUE, odd, IDENTITY, VALUE, odd]) as end:
-        scale = HeidenhainND(f"serial://{end.port}?override=8N1", timeout_s=0.1)
+    with PtyEnd([OPENED, IDENTITY, INDICATORS, VALUE, odd]) as end:
+        scale = HeidenhainND(f"serial://{end.port}?override=8N1", timeout_s=0.1, budget_s=0.0)
         with pytest.raises(GarbledReply, match=r"printed 121\.9750 mm but shows 1219\.7500 mm"):
             scale.connect()
 
 
 def test_connect_refuses_inches() -> None:
-    with PtyEnd([IDENTITY, (b"\x1bA0900\r", b"\x021100001000\r\n")]) as end:
+    with PtyEnd([OPENED, IDENTITY, (b"\x1bA0900\r", b"\x021100001000\r\n")]) as end:
         scale = HeidenhainND(f"serial://{end.port}?override=8N1", timeout_s=0.1)
         with pytest.raises(DeviceFault, match="inches"):
             scale.connect()
@@ -217,7 +242,7 @@ def scale_url(scale: HeidenhainND) -> str:
 
 def test_reading_before_connect_and_closing_twice() -> None:
     scale = HeidenhainND("serial:///dev/nowhere")
-    with pytest.raises(LinkLost, match="is not open; connect again"):
+    with pytest.raises(DeviceError, match="is not open; connect first"):
         scale.read_mm()
     scale.make_safe()
     scale.close()

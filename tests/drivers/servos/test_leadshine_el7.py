@@ -48,6 +48,8 @@ FEEDBACK_AT_200_DEG = ask("602C", "0000 2B67", "0002")
 MOVE_TO_200_DEG = rtu("01 10 6200 0008 10 0001 0000 2B67 0021 0064 0064 0000 0010")
 MOVE_TAKEN = (MOVE_TO_200_DEG, rtu("01 10 6200 0008"))
 STOP = put("6002", "0040")
+LOOK = ask("0B05", "0032")
+"""A stop is confirmed by a register that can be read: the reply to the write is a copy, as an echo is."""
 
 
 @contextmanager
@@ -124,10 +126,23 @@ def test_a_move_whose_reply_is_lost_is_not_sent_again() -> None:
 
 
 def test_a_move_whose_reply_is_lost_and_which_the_drive_never_got() -> None:
+    """It holds another target, so it is told once more: the move is absolute."""
     old_target = ask("6201", "0000 0000", "0002")
+    with axis(*IDLE, unanswered(MOVE_TAKEN), old_target, MOVE_TAKEN) as drive:
+        drive.move_to(200.0, 10.0)
+
+
+def test_a_move_that_is_never_confirmed() -> None:
+    lost, old_target = unanswered(MOVE_TAKEN), ask("6201", "0000 0000", "0002")
+    with axis(*IDLE, lost, old_target, lost) as drive, pytest.raises(LinkLost, match="did not confirm"):
+        drive.move_to(200.0, 10.0)
+
+
+def test_a_move_that_was_taken_but_does_not_run_is_an_error() -> None:
+    target, standing = ask("6201", "0000 2B67", "0002"), ask("602C", "0000 0000", "0002")
     with (
-        axis(*IDLE, unanswered(MOVE_TAKEN), old_target) as drive,
-        pytest.raises(LinkLost, match="did not confirm its move and does not show it"),
+        axis(*IDLE, unanswered(MOVE_TAKEN), target, IDLE[0], standing) as drive,
+        pytest.raises(LinkLost, match="did not confirm"),
     ):
         drive.move_to(200.0, 10.0)
 
@@ -168,17 +183,19 @@ def test_reset_waits_until_the_alarm_is_gone() -> None:
 
 
 def test_quick_stop_is_one_frame() -> None:
-    with axis((bytes.fromhex("01 06 60 02 00 40 37 FA"), bytes.fromhex("01 06 60 02 00 40 37 FA"))) as drive:
+    with axis(
+        (bytes.fromhex("01 06 60 02 00 40 37 FA"), bytes.fromhex("01 06 60 02 00 40 37 FA")), LOOK
+    ) as drive:
         drive.quick_stop()
 
 
 def test_quick_stop_is_repeated_when_unconfirmed() -> None:
-    with axis(unanswered(STOP), STOP) as drive:
+    with axis(unanswered(STOP), STOP, LOOK) as drive:
         drive.quick_stop()
 
 
 def test_quick_stop_is_repeated_when_a_late_reply_came_in_its_place() -> None:
-    with axis((STOP[0], FEEDBACK_AT_200_DEG[1]), STOP) as drive:
+    with axis((STOP[0], FEEDBACK_AT_200_DEG[1]), STOP, LOOK) as drive:
         drive.quick_stop()
 
 
@@ -189,7 +206,7 @@ def test_quick_stop_that_is_never_confirmed() -> None:
 
 
 def test_after_a_stop_it_is_not_in_position() -> None:
-    with axis(*IDLE, MOVE_TAKEN, STOP, *IDLE) as drive:
+    with axis(*IDLE, MOVE_TAKEN, STOP, LOOK, *IDLE) as drive:
         drive.move_to(200.0, 10.0)
         drive.make_safe()
         assert not drive.status().in_position

@@ -15,7 +15,7 @@ from station.diagnosis.report.weighed_findings import WeighedFindings
 from station.diagnosis.weighed_loop import WeighedDiagnosis
 from station.five_bar.robot_file import Robot
 from station.machines import read_readings
-from tests.station.groups import DATA, needs_data
+from tests.station.simulated import DATA, needs_data
 
 UNDECLARED, HARD = DATA / "undeclared", DATA / "hard"
 NAMES = [f"case{k:02d}" for k in range(1, 21)]

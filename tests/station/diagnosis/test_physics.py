@@ -9,7 +9,7 @@ import pytest
 from station.diagnosis.report.weighed_findings import WeighedFindings
 from station.diagnosis.weighed_loop import weighed
 from station.records import Measurements
-from tests.station.diagnosis.machines import ROBOT, ZERO_OFFSETS_DEG, Emulated
+from tests.station.simulated import DRAWN_OFFSETS_DEG, ROBOT, Drawn
 
 EFFECTS: list[tuple[str, dict[str, Any], str, dict[str, float]]] = [
     ("backlash", {"joint": 1, "width_deg": 0.01}, "backlash of joint 1", {"width_deg": 0.01}),
@@ -79,7 +79,7 @@ def diagnosed(walk: Measurements, fresh: Measurements | None = None) -> WeighedF
 def test_physics_is_named_and_its_size_recovered(
     kind: str, known: dict[str, Any], label: str, sizes: dict[str, float]
 ) -> None:
-    machine = Emulated({"kind": kind, **known}, seed=1)
+    machine = Drawn({"kind": kind, **known}, seed=1)
     found = diagnosed(machine.walk(), machine.fresh())
     # a link 1 mm off is nearly as probable as an unnamed error: then it comes first in the set
     likely = [("explained", True), ("ambiguous", False)] if kind == "link_length" else [("explained", True)]
@@ -89,13 +89,13 @@ def test_physics_is_named_and_its_size_recovered(
     by_name = {q.name: q for q in effect.parameters}
     for name, true in sizes.items():
         assert abs(by_name[name].value - true) < 3.0 * by_name[name].sd
-    for q, true in zip(found.parameters[:2], ZERO_OFFSETS_DEG, strict=True):
+    for q, true in zip(found.parameters[:2], DRAWN_OFFSETS_DEG, strict=True):
         assert abs(q.value - true) < 4.0 * q.sd
 
 
 @pytest.mark.parametrize("seed", [1, 2])
 def test_drift_is_in_its_alias_set(seed: int) -> None:
-    machine = Emulated({"kind": "drift", "mm_per_hour": 0.4}, seed=seed)
+    machine = Drawn({"kind": "drift", "mm_per_hour": 0.4}, seed=seed)
     found = diagnosed(machine.walk(), machine.fresh())
     assert found.decision.passed
     (effect,) = found.effects
@@ -103,7 +103,7 @@ def test_drift_is_in_its_alias_set(seed: int) -> None:
 
 
 def test_two_effects_at_once() -> None:
-    machine = Emulated(
+    machine = Drawn(
         {"kind": "backlash", "joint": 1, "width_deg": 0.01},
         {"kind": "scale_cyclic", "amplitude_mm": 0.006, "period_mm": 2},
         seed=3,
@@ -129,7 +129,7 @@ def test_two_effects_at_once() -> None:
 )
 @pytest.mark.parametrize("seed", [1, 2])
 def test_outside_the_catalogue_nothing_is_blamed(effect: dict[str, Any], hint: str, seed: int) -> None:
-    machine = Emulated(effect, seed=seed)
+    machine = Drawn(effect, seed=seed)
     found = diagnosed(machine.walk(), machine.fresh())
     assert not found.decision.passed
     assert found.decision.confirmed is False
@@ -138,7 +138,7 @@ def test_outside_the_catalogue_nothing_is_blamed(effect: dict[str, Any], hint: s
 
 @pytest.mark.parametrize("seed", [4, 5, 6])
 def test_clean_machine_is_adequate(seed: int) -> None:
-    machine = Emulated(seed=seed)
+    machine = Drawn(seed=seed)
     found = diagnosed(machine.walk(), machine.fresh())
     assert (found.decision.verdict, found.decision.confirmed) == ("adequate", True)
     assert found.effects == ()
@@ -146,7 +146,7 @@ def test_clean_machine_is_adequate(seed: int) -> None:
 
 
 def test_dirty_readings_are_named_and_left_out() -> None:
-    machine = Emulated(seed=7)
+    machine = Drawn(seed=7)
     walk = machine.walk()
     walk.distance[[20, 77]] += [0.05, -0.08]
     found = diagnosed(walk, machine.fresh())
@@ -158,7 +158,7 @@ def test_dirty_readings_are_named_and_left_out() -> None:
 
 def test_repeats_that_disagree_grossly_are_never_adequate() -> None:
     """Twelve readings off by 5 mm are named, and nothing is confirmed."""
-    walk = Emulated(seed=3).walk()
+    walk = Drawn(seed=3).walk()
     walk.distance[::10] += 5.0
     found = diagnosed(walk)
     assert not found.decision.passed

@@ -12,9 +12,9 @@ from click.testing import CliRunner
 
 from station.cli import main
 from station.diagnosis.closed_loop import diagnose
-from tests.station.diagnosis.machines import ROBOT, Emulated, to_csv
+from tests.station.simulated import ROBOT, Drawn, to_csv
 
-MACHINE = Emulated(seed=9, recorded_temperature=False)
+MACHINE = Drawn(seed=9, recorded_temperature=False)
 GOOD = to_csv(MACHINE.walk())
 LINES = GOOD.splitlines()
 FRESH = to_csv(MACHINE.fresh())
@@ -136,7 +136,7 @@ def test_time_that_runs_backwards_is_left_out(tmp_path: Path) -> None:
 
 def test_fresh_readings_need_what_the_effect_needs() -> None:
     warming = {"kind": "thermal_growth", "rise_k": 8, "tau_s": 100, "links_um_per_m_per_k": 12}
-    machine = Emulated(warming, seed=1)
+    machine = Drawn(warming, seed=1)
     walk = machine.walk()
     machine.recorded_temperature = False
     found = diagnose(ROBOT, walk, machine.fresh())

@@ -13,13 +13,13 @@ from station.diagnosis.mistakes import MistakeRefused
 from station.diagnosis.report.weighed_findings import WeighedFindings
 from station.diagnosis.weighed_loop import weighed
 from station.records import DataSource, DiagnosisDocument
-from tests.station.diagnosis.machines import ROBOT, Emulated
+from tests.station.simulated import ROBOT, Drawn
 
 SOURCE = DataSource(file="walk.csv", readings=120, sha256="0" * 64)
 
 
 def test_readings_that_are_wrong_are_refused_by_name() -> None:
-    machine = Emulated(seed=11)
+    machine = Drawn(seed=11)
     walk = machine.walk()
     with pytest.raises(MistakeRefused) as refusal:
         diagnose(ROBOT, replace(walk, distance=-walk.distance, came_from=None), machine.fresh())
@@ -27,14 +27,14 @@ def test_readings_that_are_wrong_are_refused_by_name() -> None:
 
 
 def test_the_same_readings_confirm_nothing() -> None:
-    walk = Emulated(seed=11).walk()
+    walk = Drawn(seed=11).walk()
     with pytest.raises(MistakeRefused) as refusal:
         diagnose(ROBOT, walk, walk)
     assert refusal.value.mistake.kind == "same_readings"
 
 
 def test_a_wrong_label_is_left_out_and_nothing_is_confirmed() -> None:
-    machine = Emulated(seed=11)
+    machine = Drawn(seed=11)
     walk = machine.walk()
     found = weighed(ROBOT, replace(walk, position=np.zeros_like(walk.position)), machine.fresh())
     assert found.mistake is not None and found.mistake.kind == "position_labels"
@@ -43,7 +43,7 @@ def test_a_wrong_label_is_left_out_and_nothing_is_confirmed() -> None:
 
 
 def test_fresh_readings_may_use_the_ids_of_the_sequence() -> None:
-    machine = Emulated(seed=11)
+    machine = Drawn(seed=11)
     walk, fresh = machine.walk(), machine.fresh()
     fresh.distance[3] += 0.2
     found = weighed(ROBOT, walk, replace(fresh, ids=walk.ids[: len(fresh)]))
@@ -54,7 +54,7 @@ def test_fresh_readings_may_use_the_ids_of_the_sequence() -> None:
 
 
 def test_a_document_survives_its_journey() -> None:
-    machine = Emulated({"kind": "encoder_eccentricity", "joint": 1, "amplitude_deg": 0.05}, seed=2)
+    machine = Drawn({"kind": "encoder_eccentricity", "joint": 1, "amplitude_deg": 0.05}, seed=2)
     findings = WeighedFindings(weighed(ROBOT, machine.walk(), machine.fresh()))
     document = findings.document(SOURCE)
     text = document.model_dump_json(by_alias=True)
@@ -85,3 +85,17 @@ def test_a_document_survives_its_journey() -> None:
 def test_what_the_owner_has_to_do(verdict: str, confirmed: bool | None, outcome: str) -> None:
     decision = Decision(verdict, confirmed)  # type: ignore[arg-type]
     assert decision.outcome == outcome
+
+
+def test_second_ripple_of_the_same_joint_is_found() -> None:
+    """The first ripple is found while the second disturbs it; both are settled beside each other."""
+    ripples = [
+        {"kind": "gear_cyclic", "joint": 2, "amplitude_deg": a, "per_rev": n}
+        for a, n in ((0.01, 12), (0.004, 17))
+    ]
+    machine = Drawn(*ripples, seed=7)
+    found = weighed(ROBOT, machine.walk(), machine.fresh())
+    assert (found.verdict, found.confirmed) == ("explained", True)
+    values = [q for finding in found.found.findings for q in finding.parameters]
+    per_rev = sorted(q.value for q in values if q.name == "per_rev")
+    assert per_rev == pytest.approx([12.0, 17.0], abs=0.3)

@@ -14,7 +14,7 @@ from station.five_bar.mechanism import FiveBar
 from station.five_bar.robot_file import Robot
 from station.records import Real
 from tests.station.fitting.nist import NistProblem, problems
-from tests.station.groups import group, measure
+from tests.station.simulated import group, measure
 
 ROBOT = Robot.default()
 NOTHING_KNOWN = np.inf
@@ -65,7 +65,7 @@ def test_step_control_survives_a_start_far_away() -> None:
 def test_agrees_with_a_general_solver(unknowns: str, number: int) -> None:
     rng = np.random.default_rng(number)
     places = rng.uniform(-240, 240, 60) + 1j * rng.uniform(-782, -632, 60)
-    measurements = measure(ROBOT, group(number), places, rng)
+    measurements = measure(ROBOT, group(number), places, number)
     mechanism = FiveBar(ROBOT, measurements)
     start = np.array([p.prior_mean for p in mechanism.parameters])
     free = np.array([0, 1, 10, 11, 12]) if unknowns == "four" else np.arange(13)

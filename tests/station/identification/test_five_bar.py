@@ -17,7 +17,7 @@ from station.identification.estimate import identify
 from station.plans import make_plan
 from station.records import read_measurements
 from tests.station.asking import start_procedure
-from tests.station.groups import DATA, calibrate, group, measure, needs_data, value_and_sd
+from tests.station.simulated import DATA, calibrated, group, measure, needs_data, value_and_sd
 
 ROBOT = Robot.default()
 GRID = ROBOT.workspace_grid(7, 4)
@@ -38,7 +38,7 @@ def test_clean_files_give_the_truth_within_their_uncertainty(case: str) -> None:
 
 
 def test_an_outlying_reading_is_found_named_and_left_out() -> None:
-    measurements = measure(ROBOT, group(1), GRID, np.random.default_rng(0), repeats=2)
+    measurements = measure(ROBOT, group(1), GRID, 0, repeats=2)
     wrong = measurements.distance.copy()
     wrong[17] += 0.08
     fit = identify(ROBOT, replace(measurements, distance=wrong))
@@ -51,7 +51,7 @@ def test_an_outlying_reading_is_found_named_and_left_out() -> None:
 
 
 def test_a_disagreement_that_a_whole_place_shares_is_no_outlier() -> None:
-    measurements = measure(ROBOT, group(1), GRID, np.random.default_rng(0), repeats=3)
+    measurements = measure(ROBOT, group(1), GRID, 0, repeats=3)
     dented = measurements.distance + 0.05 * (measurements.position == 9)
     fit = identify(ROBOT, replace(measurements, distance=dented))
     assert fit.outliers == ()
@@ -60,7 +60,7 @@ def test_a_disagreement_that_a_whole_place_shares_is_no_outlier() -> None:
 
 
 def test_too_many_outliers_are_a_refusal() -> None:
-    measurements = measure(ROBOT, group(1), GRID, np.random.default_rng(0))
+    measurements = measure(ROBOT, group(1), GRID, 0)
     rng = np.random.default_rng(1)
     wrong = measurements.distance.copy()
     wrong[rng.choice(len(wrong), 6, replace=False)] += rng.choice([-0.3, 0.3], 6)
@@ -72,14 +72,14 @@ def test_a_link_three_millimetres_off_is_refused_by_name() -> None:
     truth = group(1)
     truth[6] = 3.0
     with pytest.raises(InputRefused, match="Impossible result: L1"):
-        identify(ROBOT, measure(ROBOT, truth, GRID, np.random.default_rng(0)))
+        identify(ROBOT, measure(ROBOT, truth, GRID, 0))
 
 
 def test_a_second_mount_has_its_own_offset_and_place() -> None:
     robot = replace(ROBOT, mounts={"B": (200.0, -79.0)})
     truth = group(1)
-    first = measure(robot, truth, GRID, np.random.default_rng(0))
-    aside = measure(replace(robot, c=(200.0, -79.0)), truth, GRID, np.random.default_rng(1))
+    first = measure(robot, truth, GRID, 0)
+    aside = measure(replace(robot, c=(200.0, -79.0)), truth, GRID, 1)
     both = replace(
         first,
         ids=tuple(range(2 * len(first))),
@@ -106,7 +106,7 @@ def test_a_second_mount_has_its_own_offset_and_place() -> None:
 def test_derivatives_with_two_mounts_agree_with_differences() -> None:
     robot = replace(ROBOT, mounts={"B": (150.0, -90.0)})
     measurements = replace(
-        measure(robot, group(2), GRID, np.random.default_rng(0)),
+        measure(robot, group(2), GRID, 0),
         mount=np.arange(len(GRID)) % 2,
         mounts=("A", "B"),
     )
@@ -124,7 +124,7 @@ def test_derivatives_with_two_mounts_agree_with_differences() -> None:
 
 
 def test_the_result_says_what_is_weak_and_blind() -> None:
-    found = identify(ROBOT, measure(ROBOT, group(1), GRID, np.random.default_rng(0)))
+    found = identify(ROBOT, measure(ROBOT, group(1), GRID, 0))
     content = identification_document(found).model_dump(by_alias=True)
     weak = content["weak_direction"]
     assert weak["text"] == "both arms together with a sideways error of the mechanism"
@@ -144,7 +144,7 @@ def test_the_result_says_what_is_weak_and_blind() -> None:
 @pytest.mark.parametrize("plan", ["rapid", "full"])
 def test_measured_and_verified_calibration(plan: str) -> None:
     truth = group(1)
-    result = calibrate(start_procedure(plan, ROBOT), ROBOT, truth, seed=4)
+    result = calibrated(start_procedure(plan, ROBOT), ROBOT, truth, seed=4)
     value, sd = value_and_sd(result)
     assert result.verdict == "pass", result.reason
     assert (np.abs(np.array(value) - np.degrees(truth[:2])) < 3 * np.array(sd)).all()
@@ -164,7 +164,7 @@ def test_an_effect_that_the_model_lacks_fails_the_calibration() -> None:
                 [replace(r, scale_mm=r.scale_mm + 0.01 * (r.approach[0] or 1)) for r in readings]
             )
 
-    result = calibrate(Sloppy(), ROBOT, group(1), seed=4)  # type: ignore[arg-type]
+    result = calibrated(Sloppy(), ROBOT, group(1), seed=4)  # type: ignore[arg-type]
     assert result.verdict == "fail"
     assert result.reason.code == "lack_of_fit"
 

@@ -14,7 +14,7 @@ from station.identification.estimate import Identification, identify
 from station.identification.memory import Memory
 from station.published.method import boundary_positions
 from station.records import LastingParameters
-from tests.station.groups import group, measure
+from tests.station.simulated import group, measure
 
 ROBOT = replace(Robot.default(), feedback_sd_deg=0.0)
 """Joints that stand on whole pulses, as these simulated ones do."""
@@ -23,12 +23,12 @@ PLACES = boundary_positions(ROBOT.workspace_x, ROBOT.workspace_y, 3)
 
 def learned(seed: int) -> tuple[np.ndarray, Memory]:
     truth = group(1)
-    fit = identify(ROBOT, measure(ROBOT, truth, ROBOT.workspace_grid(6, 4), np.random.default_rng(seed), 5))
+    fit = identify(ROBOT, measure(ROBOT, truth, ROBOT.workspace_grid(6, 4), seed, 5))
     return truth, fit.lasting
 
 
 def six_readings(truth: np.ndarray, memory: Memory | None) -> Identification[FiveBar]:
-    return identify(ROBOT, measure(ROBOT, truth, PLACES, np.random.default_rng(7)), memory)
+    return identify(ROBOT, measure(ROBOT, truth, PLACES, 7), memory)
 
 
 def test_geometry_and_mechanism_are_kept_and_zero_offsets_are_not() -> None:
@@ -62,7 +62,7 @@ def test_a_mechanism_mounted_anew_drops_the_memory(seed: int) -> None:
 
 def test_age_makes_less_sure() -> None:
     truth, memory = learned(0)
-    parameters = FiveBar(ROBOT, measure(ROBOT, truth, PLACES, np.random.default_rng(0))).parameters
+    parameters = FiveBar(ROBOT, measure(ROBOT, truth, PLACES, 0)).parameters
     young, old = memory.aged(parameters, 0.0), memory.aged(parameters, 10.0)
     assert np.diag(young.covariance) == pytest.approx(np.diag(memory.covariance))
     assert (np.diag(old.covariance) > np.diag(memory.covariance)).all()

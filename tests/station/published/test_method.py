@@ -19,7 +19,7 @@ from station.published.method import (
 )
 from station.published.positions import conditioning, positions_per_edge
 from tests.station.asking import start_procedure
-from tests.station.groups import calibrate, group, value_and_sd
+from tests.station.simulated import calibrated, group, value_and_sd
 
 ROBOT = Robot.default()
 PLACES = boundary_positions(ROBOT.workspace_x, ROBOT.workspace_y, 3)
@@ -102,7 +102,7 @@ def test_mu_of_eq_32() -> None:
 @pytest.mark.parametrize("number", range(1, 7))
 def test_published_calibration_ends_near_the_truth(number: int) -> None:
     truth = group(number)
-    result = calibrate(start_procedure("paper", ROBOT), ROBOT, truth, seed=number)
+    result = calibrated(start_procedure("paper", ROBOT), ROBOT, truth, seed=number)
     value, sd = value_and_sd(result)
     assert result.verdict == "pass", result.reason
     assert np.abs(np.array(value) - np.degrees(truth[:2])).max() < 0.15
@@ -130,6 +130,6 @@ def test_a_published_run_with_a_wrong_reading_fails() -> None:
         def __next__(self) -> object:
             return next(procedure)
 
-    result = calibrate(Disturbed(), ROBOT, group(4), seed=1)  # type: ignore[arg-type]
+    result = calibrated(Disturbed(), ROBOT, group(4), seed=1)  # type: ignore[arg-type]
     assert result.verdict == "fail"
     assert result.reason.code in ("reading_beyond_limit", "mu_too_large")

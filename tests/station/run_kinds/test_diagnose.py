@@ -15,11 +15,12 @@ from station.errors import InputRefused, NotApplicable, NotFound
 from station.five_bar.robot_file import Robot
 from station.plans import make_plan
 from station.plans.diagnostic_sequence import FRESH_PLACES, diagnostic_fresh_stops
-from station.records import CalibrationResult, PlanName, Procedure, Reading, State, Walk
+from station.records import CalibrationResult, PlanName, Reading, State, Walk
 from station.run_kinds.zero_state import application, check_apply
 from station.store.store import Store
 from station.studies.simulation import SimulatedMachine
 from tests.station.asking import asked, start_procedure
+from tests.station.simulated import carried_out, read
 
 ROBOT = Robot.default("R1")
 TRUTH = np.concatenate([np.radians([0.8, -0.6]), np.zeros(8), [0.5, -0.3]])
@@ -28,53 +29,12 @@ DRAG = {"kind": "cable_drag", "joint": 1, "deg_at_end": 0.01}
 
 
 def machine(*effects: dict[str, Any]) -> SimulatedMachine:
-    return SimulatedMachine(ROBOT, TRUTH, "continuous", 5, effects)
+    return SimulatedMachine(ROBOT, TRUTH, "continuous", 6, effects)
 
 
 def run(machine: SimulatedMachine, plan: PlanName = "diagnostic") -> tuple[list[Reading], CalibrationResult]:
     """A plan carried out in virtual time."""
     return carried_out(machine, start_procedure(plan, ROBOT))
-
-
-def carried_out(
-    machine: SimulatedMachine, procedure: Procedure, before: int = 0
-) -> tuple[list[Reading], CalibrationResult]:
-    """The walks in virtual time, with the run-ups that approaches ask for, after so many readings."""
-    readings: list[Reading] = []
-    try:
-        walk = next(procedure)
-        while True:
-            taken = measure(machine, walk, before + len(readings))
-            readings += taken
-            walk = procedure.send(taken)
-    except StopIteration as end:
-        return readings, end.value
-
-
-def measure(machine: SimulatedMachine, walk: Any, taken: int) -> list[Reading]:
-    assert isinstance(walk, Walk)
-    way: list[Any] = []
-    labels: list[str | None] = []
-    for stop in walk.stops:
-        if any(stop.approach):
-            way.append(np.array(stop.theta_deg) - np.array(stop.approach))
-            labels.append(None)
-        way.append(np.array(stop.theta_deg))
-        labels.append(stop.position)
-    visited = machine.visit(np.array(way), [label or "way" for label in labels])
-    kept = [k for k, label in enumerate(labels) if label is not None]
-    return [
-        Reading(
-            taken + n,
-            float(visited.t_s[k]),
-            tuple(float(v) for v in np.degrees(visited.theta[k])),
-            tuple(int(a) for a in visited.approach[k]),
-            float(visited.distance[k]),
-            str(labels[k]),
-            walk.number,
-        )
-        for n, k in enumerate(kept, start=1)
-    ]
 
 
 def test_the_walk_reads_most_places_from_both_sides_and_ten_three_times() -> None:
@@ -166,7 +126,9 @@ def test_an_effect_too_large_for_any_fit_is_a_lack_of_fit_too(tmp_path: Path, pl
 
 def test_readings_of_another_robot_are_refused() -> None:
     procedure = start_procedure("diagnostic", ROBOT)
-    readings = measure(machine(), next(procedure), 0)
+    sequence = next(procedure)
+    assert isinstance(sequence, Walk)
+    readings = read(machine(), sequence)
     with pytest.raises(InputRefused, match="Not enough data to judge"):
         procedure.send(readings[:20])
 

@@ -15,7 +15,8 @@ from station.run_kinds.diagnose import diagnosed
 from station.run_kinds.separate import planned, separating
 from station.store.store import Store
 from tests.station.asking import asked
-from tests.station.run_kinds.test_diagnose import BACKLASH, ROBOT, carried_out, machine, run
+from tests.station.run_kinds.test_diagnose import BACKLASH, ROBOT, machine, run
+from tests.station.simulated import carried_out
 
 DRIFT = {"kind": "drift", "mm_per_hour": 0.5}
 

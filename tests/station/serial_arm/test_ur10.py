@@ -18,7 +18,7 @@ from station.diagnosis.report.traced_findings import TracedFindings
 from station.diagnosis.tests_of_fit.cross_validation import without_a_quarter
 from station.diagnosis.traced_loop import traced
 from station.machines import AnyRobot, Measured, read_readings, read_robot
-from tests.station.groups import DATA, needs_data
+from tests.station.simulated import DATA, needs_data
 
 LOGS = DATA / "ur10"
 ROBOT = Path(__file__).parents[3] / "docs/examples/ur10.toml"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sqlite3
 import time
 from collections.abc import Callable
 from dataclasses import replace
@@ -13,7 +12,7 @@ from typing import Any
 import pytest
 
 from drivers.errors import DeviceFault, LinkLost
-from station.errors import Busy, InputRefused, KeyReused, NotFound
+from station.errors import Busy, InputRefused, KeyReused, NotFound, StoreUnavailable
 from station.five_bar.robot_file import Robot
 from station.motion.events import LiveEvent
 from station.records import (
@@ -46,6 +45,15 @@ def run_to_end(orchestrator: Orchestrator, request: CalibrationRequest = REQUEST
 def outcome(store: Store, calibration_id: int) -> tuple[str, str | None, str]:
     calibration = store.calibration(calibration_id)
     return calibration.state, calibration.verdict, calibration.reason or ""
+
+
+def recorded(store: Store, run: int | None) -> list[Any]:
+    """The events of a run, once there are any: a stop is recorded after its answer."""
+    deadline = time.monotonic() + LIMIT_S
+    while not (events := store.events(run)):
+        assert time.monotonic() < deadline
+        time.sleep(0.005)
+    return list(events)
 
 
 def until(orchestrator: Orchestrator, condition: Callable[[StationView], bool]) -> StationView:
@@ -217,30 +225,13 @@ def test_a_store_that_takes_nothing_more_fails_the_run_and_stops_the_machine(
     start: Start, store: Store, rig: Rig, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     def full(*_: object) -> None:
-        raise sqlite3.OperationalError("database or disk is full")
+        raise StoreUnavailable("database or disk is full")
 
     monkeypatch.setattr(store, "add_reading", full)
     state, _, reason = outcome(store, run_to_end(start()))
     assert state == "failed"
     assert "disk is full" in reason
     assert "axis 1 quick_stop" in rig.script.calls
-
-
-def test_an_end_that_cannot_be_stored_still_frees_the_rig(
-    start: Start, store: Store, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def full(*_: object) -> State:
-        raise sqlite3.OperationalError("database or disk is full")
-
-    orchestrator = start()
-    monkeypatch.setattr(store, "finish", full)
-    run = orchestrator.submit(REQUEST).id
-    assert orchestrator.wait(run, LIMIT_S) is State.RUNNING, "not stored, so the next start says interrupted"
-    last = orchestrator.snapshot().last
-    assert last is not None and last.state == "failed"
-    monkeypatch.undo()
-    assert outcome(store, run_to_end(orchestrator))[0] == "succeeded"
-    assert store.interrupt_unfinished() == [run]
 
 
 def test_a_mistake_in_a_procedure_is_a_failed_run(start: Start, store: Store, rig: Rig) -> None:
@@ -435,7 +426,7 @@ def test_an_abort_at_any_step_ends_in_standstill_and_is_stored(
     stopped = len(calls) - 1 - calls[::-1].index("axis 1 quick_stop")
     assert "axis 1 move_to" not in calls[stopped:]
     assert "axis 2 move_to" not in calls[stopped:]
-    assert [(e.kind, e.data["by"]) for e in store.events(run)] == [("stop", "ada")]
+    assert [(e.kind, e.data["by"]) for e in recorded(store, run)] == [("stop", "ada")]
     orchestrator.abort(run)
     orchestrator.abort(run)
     assert store.calibration(run).state == "aborted"
@@ -495,7 +486,7 @@ def test_a_device_that_hangs_does_not_keep_the_others_from_being_stopped(
     assert stopped == {"axis 1 quick_stop", "axis 2 quick_stop"}
     view = orchestrator.snapshot().run
     assert view is not None and view.id == run, "snapshots do not wait for a device"
-    events = store.events(run)
+    events = recorded(store, run)
     if hanging != "scale":
         assert events[0].data[hanging] == "no answer within 0.2 s"
     rig.released.set()
@@ -546,12 +537,12 @@ def test_stop_without_a_run_stops_too(
     until(orchestrator, lambda snapshot: snapshot.machine is not None)
     assert orchestrator.stop("ada") == {"axis 1": None, "axis 2": None}
     assert {"axis 1 quick_stop", "axis 2 quick_stop"} <= set(rig.script.calls)
-    assert [event.data for event in store.events(None)] == [{"by": "ada"}]
+    assert [event.data for event in recorded(store, None)] == [{"by": "ada"}]
 
 
 def test_a_stop_that_no_drive_confirmed_says_so(start: Start, store: Store) -> None:
     assert start().stop("ada")["axis 2"] == "axis 2 is not connected"
-    assert store.events(None)[0].data["axis 2"] == "axis 2 is not connected"
+    assert recorded(store, None)[0].data["axis 2"] == "axis 2 is not connected"
 
 
 def test_aborting_what_does_not_exist_is_said(start: Start) -> None:
@@ -664,3 +655,23 @@ def test_an_idle_station_watches_its_machine_and_gets_lost_devices_back(
 
     until(orchestrator, lambda s: told()[-1] == s.interlocks)
     assert all(before != after for before, after in pairwise(told()))
+
+
+def test_a_readout_that_froze_is_named_at_the_next_reading(start: Start, store: Store, rig: Rig) -> None:
+    frozen: list[float] = []
+
+    def freeze() -> None:
+        frozen.append(rig.scale.offset_mm)
+        rig.scale.noise_mm = lambda: 12.5 - true_mm()
+
+    def true_mm() -> float:
+        noise, rig.scale.noise_mm = rig.scale.noise_mm, lambda: 0.0
+        rig.script.faults.clear()
+        value = rig.scale.read_mm()
+        rig.scale.noise_mm = noise
+        return value
+
+    rig.script.do("axis 1 move_to", freeze, at=1)
+    state, _, reason = outcome(store, run_to_end(start()))
+    assert state == "failed"
+    assert "Reading 2 at position p2 is implausible: the scale shows 12.5000 mm as before" in reason

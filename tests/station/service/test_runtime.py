@@ -11,7 +11,7 @@ from station.five_bar.robot_file import Robot
 from station.motion.emulated_rig import EmulatedRig
 from station.records import State
 from station.service.runtime import Runtime
-from station.settings import EmulatedSettings, Settings, load_settings
+from station.settings import EmulatedSettings, ServiceSettings, Settings, load_settings
 from station.store.store import Store
 from tests.station.asking import asked
 
@@ -119,3 +119,17 @@ def test_a_folder_that_cannot_be_used_is_refused(tmp_path: Path) -> None:
     (tmp_path / "file").touch()
     with pytest.raises(InputRefused, match="cannot be used"):
         Runtime.open(FAST, tmp_path / "file")
+
+
+def test_a_history_that_is_gone_does_not_begin_anew_in_silence(tmp_path: Path) -> None:
+    kept = tmp_path / "disk" / "kept.db"
+    elsewhere = FAST.model_copy(update={"service": ServiceSettings(database=kept)})
+    Runtime.open(elsewhere, tmp_path).close()
+    kept.rename(tmp_path / "aside.db")
+    with pytest.raises(InputRefused, match=rf"^The history {kept}, used here before, is gone: mount"):
+        Runtime.open(elsewhere, tmp_path)
+    assert not kept.exists()
+    Runtime.open(FAST, tmp_path).close()  # another one may be used
+    (tmp_path / "last-history").unlink()
+    Runtime.open(elsewhere, tmp_path).close()
+    assert kept.exists()

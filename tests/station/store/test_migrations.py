@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import shutil
 import sqlite3
+import uuid
 from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
 
 import pytest
@@ -64,3 +66,20 @@ def test_results_are_text_that_sql_queries(migrated: Store) -> None:
     other.close()
     assert [verdict for verdict, _ in rows] == ["pass"] * 3
     assert [value for _, value in rows] == pytest.approx([1.9937, 2.0008, 1.9972], abs=1e-3)
+
+
+def test_a_file_of_0_2_0_keeps_everything_and_gets_uids(tmp_path: Path) -> None:
+    file = tmp_path / "station.db"
+    shutil.copy(RELEASED / "station-0.2.0.sqlite", file)
+    with closing(sqlite3.connect(file)) as old:
+        columns = "id, kind, plan, state, verdict, outcome, reason_code, of_id, created_ms, ended_ms, step"
+        before = old.execute(f"SELECT {columns} FROM calibrations ORDER BY id").fetchall()
+        results = old.execute("SELECT * FROM results ORDER BY calibration_id").fetchall()
+        readings = old.execute("SELECT * FROM readings ORDER BY 1, 2").fetchall()
+    with closing(Store(file)) as store, closing(sqlite3.connect(file)) as new:
+        assert new.execute(f"SELECT {columns} FROM calibrations ORDER BY id").fetchall() == before
+        assert new.execute("SELECT * FROM results ORDER BY calibration_id").fetchall() == results
+        assert new.execute("SELECT * FROM readings ORDER BY 1, 2").fetchall() == readings
+        for run in store.calibrations().items:
+            assert uuid.UUID(run.uid).int >> 80 == round(run.created_at.timestamp() * 1000)
+        assert (len(before), len(store.zero_writes("R1"))) == (6, 4)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sqlite3
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
@@ -208,11 +209,55 @@ def test_what_does_not_exist_is_said(store: Store) -> None:
         store.robot("R9")
 
 
+def refused(path: Path) -> str:
+    """The refusal; the file is as it was, and nothing stands beside it."""
+    before = path.read_bytes()
+    with pytest.raises(InputRefused) as refusal:
+        Store(path)
+    assert path.read_bytes() == before
+    assert [file.name for file in path.parent.iterdir()] == [path.name]
+    text = str(refusal.value)
+    assert text.startswith(f"The database {path} cannot be used: ")
+    assert text.endswith("; restore it from a backup or move it away.")
+    return text
+
+
 def test_a_file_that_is_no_database_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "station.db"
     path.write_bytes(b"not a database at all" * 100)
-    with pytest.raises(InputRefused, match="cannot be used"):
-        Store(path)
+    assert "file is not a database" in refused(path)
+
+
+def test_an_empty_file_is_not_taken_for_a_new_history(tmp_path: Path) -> None:
+    path = tmp_path / "station.db"
+    path.touch()
+    assert "it is empty" in refused(path)
+
+
+@pytest.mark.parametrize("page", [1, 3, 6])
+def test_a_database_with_a_page_of_zeros_is_refused(tmp_path: Path, page: int) -> None:
+    path = tmp_path / "station.db"
+    store = Store(path)
+    start(store)
+    store.close()
+    with path.open("r+b") as file:
+        file.seek((page - 1) * 4096)
+        file.write(bytes(4096))
+    assert re.search("damaged|not a database|malformed", refused(path))
+
+
+def test_a_new_history_appears_whole(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def cut_off(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    path = tmp_path / "station.db"
+    with monkeypatch.context() as patch:
+        patch.setattr("station.store.opening.migrations.apply", cut_off)
+        with pytest.raises(KeyboardInterrupt):
+            Store(path)
+    assert not path.exists()
+    Store(path).close()
+    assert [file.name for file in tmp_path.iterdir()] == ["station.db"]
 
 
 def test_another_programs_database_is_left_alone(tmp_path: Path) -> None:

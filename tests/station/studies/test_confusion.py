@@ -11,9 +11,9 @@ from station.cli import main
 from station.diagnosis.report.weighed_findings import WeighedFindings
 from station.diagnosis.weighed_loop import weighed
 from station.five_bar.robot_file import Robot
+from station.studies.confusion.claims import judge
 from station.studies.confusion.errors import before_and_after
 from station.studies.confusion.machines import draw
-from station.studies.confusion.matrix import judge
 
 ROBOT = Robot.default()
 
@@ -21,7 +21,7 @@ ROBOT = Robot.default()
 @pytest.mark.parametrize("kind", ["backlash", "gear_cyclic", "compliance", "scale_gain"])
 def test_a_cause_found_makes_readings_and_true_positions_better(kind: str) -> None:
     # of a size at which the cause, not the tolerances, decides where the platform stands
-    drawn = next(d for d in (draw(ROBOT, (kind,), seed) for seed in range(12, 40)) if d.size_um[0] > 12.0)
+    drawn = next(d for d in (draw(ROBOT, (kind,), seed) for seed in range(12, 40)) if d.size_um[0] > 5.0)
     found = WeighedFindings(weighed(ROBOT, drawn.walk, drawn.fresh))
     errors = before_and_after(ROBOT, drawn, found)
     assert judge(drawn, found).right
@@ -36,10 +36,13 @@ def test_a_machine_with_another_cause_is_not_right() -> None:
     assert not judge(drawn, found).right
 
 
-def test_one_machine_of_each_kind_makes_a_page(tmp_path: Path) -> None:
+def test_machines_of_several_kinds_make_a_page(tmp_path: Path) -> None:
+    kinds = ["none", "scale_gain", "backlash+drift", "base_flex"]
     file = tmp_path / "page.md"
-    result = CliRunner().invoke(main, ["confusion", "--machines", "1", "--markdown", str(file)])
+    arguments = ["confusion", "--machines", "1", "--markdown", str(file)]
+    result = CliRunner().invoke(main, [*arguments, *(a for kind in kinds for a in ("--kind", kind))])
     assert result.exit_code == 0, result.output
     page = file.read_text(encoding="utf-8")
-    assert page.count("| backlash + drift |") == 2
+    assert page.count("| backlash+drift |") == 2
     assert "1 machines of each kind, seed 1" in page
+    assert "| clean: nothing blamed | 1 of 1, 100.0 % |" in page

@@ -31,6 +31,7 @@ async function call<T>(
   method: "GET" | "POST" | "DELETE",
   path: string,
   options: RequestInit = {},
+  accepted?: number,
 ): Promise<T> {
   let response: Response;
   try {
@@ -39,7 +40,7 @@ async function call<T>(
     throw new Refused(t.refusals.noAnswer);
   }
   const body: unknown = await response.json().catch(() => null);
-  if (!response.ok) {
+  if (!response.ok && !(accepted === response.status && body)) {
     const problem = body as Partial<Problem> | null;
     throw new Refused(problem?.detail ?? t.refusals.status(response.status), problem?.field ?? null);
   }
@@ -66,6 +67,12 @@ export const rollBack = (id: number, operator: string) =>
     body: JSON.stringify({ operator }),
   });
 
+export const retract = (operator: string, key: string) =>
+  call<Summary>("POST", "/retract", {
+    headers: { "Content-Type": "application/json", "Idempotency-Key": key },
+    body: JSON.stringify({ operator }),
+  });
+
 export const robot = (serial: string) => call<Robot>("GET", `/robots/${encodeURIComponent(serial)}`);
 
 export const forget = (serial: string, who: string) =>
@@ -73,11 +80,14 @@ export const forget = (serial: string, who: string) =>
     headers: { "X-Operator": encodeURIComponent(who) },
   });
 
+/** What each axis answered; 502 has the same body. */
 export const stop = () =>
-  call<Stopped>("POST", "/stop", {
-    headers: { "X-Operator": "page" },
-    signal: AbortSignal.timeout(STOP_TIMEOUT_MS),
-  });
+  call<Stopped>(
+    "POST",
+    "/stop",
+    { headers: { "X-Operator": "page" }, signal: AbortSignal.timeout(STOP_TIMEOUT_MS) },
+    502,
+  );
 
 export const calibration = (id: number) => call<Calibration>("GET", `/calibrations/${id}`);
 

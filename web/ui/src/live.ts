@@ -108,6 +108,8 @@ function apply(before: Station, event: LiveEvent): Station {
       return { ...before, devices: before.devices.map((d) => (d.name === event.data.name ? event.data : d)) };
     case "interlock":
       return { ...before, interlocks: event.data };
+    case "retract":
+      return { ...before, retract: event.data };
     case "ended":
       if (run) finished.value = run;
       return { ...before, run: null, last: event.data };

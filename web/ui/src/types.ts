@@ -37,7 +37,7 @@ export type LiveEvent = LiveMessage extends infer M
     : never
   : never;
 
-export type RunKind = "calibrate" | "diagnose" | "separate" | "apply" | "rollback" | "import";
+export type RunKind = "calibrate" | "diagnose" | "separate" | "apply" | "rollback" | "import" | "retract";
 export type Outcome = NonNullable<Summary["outcome"]>;
 
 /** An effect of the catalogue, or an unnamed error, and where it acts. */

@@ -12,6 +12,7 @@ import type {
 
 export const summary = (given: Partial<Summary> = {}): Summary => ({
   id: 1,
+  uid: "01997a6e-8e80-7000-8000-000000000001",
   robot_serial: "FB-1",
   kind: "calibrate",
   plan: "paper",
@@ -52,6 +53,7 @@ export const reading = (given: Partial<RunReading> = {}): RunReading => ({
 export const run = (given: Partial<Run> = {}): Run => ({
   id: 2,
   state: "running",
+  uid: "01997a6e-8e80-7000-8000-000000000001",
   robot_serial: "FB-1",
   kind: "calibrate",
   plan: "paper",
@@ -76,6 +78,7 @@ export const stationNow = (given: Partial<Station> = {}): Station => ({
   interlocks: [],
   machine: null,
   workspace: { x: [-200, 200], y: [300, 500] },
+  retract: { needed: false, excess_mm: 0, text: "" },
   run: null,
   last: null,
   ...given,

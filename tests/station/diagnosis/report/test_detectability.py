@@ -15,7 +15,7 @@ from station.effects import five_bar_catalogue, signature
 from station.effects.backlash import Backlash
 from station.fitting.least_squares import Prior
 from station.model.model import Fit, fit
-from tests.station.diagnosis.machines import ROBOT, Emulated
+from tests.station.simulated import ROBOT, Drawn
 
 ARCSEC = 3600.0
 CHECKED_NOISE_MM = 4e-3
@@ -23,7 +23,7 @@ CHECKED_NOISE_MM = 4e-3
 
 @pytest.fixture(scope="module")
 def clean() -> Fit:
-    return traced(ROBOT, Emulated(seed=8).walk()).last
+    return traced(ROBOT, Drawn(seed=8).walk()).last
 
 
 def test_sizes_agree_with_the_checked_ones(clean: Fit) -> None:
@@ -88,14 +88,14 @@ def test_more_noise_hides_more(clean: Fit) -> None:
 
 
 def test_what_was_found_is_not_listed() -> None:
-    walk = Emulated({"kind": "backlash", "joint": 1, "width_deg": 0.01}, seed=1).walk()
+    walk = Drawn({"kind": "backlash", "joint": 1, "width_deg": 0.01}, seed=1).walk()
     listed = [(d.effect, d.joint) for d in detectable(traced(ROBOT, walk).last, five_bar_catalogue())]
     assert ("backlash", 1) not in listed
     assert ("backlash", 2) in listed
 
 
 def test_without_approach_backlash_cannot_be_shown() -> None:
-    walk = Emulated(seed=8).walk()
+    walk = Drawn(seed=8).walk()
     walk.approach[:] = 0
     for entry in detectable(traced(ROBOT, walk).last, five_bar_catalogue()):
         if entry.effect == "backlash":

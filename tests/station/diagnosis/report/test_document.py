@@ -14,7 +14,7 @@ from pydantic import BaseModel, ConfigDict, Field
 
 from station.cli import main
 from station.effects import five_bar_catalogue
-from tests.station.diagnosis.machines import Emulated, to_csv
+from tests.station.simulated import Drawn, to_csv
 
 BACKLASH = {"kind": "backlash", "joint": 1, "width_deg": 0.01}
 DRAG = {"kind": "cable_drag", "joint": 1, "deg_at_end": 0.01}
@@ -146,7 +146,7 @@ class Run:
     """One `station diagnose` on files of an emulated machine."""
 
     def __init__(self, folder: Path, effect: dict[str, Any] | None, *, confirm: bool = True) -> None:
-        machine = Emulated(*([effect] if effect else []), seed=1, recorded_temperature=False)
+        machine = Drawn(*([effect] if effect else []), seed=1, recorded_temperature=False)
         self.data = folder / "walk.csv"
         self.data.write_text(to_csv(machine.walk()))
         fresh = folder / "fresh.csv"

@@ -11,7 +11,7 @@ from station.diagnosis.report.report_page import page
 from station.diagnosis.report.weighed_findings import WeighedFindings
 from station.diagnosis.weighed_loop import weighed
 from station.records import DataSource
-from tests.station.diagnosis.machines import ROBOT, Emulated
+from tests.station.simulated import ROBOT, Drawn
 
 SOURCE = DataSource(file="walk.csv", readings=120, sha256="0" * 64)
 BACKLASH = {"kind": "backlash", "joint": 1, "width_deg": 0.05}
@@ -19,7 +19,7 @@ BACKLASH = {"kind": "backlash", "joint": 1, "width_deg": 0.05}
 
 @pytest.fixture(scope="module")
 def tracked() -> WeighedFindings:
-    machine = Emulated(BACKLASH, seed=2, tracked=True)
+    machine = Drawn(BACKLASH, seed=2, tracked=True)
     return WeighedFindings(weighed(ROBOT, machine.walk(), machine.fresh()))
 
 
@@ -45,7 +45,7 @@ def test_the_tracker_takes_part_in_no_fit(tracked: WeighedFindings) -> None:
 
 
 def test_without_a_tracker_nothing_is_said_of_it() -> None:
-    machine = Emulated(BACKLASH, seed=2)
+    machine = Drawn(BACKLASH, seed=2)
     findings = WeighedFindings(weighed(ROBOT, machine.walk(), machine.fresh()))
     assert findings.true_position_errors is None
     assert findings.document(SOURCE).before.true_position_error_mm is None

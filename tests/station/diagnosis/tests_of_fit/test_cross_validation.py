@@ -14,7 +14,7 @@ from station.five_bar.mechanism import FiveBar
 from station.mechanism.conditions import reference_of
 from station.model.model import Fit, Model, fit
 from station.records import Real
-from tests.station.diagnosis.machines import ROBOT, Emulated
+from tests.station.simulated import ROBOT, Drawn
 
 
 def refitted(whole: Fit, left_out: Mask) -> Real:
@@ -30,7 +30,7 @@ def refitted(whole: Fit, left_out: Mask) -> Real:
 
 @pytest.mark.parametrize("stage", [0, 1], ids=["base", "with the effect"])
 def test_hat_matrix_gives_what_refits_give(stage: int) -> None:
-    walk = Emulated({"kind": "backlash", "joint": 1, "width_deg": 0.01}, seed=1).walk()
+    walk = Drawn({"kind": "backlash", "joint": 1, "width_deg": 0.01}, seed=1).walk()
     whole = traced(ROBOT, walk).trace.stages[stage].fit
     position = whole.model.mechanism.measurements.position
     by_identity = held_out(whole.solution, position) * whole.row_sd

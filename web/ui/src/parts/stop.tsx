@@ -14,8 +14,13 @@ async function press(): Promise<void> {
     ? { text: t.stop.mayNotArrive(at), failed: true }
     : { text: t.stop.stopping(at), failed: false };
   try {
-    await stop();
-    report.value = { text: t.stop.stopped(at), failed: false };
+    const { axes, confirmed } = await stop();
+    const troubles = Object.entries(axes).flatMap(([axis, trouble]) =>
+      trouble ? [`${axis}: ${trouble}`] : [],
+    );
+    report.value = confirmed
+      ? { text: t.stop.stopped(at), failed: false }
+      : { text: t.stop.failed(at, troubles.join("; ")), failed: true };
   } catch (error) {
     const cause = error instanceof Refused ? error.message : String(error);
     report.value = { text: t.stop.failed(at, cause), failed: true };

@@ -20,7 +20,7 @@ const press = () =>
   });
 
 beforeEach(async () => {
-  sent.mockReset().mockResolvedValue({ stopped: true, by: "page" });
+  sent.mockReset().mockResolvedValue({ axes: { "axis 1": null, "axis 2": null }, confirmed: true });
   station.value = stationNow();
   now.value = performance.now();
   place = document.body.appendChild(document.createElement("div"));
@@ -54,6 +54,13 @@ describe("stop", () => {
     expect(report().textContent).toContain("Stopping");
     await press();
     expect(sent).toHaveBeenCalledTimes(2);
+  });
+
+  it("that an axis did not confirm is an alarm that names the axis", async () => {
+    sent.mockResolvedValue({ axes: { "axis 1": null, "axis 2": "It does not answer." }, confirmed: false });
+    await press();
+    expect(report().textContent).toContain("axis 2: It does not answer. Press the emergency stop.");
+    expect(report().className).toContain("alarm");
   });
 
   it("that fails is an alarm with its cause, and asks for the emergency stop", async () => {

@@ -1,6 +1,7 @@
 import { t } from "../../messages";
 import { Devices } from "./devices";
 import { Readings } from "./readings";
+import { Retract } from "./retract";
 import { RunPanel } from "./run-panel";
 import { StartForm } from "./start-form";
 
@@ -11,6 +12,7 @@ export function StationView() {
       <div class="side">
         <StartForm />
         <Devices />
+        <Retract />
       </div>
       <div class="work">
         <RunPanel />

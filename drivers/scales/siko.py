@@ -1,0 +1,245 @@
+"""SIKO absolute reading heads MSA501, MSA510/1, MSAC501 with the SIKONETZ3 protocol on RS-485.
+
+A telegram is address, command, for some three bytes of data (low byte first), and the exclusive or of all
+before it.  The master's short telegrams have bit 7 of the address set.  Instead of a position the head
+answers error 83h if the gap to the tape is too large, the absolute value implausible, or the speed above
+5 m/s.
+
+An exclusive or misses two flipped bits of one weight, so a position counts only if it is read twice.
+"""
+
+from __future__ import annotations
+
+import logging
+import time
+from collections.abc import Callable
+from threading import RLock
+from typing import Annotated, TypeVar
+
+from pydantic import Field
+
+from drivers.driver import DriverSettings, ScaleDriver, Seconds
+from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
+from drivers.lines import SerialLine, Trace, within
+
+log = logging.getLogger(__name__)
+
+READ_POSITION, IDENTIFY, READ_RESOLUTION = 0x16, 0x1B, 0x1E
+CHECK_SUM_ERROR, REFUSED, ILLEGAL_VALUE = 0x82, 0x83, 0x85
+_SHORT = 0x80
+_SHORT_LENGTH, _LONG_LENGTH = 3, 6
+_TYPES = {34: "MSA501", 23: "MSA510/1", 21: "MA501"}
+_WITH_RESOLUTION = 23
+_RESOLUTIONS_MM = {0: 10.0, 1: 1.0, 2: 0.1, 3: 0.01}
+_SILENCE_S = 0.03
+"""After a reply that did not come."""
+_BUDGET_S = 0.5
+_AGREEMENT_COUNTS = 2
+_MOST_READS = 5
+_STEADY_MM = 0.5
+"""How much the way between three reads of a moving head may change."""
+
+_T = TypeVar("_T")
+
+
+class SikoSettings(DriverSettings):
+    """Options of `protocol = "siko"`."""
+
+    address: Annotated[int, Field(ge=1, le=31)] = 1
+    """Address of the head on its line."""
+    resolution_mm: Annotated[float, Field(gt=0, le=10)] = 0.01
+    """Length of one count, as the head is set: 0.01 or 0.005."""
+    timeout_s: Seconds = 0.2
+    """How long a reply may take."""
+
+
+class SikoHead:
+    """A reading head as a `LinearScale`; may be called from any thread."""
+
+    def __init__(
+        self, settings: SikoSettings, *, name: str = "linear scale", budget_s: float | None = None
+    ) -> None:
+        """:param budget_s: for how long a question is repeated; by default three time-outs and half a second
+
+        :raises BadUrl: one sentence about what is wrong in the URL
+        """
+        self._line = SerialLine(settings.url, default_baud=19200, default_format="8N1")
+        self._address = settings.address
+        self._resolution_mm = settings.resolution_mm
+        self._timeout_s = settings.timeout_s
+        self._budget_s = 3 * settings.timeout_s + _BUDGET_S if budget_s is None else budget_s
+        self._name = name
+        self._lock = RLock()
+        self._free_from_s = 0.0
+        self._identity = ""
+
+    @property
+    def name(self) -> str:
+        return self._name
+
+    @property
+    def identity(self) -> str:
+        """Type and firmware that the head answered at `connect`."""
+        return self._identity
+
+    @property
+    def notice(self) -> str | None:
+        """One sentence to log at start when the line format is overridden, else None."""
+        return self._line.notice
+
+    @property
+    def trace(self) -> Trace | None:
+        """A flight recorder's hook, called with ("tx" or "rx", bytes)."""
+        return self._line.trace
+
+    @trace.setter
+    def trace(self, hook: Trace | None) -> None:
+        self._line.trace = hook
+
+    def connect(self) -> None:
+        """Open the line, read the type, and compare the resolution where the head tells it.
+
+        :raises DeviceError: with what is wrong and what to check
+        """
+        with self._lock:
+            self._line.open()
+            try:
+                kind, firmware, _ = self._ask(IDENTIFY)
+                self._identity = f"{_TYPES.get(kind, f'type {kind}')}, firmware {firmware}"
+                if kind == _WITH_RESOLUTION:
+                    self._check_resolution()
+                self.read_mm()
+            except DeviceError:
+                self._line.close()
+                raise
+
+    def make_safe(self) -> None:
+        """A readout moves nothing."""
+
+    def close(self) -> None:
+        with self._lock:
+            self._line.close()
+
+    def read_mm(self) -> float:
+        """The head's present value in mm.
+
+        :raises DeviceFault: the head reports that it cannot measure
+        :raises GarbledReply: no proper reply, or no two that agree
+        :raises LinkLost: nothing answers
+        """
+        with self._lock:
+            counts = [self._position()]
+            while len(counts) < _MOST_READS:
+                counts.append(self._position())
+                if abs(counts[-1] - counts[-2]) <= _AGREEMENT_COUNTS:
+                    return counts[-1] * self._resolution_mm
+            first, second, third = counts[-3:]
+            if abs(third - 2 * second + first) * self._resolution_mm <= _STEADY_MM:
+                return third * self._resolution_mm  # it moves steadily
+        raise GarbledReply(
+            f"The {self._name} answered {', '.join(f'{count}' for count in counts)} counts in a row;"
+            " check the line for noise, and whether the head stands still."
+        )
+
+    def _position(self) -> int:
+        low, mid, high = self._ask(READ_POSITION)
+        return int.from_bytes(bytes((low, mid, high)), "little", signed=True)
+
+    def _check_resolution(self) -> None:
+        code, _, _ = self._ask(READ_RESOLUTION)
+        resolution_mm = _RESOLUTIONS_MM.get(code)
+        if resolution_mm != self._resolution_mm:
+            says = "inches" if resolution_mm is None else f"{resolution_mm:g} mm"
+            raise DeviceFault(
+                f"The {self._name} counts in {says}, the station file says resolution_mm ="
+                f" {self._resolution_mm:g}; correct one of them."
+            )
+
+    def _ask(self, command: int) -> tuple[int, int, int]:
+        """The three data bytes of the reply to a short telegram."""
+        return self._retried(lambda: self._exchange(command))
+
+    def _retried(self, ask: Callable[[], _T]) -> _T:
+        def attempt() -> _T:
+            try:
+                return ask()
+            except (GarbledReply, LinkLost):
+                self._free_from_s = time.monotonic() + _SILENCE_S
+                self._line.renew()
+                raise
+
+        return within(self._budget_s, attempt)
+
+    def _exchange(self, command: int) -> tuple[int, int, int]:
+        request = with_check_byte(bytes((self._address | _SHORT, command)))
+        # a late reply must not answer this question
+        self._line.drain(max(0.0, self._free_from_s - time.monotonic()))
+        self._line.write(request)
+        reply = self._reply(request)
+        if reply[1] == command:
+            return reply[2], reply[3], reply[4]
+        if reply[1] == CHECK_SUM_ERROR:
+            raise GarbledReply(
+                f"The {self._name} received a telegram with a wrong check byte; check the line."
+            )
+        if reply[1] == REFUSED and command == READ_POSITION:
+            raise DeviceFault(
+                f"The {self._name} cannot measure: its gap to the tape is too large, its position is"
+                " implausible, or it moves faster than 5 m/s; look at head and tape."
+            )
+        raise DeviceFault(
+            f"The {self._name} refuses command {command:02X}h (error {reply[1]:02X}h);"
+            " is it the configured model?"
+        )
+
+    def _reply(self, request: bytes) -> bytes:
+        """One whole telegram of this head and nothing else."""
+        deadline_s = time.monotonic() + self._timeout_s
+        received = b""
+        while not self._is_reply(received, request[1]):
+            more = self._line.read_some(deadline_s)
+            if not more:
+                raise self._garbled(received) if received else self._silent()
+            received += more
+            self._line.refuse_echo(request, received)
+            if len(received) > _LONG_LENGTH:
+                raise self._garbled(received)
+        return received
+
+    def _is_reply(self, received: bytes, command: int) -> bool:
+        if len(received) < _SHORT_LENGTH or with_check_byte(received[:-1]) != received:
+            return False
+        if len(received) == _LONG_LENGTH:
+            return received[0] == self._address and received[1] == command
+        errors = (CHECK_SUM_ERROR, REFUSED, ILLEGAL_VALUE)
+        mine = received[0] in (self._address, self._address | _SHORT)
+        return len(received) == _SHORT_LENGTH and mine and received[1] in errors
+
+    def _silent(self) -> LinkLost:
+        return LinkLost(
+            f"The {self._name} does not answer on {self._line.address}; check cable, power and address."
+        )
+
+    def _garbled(self, received: bytes) -> GarbledReply:
+        return GarbledReply(
+            f"The {self._name} answered {received[:16].hex(' ')}, which is not a reply it may give;"
+            " check the line."
+        )
+
+
+def with_check_byte(telegram: bytes) -> bytes:
+    """A telegram and the exclusive or of its bytes."""
+    check = 0
+    for byte in telegram:
+        check ^= byte
+    return telegram + bytes((check,))
+
+
+def _make(settings: SikoSettings) -> SikoHead:
+    scale = SikoHead(settings)
+    if scale.notice:
+        log.warning("%s", scale.notice)
+    return scale
+
+
+DRIVER = ScaleDriver(SikoSettings, _make)

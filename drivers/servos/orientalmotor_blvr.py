@@ -1,0 +1,345 @@
+"""Oriental Motor BLV-R drives in direct data operation on a `ModbusBus` (function manual HP-5142-6).
+
+Every item is 32 bits in two registers, upper half first, written together.  A move is one frame: the
+direct data 0058h..0067h, whose last item is the trigger.  Input bits are held by level, so a stop holds
+until the next move takes it back.  The drive has a communication watchdog: it is set, read back and fed, so
+a station that died or froze leaves the motor at standstill.
+"""
+
+from __future__ import annotations
+
+import logging
+import math
+import time
+from collections.abc import Callable, Sequence
+from contextlib import suppress
+from enum import IntFlag
+from threading import Event, Thread
+from typing import Annotated
+
+from pydantic import Field
+
+from drivers.driver import Drive, DriverSettings, Seconds, ServoDriver
+from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
+from drivers.lines import ModbusBus, UnansweredWrite
+from drivers.protocols import AxisStatus
+from drivers.scaling import JointScaling
+
+log = logging.getLogger(__name__)
+
+DIRECT_DATA, POSITION_DATA = 0x0058, 0x005C
+INPUTS, OUTPUTS, ALARM = 0x007C, 0x007E, 0x0080
+FEEDBACK = 0x00CC
+ALARM_RESET, PRESET = 0x0180, 0x018A
+RESOLUTION = 0x0350
+WATCHDOG = 0x138A
+
+SERVO_ON, QUICK_STOP = 1 << 0, 1 << 4
+MOVE_ABSOLUTE, START, FULL_TORQUE = 1, 1, 1000
+
+_RAMP_MS = 100
+_MAX_RPM = 3000
+_IN_POSITION_PULSES = 20
+_ENABLE_TIMEOUT_S = 2.0
+_RESET_TIMEOUT_S = 1.0
+_POLL_S = 0.01
+_FEEDS_PER_TIMEOUT = 4
+_RPM_PER_DEG_S = 1 / 6
+
+
+class Output(IntFlag):
+    """Low half of 007Eh."""
+
+    SERVO_ON = 1 << 0
+    READY = 1 << 3
+    POSITION_KNOWN = 1 << 4
+    ALARM = 1 << 7
+    IN_POSITION = 1 << 9
+    MOVING = 1 << 13
+
+
+class OrientalMotorSettings(DriverSettings):
+    """Options of `profile = "orientalmotor"`."""
+
+    timeout_s: Seconds = 0.3
+    """The longest time that a drive on this line takes to reply."""
+    watchdog_ms: Annotated[int, Field(ge=0, le=10_000)] = 250
+    """A drive that hears nothing for so long stops with alarm 85h; 0 switches that off."""
+
+
+class OrientalMotorBLVR:
+    """One drive as a `ServoAxis`; may be called from any thread."""
+
+    def __init__(
+        self, bus: ModbusBus, unit: int, scaling: JointScaling, *, name: str, watchdog_ms: int
+    ) -> None:
+        self._bus = bus
+        self._unit = unit
+        self._scaling = scaling
+        self._name = name
+        self._watchdog_ms = watchdog_ms
+        self._target_pulses: int | None = None
+        self._stop_is_held = False
+        self._feeder: _Feeder | None = None
+
+    @property
+    def name(self) -> str:
+        return self._name
+
+    def connect(self) -> None:
+        """Open the line, compare the resolution, set the watchdog and begin to feed it.
+
+        :raises DeviceError: with what is wrong and what to check
+        """
+        self.close()
+        self._bus.open(self)
+        try:
+            numerator, denominator = _items(self._bus.read(self._unit, RESOLUTION, 4))
+            if numerator != self._scaling.counts_per_rev * denominator:
+                raise DeviceFault(
+                    f"{self._title} counts {numerator}/{denominator} steps a turn, the station file says"
+                    f" {self._scaling.counts_per_rev}; correct one of them."
+                )
+            self._set_watchdog(self._watchdog_ms)
+        except DeviceError:
+            self._bus.release(self)
+            raise
+        if self._watchdog_ms:
+            self._feeder = _Feeder(self._feed, self._watchdog_ms / 1000 / _FEEDS_PER_TIMEOUT, self._name)
+
+    def make_safe(self) -> None:
+        """Stop; the axis stays powered, since an arm without torque would fall."""
+        with suppress(DeviceError):  # the caller has other axes to stop and cannot do more here
+            self.quick_stop()
+
+    def close(self) -> None:
+        """A drive that is no longer spoken to must not raise an alarm for that."""
+        if self._feeder is not None:
+            self._feeder.close()
+            self._feeder = None
+            with suppress(DeviceError):
+                self._set_watchdog(0)
+        self._bus.release(self)
+
+    def enable(self) -> None:
+        """Power the axis and wait until it takes moves.
+
+        :raises DeviceFault: an alarm stands, its position is not known, or it does not switch on in time
+        :raises LinkLost: no reply
+        """
+        self._refuse_on_alarm(self.status())
+        with suppress(UnansweredWrite):  # the wait below finds out whether it took
+            self._write(INPUTS, SERVO_ON)
+        self._stop_is_held = False
+        deadline_s = time.monotonic() + _ENABLE_TIMEOUT_S
+        while not (outputs := self._outputs()) & Output.READY:
+            self._refuse_on_alarm(self.status())
+            if time.monotonic() > deadline_s:
+                raise DeviceFault(
+                    f"{self._title} does not switch on; check its power stage and safety input."
+                )
+            time.sleep(_POLL_S)
+        if not outputs & Output.POSITION_KNOWN:
+            raise DeviceFault(f"{self._title} does not know its position; home it or preset it first.")
+
+    def move_to(self, theta_deg: float, speed_deg_s: float) -> None:
+        """Start an absolute move and return at once (one frame on the wire).
+
+        It is sent again, once, only where its reply is missing and the drive does not hold its target.
+
+        :raises DeviceFault: not enabled, in alarm, out of range, refused, or overtaken by a stop
+        :raises LinkLost: the reply is missing and the state read back does not show the move
+        """
+        asked_at = self._bus.stops
+        target, rpm = self._pulses(theta_deg), self._rpm(speed_deg_s)
+        status = self.status()
+        self._refuse_on_alarm(status)
+        if not status.enabled:
+            raise DeviceFault(f"{self._title} is not switched on.")
+        if self._stop_is_held:
+            self._bus.write(self._unit, INPUTS, _words(SERVO_ON), stops_seen=asked_at)
+            self._stop_is_held = False
+        items = (0, MOVE_ABSOLUTE, target, rpm, _RAMP_MS, _RAMP_MS, FULL_TORQUE, START)
+        block = [word for item in items for word in _words(item)]
+        try:
+            self._bus.write(self._unit, DIRECT_DATA, block, stops_seen=asked_at)
+        except UnansweredWrite:
+            if self._read(POSITION_DATA) != target:
+                self._bus.write(self._unit, DIRECT_DATA, block, stops_seen=asked_at)
+            elif not (self._outputs() & Output.MOVING or self._is_at(target)):
+                raise
+        self._target_pulses = target
+
+    def status(self) -> AxisStatus:
+        """One look at the drive; in position means: at the target of this object's latest move.
+
+        :raises DeviceError:
+        """
+        outputs = self._outputs()
+        alarm = None
+        if outputs & Output.ALARM:
+            alarm = self._read(ALARM) & 0xFFFF or None  # it may have been reset between two reads
+        moving = bool(outputs & Output.MOVING)
+        target = self._target_pulses  # a stop may take it away meanwhile
+        arrived = bool(outputs & Output.IN_POSITION) and not moving and target is not None
+        return AxisStatus(
+            enabled=bool(outputs & Output.SERVO_ON),
+            moving=moving,
+            in_position=arrived and target is not None and self._is_at(target),
+            alarm=alarm,
+        )
+
+    def feedback_deg(self) -> float:
+        """The encoder's joint angle.  :raises DeviceError:"""
+        return self._scaling.to_deg(self._read(FEEDBACK))
+
+    def reset_alarm(self) -> None:
+        """Clear the present alarm.
+
+        :raises DeviceFault: it stays
+        :raises LinkLost: no reply
+        """
+        self._edge(ALARM_RESET)
+        deadline_s = time.monotonic() + _RESET_TIMEOUT_S
+        while (status := self.status()).alarm is not None:
+            if time.monotonic() > deadline_s:
+                self._refuse_on_alarm(status)
+            time.sleep(_POLL_S)
+
+    def quick_stop(self) -> None:
+        """Stop now, ahead of any queued request on the line; the stop is held until the next move.
+
+        :raises DeviceError: no attempt was confirmed
+        """
+        self._target_pulses = None
+        self._stop_is_held = True
+        try:
+            self._bus.stop(self._unit, INPUTS, _words(SERVO_ON | QUICK_STOP), look_at=OUTPUTS)
+        except (LinkLost, GarbledReply) as error:
+            cause = str(error).rstrip(".")
+            raise LinkLost(
+                f"{self._title} did not confirm its stop; use the emergency stop. {cause}."
+            ) from error
+
+    def preset(self, theta_deg: float) -> None:
+        """Declare the present place to be `theta_deg`, which must be the joint's `zero_at_deg`.
+
+        :raises DeviceFault: another angle, moving, or read back different
+        :raises LinkLost: no reply
+        """
+        if abs(theta_deg - self._scaling.zero_at_deg) * self._scaling.pulses_per_deg > 0.5:
+            raise DeviceFault(
+                f"{self._title} can only be declared to stand at {self._scaling.zero_at_deg:g} deg,"
+                f" where its drive's zero is, not at {theta_deg:g} deg."
+            )
+        if self.status().moving:
+            raise DeviceFault(f"{self._title} is moving; its zero can be set at standstill only.")
+        self._edge(PRESET)
+        self._target_pulses = None
+        pulses = self._read(FEEDBACK)
+        if abs(pulses) > _IN_POSITION_PULSES:
+            raise DeviceFault(
+                f"{self._title} stands at {pulses} pulses after its zero was set; it was not taken."
+            )
+
+    @property
+    def _title(self) -> str:
+        return self._name[:1].upper() + self._name[1:]
+
+    def _set_watchdog(self, timeout_ms: int) -> None:
+        """:raises DeviceFault: the drive did not take it"""
+        with suppress(UnansweredWrite):  # what is read back decides
+            self._write(WATCHDOG, timeout_ms)
+        if (set_ms := self._read(WATCHDOG)) != timeout_ms:
+            raise DeviceFault(
+                f"{self._title} has a communication watchdog of {set_ms} ms instead of {timeout_ms}."
+            )
+
+    def _feed(self) -> None:
+        with suppress(DeviceError):  # whoever works with the drive finds out
+            self._outputs()
+
+    def _outputs(self) -> Output:
+        return Output(self._read(OUTPUTS) & 0xFFFF & sum(Output))
+
+    def _read(self, address: int) -> int:
+        (value,) = _items(self._bus.read(self._unit, address, 2))
+        return value
+
+    def _write(self, address: int, value: int) -> None:
+        self._bus.write(self._unit, address, _words(value), stops_seen=self._bus.stops)
+
+    def _edge(self, address: int) -> None:
+        """Maintenance commands act on the change from 0 to 1; what is read back afterwards decides."""
+        for value in (0, 1):
+            with suppress(UnansweredWrite):
+                self._write(address, value)
+
+    def _is_at(self, target: int) -> bool:
+        return abs(self._read(FEEDBACK) - target) <= _IN_POSITION_PULSES
+
+    def _pulses(self, theta_deg: float) -> int:
+        if not math.isfinite(theta_deg):
+            raise DeviceFault(f"{self._title} was asked to move to {theta_deg}.")
+        pulses = self._scaling.to_pulses(theta_deg)
+        if not -(2**31) <= pulses < 2**31:
+            raise DeviceFault(
+                f"{self._title} cannot be told {theta_deg:g} deg; that is more pulses than it counts."
+            )
+        return pulses
+
+    def _rpm(self, speed_deg_s: float) -> int:
+        """Motor speed: link speed times gear ratio, deg/s to revolutions per minute."""
+        rpm = speed_deg_s * self._scaling.ratio * _RPM_PER_DEG_S
+        if not 0 < rpm <= _MAX_RPM:
+            most = _MAX_RPM / self._scaling.ratio / _RPM_PER_DEG_S
+            raise DeviceFault(
+                f"{self._title} was asked for {speed_deg_s:g} deg/s; 0 to {most:g} is possible."
+            )
+        return max(1, round(rpm))
+
+    def _refuse_on_alarm(self, status: AxisStatus) -> None:
+        if status.alarm is not None:
+            raise DeviceFault(f"{self._title} shows alarm {status.alarm:X}h; find its cause, then reset it.")
+
+
+class _Feeder:
+    """Speaks to a drive often enough for its watchdog, until closed; dies and freezes with the process."""
+
+    def __init__(self, feed: Callable[[], None], period_s: float, name: str) -> None:
+        self._feed, self._period_s = feed, period_s
+        self._closing = Event()
+        self._thread = Thread(target=self._run, name=f"watchdog of {name}", daemon=True)
+        self._thread.start()
+
+    def close(self) -> None:
+        self._closing.set()
+        self._thread.join()
+
+    def _run(self) -> None:
+        while not self._closing.wait(self._period_s):
+            self._feed()
+
+
+def _words(value: int) -> list[int]:
+    """A signed 32-bit item as two registers, high word first."""
+    return [(value >> 16) & 0xFFFF, value & 0xFFFF]
+
+
+def _items(words: Sequence[int]) -> list[int]:
+    """Signed 32-bit items out of registers."""
+    unsigned = [high << 16 | low for high, low in zip(words[::2], words[1::2], strict=True)]
+    return [value - (1 << 32) if value & (1 << 31) else value for value in unsigned]
+
+
+def _make(settings: OrientalMotorSettings, drives: Sequence[Drive]) -> tuple[OrientalMotorBLVR, ...]:
+    bus = ModbusBus(settings.url, timeout_s=settings.timeout_s)
+    if bus.notice:
+        log.warning("%s", bus.notice)
+    return tuple(
+        OrientalMotorBLVR(bus, drive.unit, drive.scaling, name=drive.name, watchdog_ms=settings.watchdog_ms)
+        for drive in drives
+    )
+
+
+DRIVER = ServoDriver(OrientalMotorSettings, _make)

@@ -1,0 +1,135 @@
+"""The chain of records: every finished run is hashed together with the hash of the run that ended before it.
+
+Whoever changes, removes or adds a finished run breaks the chain from there on, unless all later hashes are
+made again; the last hash, noted elsewhere, shows that too.  A record is canonical JSON (RFC 8785), so that
+another program can make it as well.  The single samples count by a hash of their own, since retention may
+drop them.
+"""
+
+from __future__ import annotations
+
+import hashlib
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import rfc8785
+
+Ask = Callable[[str, Sequence[Any]], Sequence[Sequence[Any]]]
+"""SQL and its values to rows."""
+
+_RUN = (
+    "uid", "id", "robot_serial", "kind", "plan", "operator", "work_order", "metadata", "of_id", "state",
+    "verdict", "outcome", "reason", "reason_code", "reason_params", "step", "steps", "created_ms",
+    "started_ms", "ended_ms",
+)  # fmt: skip
+_READING = (
+    "reading", "walk", "t_s", "theta1_deg", "theta2_deg", "approach1", "approach2", "scale_mm", "position",
+    "temperature_c", "payload_kg", "mount",
+)  # fmt: skip
+_START = ""
+"""What stands in for the hash before the first one."""
+
+
+@dataclass(frozen=True, slots=True)
+class Broken:
+    """The first run that is not as it ended."""
+
+    id: int
+    uid: str
+    why: str
+
+
+@dataclass(frozen=True, slots=True)
+class Verified:
+    """What became of a look at the whole chain."""
+
+    runs: int
+    """In the chain and as they ended, up to the first that is not."""
+    older: int
+    """Finished runs of a station that made no chain yet."""
+    head: str
+    """Hash of the last run that is as it ended."""
+    broken: Broken | None
+
+
+def append(ask: Ask, run: int) -> None:
+    """Chain a run that has just ended, in the same transaction."""
+    previous = next((row[0] for row in ask("SELECT hash FROM chain ORDER BY n DESC LIMIT 1", [])), _START)
+    samples = samples_hash(ask, run)
+    record = record_of(ask, run, samples)
+    ask(
+        "INSERT INTO chain (run_id, uid, samples_sha256, hash) VALUES (?, ?, ?, ?)",
+        [run, record["uid"], samples, _link(previous, record)],
+    )
+
+
+def verify(ask: Ask) -> Verified:
+    """Make every record again and compare, in the order in which the runs ended."""
+    links = ask("SELECT run_id, uid, samples_sha256, hash FROM chain ORDER BY n", [])
+    first = min((link[0] for link in links), default=None)
+    ended = "state NOT IN ('queued', 'running')"
+    (older,) = ask(f"SELECT count(*) FROM calibrations WHERE {ended} AND (? IS NULL OR id < ?)", [first] * 2)[
+        0
+    ]
+    head = _START
+    for count, (run, uid, samples, expected) in enumerate(links):
+        if why := _broken(ask, run, samples, head, expected):
+            return Verified(count, older, head, Broken(run, uid, why))
+        head = expected
+    loose = ask(
+        f"SELECT id, uid FROM calibrations WHERE {ended} AND id >= ?"
+        " AND id NOT IN (SELECT run_id FROM chain) ORDER BY id LIMIT 1",
+        [first],
+    )
+    broken = next((Broken(run, uid, "it is not in the chain") for run, uid in loose), None)
+    return Verified(len(links), older, head, broken)
+
+
+def record_of(ask: Ask, run: int, samples_sha256: str) -> dict[str, Any]:
+    """Everything that is kept of a finished run.  :raises LookupError: there is no such run."""
+    rows = ask(f"SELECT {', '.join(_RUN)}, robot_id FROM calibrations WHERE id = ?", [run])
+    if not rows:
+        raise LookupError(run)
+    *values, robot_id = rows[0]
+    robot = ask("SELECT file FROM robots WHERE id = ?", [robot_id])
+    result = ask("SELECT result, diagnosis FROM results WHERE calibration_id = ?", [run])
+    readings = ask(
+        f"SELECT {', '.join(_READING)} FROM readings WHERE calibration_id = ? ORDER BY reading", [run]
+    )
+    return {
+        "version": 1,
+        **dict(zip(_RUN, values, strict=True)),
+        "robot_sha256": _sha256(robot[0][0].encode()) if robot else None,
+        "readings": [dict(zip(_READING, reading, strict=True)) for reading in readings],
+        "samples_sha256": samples_sha256,
+        "result": result[0][0] if result else None,
+        "diagnosis_sha256": _sha256(result[0][1]) if result and result[0][1] is not None else None,
+    }
+
+
+def samples_hash(ask: Ask, run: int) -> str:
+    """Of the single samples of all readings of a run, in order."""
+    rows = ask("SELECT samples FROM readings WHERE calibration_id = ? ORDER BY reading", [run])
+    return _sha256(rfc8785.dumps([row[0] for row in rows]))
+
+
+def _broken(ask: Ask, run: int, samples: str, previous: str, expected: str) -> str | None:
+    try:
+        record = record_of(ask, run, samples)
+    except LookupError:
+        return "it is gone"
+    if _link(previous, record) != expected:
+        return "it is not as it ended"
+    dropped = ask("SELECT 1 FROM events WHERE calibration_id = ? AND kind = 'samples_dropped'", [run])
+    if not dropped and samples_hash(ask, run) != samples:
+        return "its samples are not as they were taken"
+    return None
+
+
+def _link(previous: str, record: dict[str, Any]) -> str:
+    return _sha256(previous.encode() + rfc8785.dumps(record))
+
+
+def _sha256(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()

@@ -1,0 +1,48 @@
+"""`/emulator`: faults on order, for training, demonstration and tests.  Only with the emulated machine."""
+
+from __future__ import annotations
+
+from fastapi import APIRouter
+from starlette.exceptions import HTTPException
+
+from station.motion import EffectTable, EmulatedRig, FaultOrder
+from web.problems import documented
+from web.routes.parts import TheRuntime
+
+router = APIRouter(prefix="/emulator", tags=["emulator"])
+
+
+@router.get("/faults", response_model=list[FaultOrder], responses=documented(404))
+def read_faults(runtime: TheRuntime) -> list[FaultOrder]:
+    """What is ordered at present."""
+    return list(_rig(runtime).faults)
+
+
+@router.put("/faults", response_model=list[FaultOrder], responses=documented(404))
+def order_faults(body: list[FaultOrder], runtime: TheRuntime) -> list[FaultOrder]:
+    """These faults and no others from now on; an empty list takes all back.
+
+    Without `for_s` and `count` a fault stays until it is taken back, except for events (`jump`,
+    `lost_counts`, `reboot`, `alarm`, `following_error`), which happen once.
+    """
+    return list(_rig(runtime).order(body))
+
+
+@router.get("/effects", response_model=list[EffectTable], responses=documented(404))
+def read_effects(runtime: TheRuntime) -> list[EffectTable]:
+    """Imperfections ordered while the machine runs; those of its rig file are not listed."""
+    return list(_rig(runtime).effects)
+
+
+@router.put("/effects", response_model=list[EffectTable], responses=documented(404))
+def order_effects(body: list[EffectTable], runtime: TheRuntime) -> list[EffectTable]:
+    """These imperfections of the machine and no others from now on, as `[[effect]]` of a rig file."""
+    return list(_rig(runtime).order_effects(body))
+
+
+def _rig(runtime: TheRuntime) -> EmulatedRig:
+    if runtime.rig is None:
+        raise HTTPException(
+            404, "This station has real devices; faults can be ordered of the emulated ones only."
+        )
+    return runtime.rig
