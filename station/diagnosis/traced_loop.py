@@ -23,6 +23,7 @@ from station.diagnosis.tests_of_fit import (
     rest_of,
     strongest,
 )
+from station.diagnosis.unnamed_error import UnnamedError, unnamed_error
 from station.effects import Effect
 from station.errors import InputRefused
 from station.fitting import NotConvergedError, Outlier, tolerance_prior
@@ -53,6 +54,9 @@ class TracedDiagnosis:
     hints: tuple[Hint, ...]
     rival: str | None
     """A nameless dependence that makes the readings about as probable as the effects found."""
+
+    unnamed: UnnamedError | None = None
+    """A smooth error of the pose in what the last model leaves, where readings left out support it."""
 
     @property
     def base(self) -> Fit:
@@ -141,6 +145,7 @@ def traced(
         confirmations=checks,
         hints=hints(_rest(found, checks, described)) if unexplained else (),
         rival=rival,
+        unnamed=None if found.adequate else unnamed_error(found.stages[-1].fit),
     )
 
 

@@ -33,7 +33,9 @@ def five_bar_catalogue() -> tuple[Effect, ...]:
     )
 
 
-def arm_catalogue(joints: int, *, by_range: bool, timed: bool, warmed: bool) -> tuple[Effect, ...]:
+def arm_catalogue(
+    joints: int, *, by_range: bool, timed: bool = True, warmed: bool = True
+) -> tuple[Effect, ...]:
     """Every effect at every joint of a serial arm; with distances also those of the instrument.
 
     timed: the log says when each reading was taken; warmed: it says how warm it was.

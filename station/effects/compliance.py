@@ -50,7 +50,8 @@ class Compliance(JointEffect):
         if len(amplitudes) > 1 and "by_payload" not in hidden:
             # where along the arm the weight sits is hardly seen; what it does together is
             whole, variance = float(amplitudes.sum()), float(covariance.sum())
-            return (scaled("deg_at_full_reach", whole, variance, -180.0 / np.pi, "deg"),)
+            # the load of an arm is gravity's own moment about each axis: sag goes with it, not against it
+            return (scaled("deg_at_full_reach", whole, variance, 180.0 / np.pi, "deg"),)
         return tuple(
             scaled(name, a, covariance[k, k], -180.0 / np.pi, unit)
             for k, (a, (name, unit)) in enumerate(zip(amplitudes, names, strict=False))

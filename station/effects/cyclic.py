@@ -11,6 +11,11 @@ from station.effects.base import Acts, Bounds, JointEffect, Variants, amplitude_
 from station.mechanism import Conditions
 from station.records import Quantity, Real
 
+SAME_STOP_RAD = 1e-3
+LEAST_STEP_RAD = 20.0 * SAME_STOP_RAD
+"""Finer steps cannot be told from any angles at all."""
+FEWEST_STOPS, MOST_STOPS = 3, 60
+"""Of a joint: fewer are no grid, more are not set up by hand."""
 OVERSAMPLING = 3.0
 """Search steps per independent frequency."""
 
@@ -27,6 +32,21 @@ def waves(angle: Real, first: float, step: float, count: int) -> Real:
     turning[1:] = np.exp(1j * step * angle)
     np.multiply.accumulate(turning, axis=0, out=turning)
     return turning.view(float).reshape(count, len(angle), 2)
+
+
+def fastest_seen(angle: Real) -> float:
+    """Cycles a turn that readings at angles (K,), rad, tell from slower ones; inf where they are on no grid.
+
+    On a grid of step s a wave of n cycles looks like one of 2 pi / s - n (Nyquist).
+    """
+    stops = np.unique(np.round(angle / SAME_STOP_RAD)) * SAME_STOP_RAD
+    if not FEWEST_STOPS <= len(stops) <= MOST_STOPS:
+        return np.inf
+    gaps = np.diff(stops)
+    step = float(gaps[gaps > 2.0 * SAME_STOP_RAD].min(initial=np.inf))
+    steps = gaps / step
+    on_grid = np.abs(steps - np.round(steps)) * step < 2.0 * SAME_STOP_RAD
+    return float(np.pi / step) if step >= LEAST_STEP_RAD and on_grid.all() else np.inf
 
 
 class EncoderEccentricity(JointEffect):
@@ -63,15 +83,17 @@ class GearCyclic(JointEffect):
             return None
         # below about one and a half periods over the visited range a ripple is a smooth curve
         lowest = max(self.LOWEST, 1.5 * 2.0 * np.pi / span)
-        if lowest >= self.HIGHEST:
+        # on a grid of angles a faster wave is the double of a slower one, which is the simpler cause
+        highest = min(self.HIGHEST, fastest_seen(c.theta[:, i]))
+        if lowest >= highest:
             return None
         step = 2.0 * np.pi / span / OVERSAMPLING
-        n = np.arange(lowest, self.HIGHEST, step)
+        n = np.arange(lowest, highest, step)
         return Variants(
             Acts(joint=i),
             waves(c.theta[:, i], lowest, step, len(n)),
             tuple({"per_rev": float(v)} for v in n),
-            (self.HIGHEST - lowest) * span / (2.0 * np.pi) * 2.0,
+            (highest - lowest) * span / (2.0 * np.pi) * 2.0,
         )
 
     def refined(self, hidden: Mapping[str, float], c: Conditions) -> Mapping[str, tuple[float, float]]:

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from station.effects.base import Acts, JointEffect, Variants
-from station.effects.cyclic import waves
+from station.effects.cyclic import fastest_seen, waves
 from station.mechanism import Conditions
 from station.records import Index, Quantity, Real
 
@@ -48,8 +48,8 @@ class GearCurve(JointEffect):
             return None
         i = self.index
         low, high = float(c.theta[:, i].min()), float(c.theta[:, i].max())
-        if high <= low:
-            return None
+        if high <= low or fastest_seen(c.theta[:, i]) < np.inf:
+            return None  # between the stops of a grid nothing of a curve is seen
         hidden = {"from_deg": float(np.degrees(low)), "to_deg": float(np.degrees(high))}
         basis = self.at(hidden, c)
         spread = np.full(basis.shape[1], SPREAD_RAD)

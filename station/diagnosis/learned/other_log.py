@@ -107,7 +107,7 @@ def transfer(
 
 
 def _turned_near(part: ModelDocument, readings: Measurements) -> Measurements:
-    """The same poses, each joint by whole turns as near to the middle of what was learned as it can be."""
+    """The same poses, each joint by whole turns as near as can be to the middle of where it was learned."""
     middle = np.radians([(low + high) / 2.0 for low, high in part.ranges.joints_deg])
     turns = np.round((readings.theta - middle) / (2.0 * np.pi))
     return replace(readings, theta=readings.theta - 2.0 * np.pi * turns)

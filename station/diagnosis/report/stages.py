@@ -7,12 +7,14 @@ from numpy.typing import NDArray
 
 from station.diagnosis.tests_of_fit import predicted_by_others
 from station.diagnosis.traced_loop import TracedDiagnosis
+from station.diagnosis.unnamed_error import UnnamedError, left_by
 from station.errors import InputRefused
 from station.fitting import NotConvergedError, Prior, Solution, solve
 from station.mechanism import Mechanism, by_reading
 from station.model import Term
 from station.records import Measurements, Real, StageErrors
 
+UNNAMED = "+ unnamed smooth error of the pose"
 Mask = NDArray[np.bool_]
 
 
@@ -37,7 +39,26 @@ def stage_errors(diagnosis: TracedDiagnosis) -> tuple[StageErrors, ...]:
                 fresh,
             )
         )
+    if diagnosis.unnamed is not None:
+        stages.append(_with_unnamed(diagnosis, diagnosis.unnamed, stages[-1]))
     return tuple(stages)
+
+
+def _with_unnamed(diagnosis: TracedDiagnosis, unnamed: UnnamedError, last: StageErrors) -> StageErrors:
+    """The last model with a smooth error of the pose; its length, size and noise are unknowns."""
+    fresh = None
+    if diagnosis.fresh is not None:
+        rows = diagnosis.confirmations[-1].residual_mm
+        fresh = left_by(unnamed, diagnosis.fresh, rows)[kept_fresh(diagnosis)]
+    return StageErrors(
+        model=UNNAMED,
+        unknowns=last.unknowns + 3,
+        fit_rms_mm=_rms(np.linalg.norm(unnamed.fitted_mm, axis=1)),
+        holdout_rms_mm=last.holdout_rms_mm * unnamed.share,
+        holdout_max_mm=last.holdout_max_mm,
+        confirm_rms_mm=None if fresh is None else _rms(fresh),
+        confirm_max_mm=None if fresh is None else float(fresh.max()),
+    )
 
 
 def kept_fresh(diagnosis: TracedDiagnosis) -> Mask:

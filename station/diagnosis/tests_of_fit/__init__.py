@@ -7,6 +7,7 @@ from station.diagnosis.tests_of_fit.confirmation import FEWEST, Confirmation, co
 from station.diagnosis.tests_of_fit.cross_validation import (
     folds,
     left_out_rms,
+    left_without,
     predicted_by_others,
     without_a_quarter,
 )
@@ -46,6 +47,7 @@ __all__ = [
     "in_words",
     "judge",
     "left_out_rms",
+    "left_without",
     "of_fit",
     "perpendicular",
     "predicted_by_others",

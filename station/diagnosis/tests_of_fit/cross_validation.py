@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from station.errors import InputRefused
 from station.fitting import Solution, solved
@@ -58,16 +59,23 @@ def left_out_rms(solution: Solution, mechanism: Mechanism, row_sd: Real) -> floa
 
 
 def held_out_folds(solution: Solution, fold: Index) -> Real:
-    """(R,) the same for folds larger than the number of unknowns: r_B + J_B (C^-1 - J_B'J_B)^-1 J_B' r_B."""
-    finite = np.isfinite(np.diag(solution.covariance))
-    J, C = solution.jacobian[:, finite], solution.covariance[np.ix_(finite, finite)]
+    """(R,) the same for folds larger than the number of unknowns."""
     out = -solution.residual
     for f in np.unique(fold):
         own = fold == f
-        J_B = J[own]
-        moved = solved(np.eye(len(C)) - C @ (J_B.T @ J_B), C @ (J_B.T @ out[own]))
-        out[own] += J_B @ moved
+        out[own] = left_without(solution, own)[own]
     return out
+
+
+def left_without(solution: Solution, own: NDArray[np.bool_]) -> Real:
+    """(R,) whitened measured less predicted of all rows, by the linear fit without the rows `own` (R,).
+
+    r + J (C^-1 - J_B'J_B)^-1 J_B' r_B.
+    """
+    finite = np.isfinite(np.diag(solution.covariance))
+    J, C = solution.jacobian[:, finite], solution.covariance[np.ix_(finite, finite)]
+    J_B, out = J[own], -solution.residual
+    return np.asarray(out + J @ solved(np.eye(len(C)) - C @ (J_B.T @ J_B), C @ (J_B.T @ out[own])))
 
 
 def held_out(solution: Solution, block: Index) -> Real:
