@@ -6,11 +6,12 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
 
-from fastapi import FastAPI
+from fastapi import Depends, FastAPI
 
 from station import __version__
 from station.service import Runtime
 from web import headers, pages, problems
+from web.known_query import known_query
 from web.live import LiveFeed
 from web.routes import (
     backups,
@@ -25,6 +26,7 @@ from web.routes import (
     stop,
 )
 
+API = "/api/v1"
 DESCRIPTION = """Zero-offset calibration of a 2-DOF five-bar robot, for the operator's page and the MES alike.
 
 State is pushed on the WebSocket `/api/v1/live`: first a snapshot, then numbered events, a beat each second.
@@ -51,8 +53,8 @@ def create_app(runtime: Runtime, *, static: Path = pages.STATIC) -> FastAPI:
     app.state.runtime = runtime
     app.state.feed = LiveFeed(runtime.orchestrator, build=pages.build_id(static))
     for module in (station, backups, calibrations, datasets, diagnoses, readings, robots, stop):
-        app.include_router(module.router, prefix="/api/v1")
-    app.include_router(live.router, prefix="/api/v1")
+        app.include_router(module.router, prefix=API, dependencies=[Depends(known_query(API))])
+    app.include_router(live.router, prefix=API)
     app.include_router(health.router)
     pages.add(app, static)
     problems.add(app)
