@@ -6,11 +6,12 @@ from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
 from pathlib import Path
 
-from fastapi import FastAPI
+from fastapi import Depends, FastAPI
 
 from station import __version__
 from station.service import Runtime
 from web import headers, pages, problems
+from web.known_query import known_query
 from web.live import LiveFeed
 from web.routes import (
     backups,
@@ -27,6 +28,7 @@ from web.routes import (
     stop,
 )
 
+API = "/api/v1"
 DESCRIPTION = """Zero-offset calibration of a 2-DOF five-bar robot, for the operator's page and the MES alike.
 
 State is pushed on the WebSocket `/api/v1/live`: first a snapshot, then numbered events, a beat each second.
@@ -55,8 +57,8 @@ def create_app(runtime: Runtime, *, static: Path = pages.STATIC) -> FastAPI:
     for module in (
         station, backups, calibrations, datasets, diagnoses, emulator, readings, retract, robots, stop,
     ):  # fmt: skip
-        app.include_router(module.router, prefix="/api/v1")
-    app.include_router(live.router, prefix="/api/v1")
+        app.include_router(module.router, prefix=API, dependencies=[Depends(known_query(API))])
+    app.include_router(live.router, prefix=API)
     app.include_router(health.router)
     pages.add(app, static)
     problems.add(app)

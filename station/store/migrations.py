@@ -171,5 +171,14 @@ def chain(db: Database) -> None:
     )
 
 
+@migrations()
+def filters(db: Database) -> None:
+    """What a MES filters by has an index."""
+    db.execute(
+        "CREATE INDEX calibrations_work_order ON calibrations (work_order) WHERE work_order IS NOT NULL"
+    )
+    db.execute("CREATE INDEX calibrations_ended_ms ON calibrations (ended_ms)")
+
+
 def _expand(blob: bytes) -> bytes:
     return zlib.decompressobj(zdict=_WORDS).decompress(blob)

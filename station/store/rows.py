@@ -155,7 +155,7 @@ def request_hash(request: CalibrationRequest) -> bytes:
         "plan": request.label,
         "operator": request.operator,
         "work_order": request.work_order,
-        "metadata": request.metadata,
+        "metadata": dict(sorted(request.metadata.items())),
         "of": request.of,
     }
     return hashlib.sha256(compact(fields).encode()).digest()[:16]

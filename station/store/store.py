@@ -289,18 +289,28 @@ class Store(Memories, ZeroJournal):
         robot_serial: str | None = None,
         state: str | None = None,
         verdict: str | None = None,
+        plan: str | None = None,
+        work_order: str | None = None,
         since: datetime | None = None,
         until: datetime | None = None,
+        ended_since: datetime | None = None,
     ) -> Page:
         """A page of summaries, newest first; `cursor` is the `next` of the page before.
 
         :param since: created then or later; a time without a zone is UTC.
         :param until: created before.
+        :param ended_since: ended then or later.
         :raises InputRefused: a cursor that is none.
         """
         conditions: list[str] = []
         values: list[str | int] = []
-        for column, wanted in (("robot_serial", robot_serial), ("verdict", verdict), ("state", state)):
+        for column, wanted in (
+            ("work_order", work_order),
+            ("robot_serial", robot_serial),
+            ("verdict", verdict),
+            ("state", state),
+            ("plan", plan),
+        ):
             if wanted is not None:
                 # Only the first, most selective one may choose the index: + takes the others out.
                 conditions.append(f"{'+' if conditions else ''}{column} = ?{self._or_unstored(column)}")
@@ -319,6 +329,9 @@ class Store(Memories, ZeroJournal):
                 "id <= (SELECT max(id) FROM calibrations WHERE created_ms < ?) AND +created_ms < ?"
             )
             values += [millis(until)] * 2
+        if ended_since is not None:
+            conditions.append("ended_ms >= ?")
+            values.append(millis(ended_since))
         where = f" WHERE {' AND '.join(f'({condition})' for condition in conditions)}" if conditions else ""
         rows = self._readers.all(
             f"SELECT {LIST_COLUMNS} FROM calibrations LEFT JOIN results ON calibration_id = id{where}"
@@ -332,7 +345,7 @@ class Store(Memories, ZeroJournal):
     def _or_unstored(self, column: str) -> str:
         """SQL that lets runs through whose stored state and verdict are not those that are shown."""
         runs = ", ".join(map(str, self._unstored.runs))
-        return f" OR id IN ({runs})" if runs and column != "robot_serial" else ""
+        return f" OR id IN ({runs})" if runs and column in ("verdict", "state") else ""
 
     def runs_of(self, calibration_id: int) -> list[CalibrationSummary]:
         """Summaries of the runs that applied or rolled back a calibration, oldest first."""

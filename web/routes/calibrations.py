@@ -54,8 +54,11 @@ def list_calibrations(
     robot_serial: str | None = None,
     state: State | None = None,
     verdict: Literal["pass", "fail"] | None = None,
+    plan: Annotated[str | None, Query(description="as in the run, also `apply` or `dataset`")] = None,
+    work_order: str | None = None,
     since: Annotated[datetime | None, Query(description="created at or after")] = None,
     until: Annotated[datetime | None, Query(description="created before")] = None,
+    ended_since: Annotated[datetime | None, Query(description="ended at or after")] = None,
 ) -> CalibrationList:
     """Newest first, page by page."""
     page = runtime.store.calibrations(
@@ -64,8 +67,11 @@ def list_calibrations(
         robot_serial=robot_serial,
         state=state,
         verdict=verdict,
+        plan=plan,
+        work_order=work_order,
         since=since,
         until=until,
+        ended_since=ended_since,
     )
     return CalibrationList(items=page.items, next=page.next)
 

@@ -16,6 +16,7 @@ from typing import Any
 
 from websockets.sync.client import connect
 
+from station.records import uid7
 from station.settings import database_path
 from station.studies.bench.served import SETTINGS, service
 from station.studies.bench.timing import Figure, figure, time_ms
@@ -89,7 +90,9 @@ def _fill(path: Path, count: int) -> None:
         numbers = iter(range(2, count + 1))
         while batch := list(islice(numbers, BATCH)):
             with connection:
-                connection.executemany(calibration.insert, (calibration.copy(id=k) for k in batch))
+                connection.executemany(
+                    calibration.insert, (calibration.copy(id=k, uid=uid7()) for k in batch)
+                )
                 connection.executemany(result.insert, (result.copy(calibration_id=k) for k in batch))
 
 
@@ -106,9 +109,9 @@ class _Pattern:
         row = dict(zip((column[0] for column in found.description), found.fetchone(), strict=True))
         return cls(f"INSERT INTO {table} VALUES ({', '.join('?' * len(row))})", row)
 
-    def copy(self, **key: int) -> tuple[Any, ...]:
-        """The same with another key, its times as much later."""
-        (number,) = key.values()
+    def copy(self, **key: int | str) -> tuple[Any, ...]:
+        """The same with another key, its times as much later as the number that the key begins with."""
+        number = int(next(iter(key.values())))
         later = {
             name: value + number * A_MINUTE_MS for name, value in self.row.items() if name.endswith("_ms")
         }

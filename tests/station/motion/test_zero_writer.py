@@ -130,6 +130,13 @@ def test_a_write_that_was_cut_off_is_taken_for_what_the_joint_shows(
     assert bench.journal() == [(1, 0.8, -0.8, to_deg, taken)]
 
 
+def test_what_is_settled_does_not_hide_what_is_open(bench: Bench) -> None:
+    bench.store.end_zero_write(bench.store.begin_zero_write(bench.run, 1, 0.8, -0.8), 0.0)
+    bench.store.begin_zero_write(bench.run, 2, -0.6, 180.6)
+    bench.zeroing.settle()
+    assert [(entry[0], entry[4]) for entry in bench.journal()] == [(1, True), (2, True)]
+
+
 def test_zeros_of_another_robot_are_not_settled(bench: Bench) -> None:
     other = bench.store.create(asked("R2", "apply", of=bench.of), Robot.default("R2"))
     bench.store.begin_zero_write(other, 1, 0.8, HOME_DEG[0])

@@ -92,13 +92,15 @@ def test_zeros_that_are_set_are_a_step_that_is_seen(start: Start, store: Store) 
     run = orchestrator.submit(asked("R1", "paper")).id
     assert orchestrator.wait(run, LIMIT_S) is State.SUCCEEDED
     assert answers == [(0.0, 0.0)]
-    sequences = [event.data for event in events if isinstance(event.data, SequenceView)]
-    assert [(s.number, s.title, len(s.stops)) for s in sequences] == [
+    sequences = [event.data for event in events if event.type == "walk"]
+    assert [(s.number, s.title, len(s.stops)) for s in sequences if isinstance(s, SequenceView)] == [
         (2, "Writing the zero offsets", 0),
         (3, "Verifying", 3),
     ]
-    briefs = [event.data for event in events if isinstance(event.data, RunBrief)]
-    assert (2, "Writing the zero offsets") in [(b.walk.number, b.walk.title) for b in briefs if b.walk]
+    briefs = [event.data for event in events if event.type == "run"]
+    assert (2, "Writing the zero offsets") in [
+        (b.walk.number, b.walk.title) for b in briefs if isinstance(b, RunBrief) and b.walk
+    ]
     row = store.summary(run)
     assert (row.step, row.steps) == (3, 3)
 

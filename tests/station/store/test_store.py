@@ -317,6 +317,8 @@ def test_a_run_of_six_readings_takes_less_than_1500_bytes(store: Store) -> None:
         {"state": "failed"},
         {"verdict": "pass"},
         {"robot_serial": "R1", "state": "failed", "verdict": "fail"},
+        {"work_order": "WO-7"},
+        {"work_order": "WO-7", "robot_serial": "R1", "plan": "paper"},
         {"since": datetime(2026, 1, 1), "until": datetime(2026, 2, 1)},
     ],
 )
