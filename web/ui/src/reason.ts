@@ -6,21 +6,23 @@ import type { Summary } from "./types";
 type Value = string | number;
 type Params = Record<string, Value>;
 
-/** The fields of Python's `str.format` that the templates use: `{x}`, `{x:.1f}`, `{x:.1g}`. */
-const FIELD = /\{(?<name>\w+)(?::\.(?<digits>\d+)(?<kind>[fg]))?\}/g;
+/** The fields of Python's `str.format` that the templates use: `{x}`, `{x:.1f}`, `{x:+.1f}`, `{x:.1g}`. */
+const FIELD = /\{(?<name>\w+)(?::(?<sign>\+?)\.(?<digits>\d+)(?<kind>[fg]))?\}/g;
 
 /** Null where a value is missing or is not a number where one has to be. */
 export function formatted(template: string, params: Params): string | null {
   let complete = true;
-  const text = template.replace(FIELD, (_, name: string, digits: string | undefined, kind: string) => {
+  const fill = (_: string, name: string, sign: string, digits: string | undefined, kind: string) => {
     const value = Object.hasOwn(params, name) ? params[name] : undefined;
     if (value != null && digits === undefined) return String(value);
     if (typeof value === "number" && Number.isFinite(value)) {
-      return kind === "f" ? value.toFixed(Number(digits)) : general(value, Number(digits) || 1);
+      const plus = sign && value >= 0 ? sign : "";
+      return plus + (kind === "f" ? value.toFixed(Number(digits)) : general(value, Number(digits) || 1));
     }
     complete = false;
     return "";
-  });
+  };
+  const text = template.replace(FIELD, fill);
   return complete ? text : null;
 }
 
