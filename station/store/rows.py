@@ -21,6 +21,7 @@ from station.records import (
     CalibrationSummary,
     DiagnosisDocument,
     Reading,
+    Reason,
     ResultParts,
     ZeroWrite,
 )
@@ -222,3 +223,10 @@ def _samples(scale_mm: float, units: str | None) -> tuple[float, ...]:
     if isinstance(kept, int):  # only their number was kept, which says how sure their mean is
         return (mean,) * kept
     return tuple(round(mean + unit * _SAMPLE_UNIT_MM, _SAMPLE_DIGITS) for unit in kept)
+
+
+def reason_columns(reason: Reason | None) -> tuple[str | None, str | None, str | None]:
+    """Text, code and parameters of a reason, as they are stored."""
+    if reason is None:
+        return None, None, None
+    return reason.text or None, reason.code, compact(reason.params) if reason.params else None

@@ -45,6 +45,7 @@ from station.store.rows import (
     pack_document,
     reading_from_row,
     reading_row,
+    reason_columns,
     result_row,
     row_id,
     summary_from_row,
@@ -205,7 +206,7 @@ class Store(Memories, ZeroJournal):
                     end.state,
                     end.verdict,
                     end.outcome,
-                    *_reason_columns(end.reason),
+                    *reason_columns(end.reason),
                     millis(end.at),
                     calibration_id,
                     *_UNFINISHED,
@@ -443,9 +444,3 @@ class Store(Memories, ZeroJournal):
             )
             for row in rows
         ]
-
-
-def _reason_columns(reason: Reason | None) -> tuple[str | None, str | None, str | None]:
-    if reason is None:
-        return None, None, None
-    return reason.text or None, reason.code, compact(reason.params) if reason.params else None

@@ -16,7 +16,7 @@ def test_calibrate_confirm_result_and_history_after_a_restart(
     station = serve()
     open_station(page, station)
     run_to_end(page, "FB-100")
-    expect(page.locator(".readings tbody tr").first).to_contain_text("within")
+    expect(page.locator(".readings tbody tr").filter(has_text="within").first).to_be_visible()
     page.get_by_role("link", name="Result 1").click()
     expect(page.get_by_role("heading", name="Result of run 1")).to_be_visible()
     verdict = page.locator(".verdict").inner_text()

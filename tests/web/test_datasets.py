@@ -153,7 +153,7 @@ MALFORMED = {
     "twice": (HEADER + b"1,0,0,180,1\n1,1,0,180,1\n", "row 3, column reading"),
     "wrong unit": (
         HEADER + b"".join(b"%d,%d,%d,0,%d\n" % (k, k, 90 - k, 3 * k) for k in range(40)),
-        "zero_at_deg",
+        "Check unit",
     ),
     "too few": (
         HEADER + b"".join(b"%d,%d,%d,180,%d\n" % (k, k, k, 3 * k) for k in range(7)),

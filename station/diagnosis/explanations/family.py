@@ -56,6 +56,8 @@ class Family:
     """Of an unnamed error: "joint1", "joint2", "reading", "place", "time" or "approach"."""
     signed: bool = False
     """Whether its only amplitude cannot be negative."""
+    one_sided: bool = False
+    """Whether none of its amplitudes can be negative; several are looked at once they are fitted."""
     neighbours: Callable[[Hidden, float], list[Hidden]] | None = None
     """Where hidden parameters are continuous: those about given ones, at a share of the search step."""
     repeats: bool = False

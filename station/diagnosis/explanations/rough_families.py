@@ -69,7 +69,8 @@ def _both_backlash() -> Family:
         )
 
     parts = tuple(Part("backlash", i, None, (i - 1,), scaled("width_deg", 1.0 / DEG, "deg")) for i in (1, 2))
-    return Family("backlash", parts, 0.2, sizes(3e-4 * DEG, 0.1 * DEG), ({},), actions)
+    range_ = sizes(3e-4 * DEG, 0.1 * DEG)
+    return Family("backlash", parts, 0.2, range_, ({},), actions, one_sided=True)
 
 
 def wave(angle: Real, per_turn: Sequence[float]) -> Real:

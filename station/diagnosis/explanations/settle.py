@@ -66,6 +66,13 @@ class Settled:
         return tuple(out)
 
     @property
+    def impossible(self) -> bool:
+        """Whether an error has a size that no machine has: a play is not negative."""
+        return any(
+            f.one_sided and bool(np.any(a < 0.0)) for f, a in zip(self.families, self.amplitudes, strict=True)
+        )
+
+    @property
     def present(self) -> tuple[Present, ...]:
         return tuple(
             Present(f, c.member, a)

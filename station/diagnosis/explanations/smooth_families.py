@@ -112,7 +112,7 @@ def _at_joints(
 
     alike = tuple(Part(effect, i, None, own, quantities) for i in (1, 2))
     each = tuple(Part(effect, i, None, tuple(k + width * (i - 1) for k in own), quantities) for i in (1, 2))
-    pair = Family(effect, each, OWN, sizes(*range_), hidden, both)
+    pair = Family(effect, each, OWN, sizes(*range_), hidden, both, one_sided=signed)
     if width > 1:
         return (single(1), single(2), pair)
     return (

@@ -140,6 +140,9 @@ def _weighed(
         if c.log_posterior < top - SETTLED_WITHIN:
             break
         one = base if not c.choices else settle(at, families, c.choices, noise, reference)
+        if one.impossible:
+            del posterior[c.key]
+            continue
         taken = bank.known(c.choices)
         posterior[c.key] += one.log_evidence + taken.sign - bank.log_evidence(taken) - level
         settled[c.key] = one

@@ -19,6 +19,8 @@ LEAST_DT_S = 0.1
 """No arm moves, settles and is read faster."""
 LONGEST_DT_S = 600.0
 SLOWEST_DEG_PER_S = 0.2
+SAME_WAY = 1e-6
+"""Share of a way below which all are the same."""
 FASTEST_DEG_PER_S = 3000.0
 ALIKE, LESS = 0.95, 0.2
 """Correlation of the time between readings with the way between them, that says they belong together; and
@@ -74,7 +76,8 @@ def time_column(m: Measurements) -> Mistake | None:
     if middle < LEAST_DT_S:
         return _time(f"{middle:.3g} s between readings are too few; the column is not in seconds", ())
     along = _correlation(gaps, way)
-    slope = np.polyfit(way, gaps, 1)[0] if np.ptp(way) > 0 else 0.0
+    spread = way - way.mean()
+    slope = float(spread @ gaps / (spread @ spread)) if np.ptp(way) > SAME_WAY * way.mean() else 0.0
     if middle > LONGEST_DT_S or (along > ALIKE and slope > 1.0 / SLOWEST_DEG_PER_S):
         return _time(f"{middle:.0f} s between readings are too many; the column is not in seconds", ())
     for by in (1, -1, 2, -2) if along < 1.0 - LESS else ():
