@@ -8,7 +8,6 @@ word first.  A move is one frame: the path-0 block 6200h..6207h, whose last word
 from __future__ import annotations
 
 import logging
-import math
 import time
 from collections.abc import Sequence
 from contextlib import suppress
@@ -19,6 +18,7 @@ from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
 from drivers.lines import ModbusBus, UnansweredWrite
 from drivers.protocols import AxisStatus
 from drivers.scaling import JointScaling
+from drivers.servos.joint_commands import JointCommands
 
 log = logging.getLogger(__name__)
 
@@ -49,7 +49,6 @@ _IN_POSITION_PULSES = 20
 _ENABLE_TIMEOUT_S = 2.0
 _RESET_TIMEOUT_S = 1.0
 _POLL_S = 0.01
-_RPM_PER_DEG_S = 1 / 6
 
 
 class MotionStatus(IntFlag):
@@ -78,6 +77,7 @@ class LeadshineEL7:
         self._unit = unit
         self._scaling = scaling
         self._name = name
+        self._commands = JointCommands(name, scaling, _MAX_RPM)
         self._target_pulses: int | None = None
         self._servo_on_bit = 0
         self._alarm_bit = 0
@@ -96,13 +96,13 @@ class LeadshineEL7:
             mode = self._read(CONTROL_MODE)
             if mode != MODE_PR:
                 raise DeviceFault(
-                    f"{self._title} is in control mode {mode}; set P00.01 to {MODE_PR} (PR mode)"
+                    f"{self._commands.title} is in control mode {mode}; set P00.01 to {MODE_PR} (PR mode)"
                     " and switch it off and on."
                 )
             functions = [self._read(address) for address in DIGITAL_OUTPUTS]
             if OUTPUT_IS_SERVO_ON not in functions:
                 raise DeviceFault(
-                    f"{self._title} has no output for servo-on;"
+                    f"{self._commands.title} has no output for servo-on;"
                     f" set one of P04.10 to P04.14 to {OUTPUT_IS_SERVO_ON:02X}h."
                 )
             self._servo_on_bit = 1 << functions.index(OUTPUT_IS_SERVO_ON)
@@ -125,15 +125,15 @@ class LeadshineEL7:
         :raises DeviceFault: an alarm stands, or the drive does not switch on in time
         :raises LinkLost: no reply
         """
-        self._refuse_on_alarm(self.status())
+        self._commands.refuse_on_alarm(self.status())
         with suppress(UnansweredWrite):  # the wait below finds out whether it took
             self._bus.write_one(self._unit, DIGITAL_INPUT_1, SERVO_ON_ALWAYS)
         deadline_s = time.monotonic() + _ENABLE_TIMEOUT_S
         while not (status := self.status()).enabled:
-            self._refuse_on_alarm(status)
+            self._commands.refuse_on_alarm(status)
             if time.monotonic() > deadline_s:
                 raise DeviceFault(
-                    f"{self._title} does not switch on; check its power stage and safety input."
+                    f"{self._commands.title} does not switch on; check its power stage and safety input."
                 )
             time.sleep(_POLL_S)
 
@@ -146,12 +146,12 @@ class LeadshineEL7:
         :raises LinkLost: the reply is missing and the state read back does not show the move
         """
         asked_at = self._bus.stops
-        target = self._pulses(theta_deg)
-        rpm = self._rpm(speed_deg_s)
+        target = self._commands.pulses(theta_deg)
+        rpm = self._commands.rpm(speed_deg_s)
         status = self.status()
-        self._refuse_on_alarm(status)
+        self._commands.refuse_on_alarm(status)
         if not status.enabled:
-            raise DeviceFault(f"{self._title} is not switched on.")
+            raise DeviceFault(f"{self._commands.title} is not switched on.")
         block = [
             MOVE_ABSOLUTE,
             *_words(target),
@@ -203,7 +203,7 @@ class LeadshineEL7:
         deadline_s = time.monotonic() + _RESET_TIMEOUT_S
         while (status := self.status()).alarm is not None:
             if time.monotonic() > deadline_s:
-                self._refuse_on_alarm(status)
+                self._commands.refuse_on_alarm(status)
             time.sleep(_POLL_S)
 
     def quick_stop(self) -> None:
@@ -217,7 +217,7 @@ class LeadshineEL7:
         except (LinkLost, GarbledReply) as error:
             cause = str(error).rstrip(".")
             raise LinkLost(
-                f"{self._title} did not confirm its stop; use the emergency stop. {cause}."
+                f"{self._commands.title} did not confirm its stop; use the emergency stop. {cause}."
             ) from error
 
     def preset(self, theta_deg: float) -> None:
@@ -229,25 +229,16 @@ class LeadshineEL7:
         :raises DeviceFault: another angle, moving, or read back different
         :raises LinkLost: no reply
         """
-        if abs(theta_deg - self._scaling.zero_at_deg) * self._scaling.pulses_per_deg > 0.5:
-            raise DeviceFault(
-                f"{self._title} can only be declared to stand at {self._scaling.zero_at_deg:g} deg,"
-                f" where its drive's zero is, not at {theta_deg:g} deg."
-            )
-        if self.status().moving:
-            raise DeviceFault(f"{self._title} is moving; its zero can be set at standstill only.")
+        self._commands.check_zero_angle(theta_deg)
+        self._commands.refuse_while_moving(self.status())
         with suppress(UnansweredWrite):  # the position read back tells
             self._bus.write_one(self._unit, TRIGGER, DECLARE_ZERO)
         self._target_pulses = None
         pulses = self._feedback_pulses()
         if abs(pulses) > _IN_POSITION_PULSES:
             raise DeviceFault(
-                f"{self._title} stands at {pulses} pulses after its zero was set; it was not taken."
+                f"{self._commands.title} stands at {pulses} pulses after its zero was set; it was not taken."
             )
-
-    @property
-    def _title(self) -> str:
-        return self._name[:1].upper() + self._name[1:]
 
     def _read(self, address: int) -> int:
         return self._bus.read(self._unit, address, 1)[0]
@@ -267,30 +258,6 @@ class LeadshineEL7:
     def _runs_or_stands_at(self, target: int) -> bool:
         running = MotionStatus(self._read(MOTION_STATUS)) & MotionStatus.RUNNING
         return bool(running) or abs(self._feedback_pulses() - target) <= _IN_POSITION_PULSES
-
-    def _pulses(self, theta_deg: float) -> int:
-        if not math.isfinite(theta_deg):
-            raise DeviceFault(f"{self._title} was asked to move to {theta_deg}.")
-        pulses = self._scaling.to_pulses(theta_deg)
-        if not -(2**31) <= pulses < 2**31:
-            raise DeviceFault(
-                f"{self._title} cannot be told {theta_deg:g} deg; that is more pulses than it counts."
-            )
-        return pulses
-
-    def _rpm(self, speed_deg_s: float) -> int:
-        """Motor speed: link speed times gear ratio, deg/s to revolutions per minute."""
-        rpm = speed_deg_s * self._scaling.ratio * _RPM_PER_DEG_S
-        if not 0 < rpm <= _MAX_RPM:
-            most = _MAX_RPM / self._scaling.ratio / _RPM_PER_DEG_S
-            raise DeviceFault(
-                f"{self._title} was asked for {speed_deg_s:g} deg/s; 0 to {most:g} is possible."
-            )
-        return max(1, round(rpm))
-
-    def _refuse_on_alarm(self, status: AxisStatus) -> None:
-        if status.alarm is not None:
-            raise DeviceFault(f"{self._title} shows alarm {status.alarm:X}h; find its cause, then reset it.")
 
 
 def _words(value: int) -> tuple[int, int]:

@@ -9,7 +9,6 @@ a station that died or froze leaves the motor at standstill.
 from __future__ import annotations
 
 import logging
-import math
 import time
 from collections.abc import Callable, Sequence
 from contextlib import suppress
@@ -24,6 +23,7 @@ from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
 from drivers.lines import ModbusBus, UnansweredWrite
 from drivers.protocols import AxisStatus
 from drivers.scaling import JointScaling
+from drivers.servos.joint_commands import JointCommands
 
 log = logging.getLogger(__name__)
 
@@ -44,7 +44,6 @@ _ENABLE_TIMEOUT_S = 2.0
 _RESET_TIMEOUT_S = 1.0
 _POLL_S = 0.01
 _FEEDS_PER_TIMEOUT = 4
-_RPM_PER_DEG_S = 1 / 6
 
 
 class Output(IntFlag):
@@ -77,6 +76,7 @@ class OrientalMotorBLVR:
         self._unit = unit
         self._scaling = scaling
         self._name = name
+        self._commands = JointCommands(name, scaling, _MAX_RPM)
         self._watchdog_ms = watchdog_ms
         self._target_pulses: int | None = None
         self._stop_is_held = False
@@ -97,8 +97,8 @@ class OrientalMotorBLVR:
             numerator, denominator = _items(self._bus.read(self._unit, RESOLUTION, 4))
             if numerator != self._scaling.counts_per_rev * denominator:
                 raise DeviceFault(
-                    f"{self._title} counts {numerator}/{denominator} steps a turn, the station file says"
-                    f" {self._scaling.counts_per_rev}; correct one of them."
+                    f"{self._commands.title} counts {numerator}/{denominator} steps a turn,"
+                    f" the station file says {self._scaling.counts_per_rev}; correct one of them."
                 )
             self._set_watchdog(self._watchdog_ms)
         except DeviceError:
@@ -127,20 +127,22 @@ class OrientalMotorBLVR:
         :raises DeviceFault: an alarm stands, its position is not known, or it does not switch on in time
         :raises LinkLost: no reply
         """
-        self._refuse_on_alarm(self.status())
+        self._commands.refuse_on_alarm(self.status())
         with suppress(UnansweredWrite):  # the wait below finds out whether it took
             self._write(INPUTS, SERVO_ON)
         self._stop_is_held = False
         deadline_s = time.monotonic() + _ENABLE_TIMEOUT_S
         while not (outputs := self._outputs()) & Output.READY:
-            self._refuse_on_alarm(self.status())
+            self._commands.refuse_on_alarm(self.status())
             if time.monotonic() > deadline_s:
                 raise DeviceFault(
-                    f"{self._title} does not switch on; check its power stage and safety input."
+                    f"{self._commands.title} does not switch on; check its power stage and safety input."
                 )
             time.sleep(_POLL_S)
         if not outputs & Output.POSITION_KNOWN:
-            raise DeviceFault(f"{self._title} does not know its position; home it or preset it first.")
+            raise DeviceFault(
+                f"{self._commands.title} does not know its position; home it or preset it first."
+            )
 
     def move_to(self, theta_deg: float, speed_deg_s: float) -> None:
         """Start an absolute move and return at once (one frame on the wire).
@@ -151,11 +153,11 @@ class OrientalMotorBLVR:
         :raises LinkLost: the reply is missing and the state read back does not show the move
         """
         asked_at = self._bus.stops
-        target, rpm = self._pulses(theta_deg), self._rpm(speed_deg_s)
+        target, rpm = self._commands.pulses(theta_deg), self._commands.rpm(speed_deg_s)
         status = self.status()
-        self._refuse_on_alarm(status)
+        self._commands.refuse_on_alarm(status)
         if not status.enabled:
-            raise DeviceFault(f"{self._title} is not switched on.")
+            raise DeviceFault(f"{self._commands.title} is not switched on.")
         if self._stop_is_held:
             self._bus.write(self._unit, INPUTS, _words(SERVO_ON), stops_seen=asked_at)
             self._stop_is_held = False
@@ -203,7 +205,7 @@ class OrientalMotorBLVR:
         deadline_s = time.monotonic() + _RESET_TIMEOUT_S
         while (status := self.status()).alarm is not None:
             if time.monotonic() > deadline_s:
-                self._refuse_on_alarm(status)
+                self._commands.refuse_on_alarm(status)
             time.sleep(_POLL_S)
 
     def quick_stop(self) -> None:
@@ -218,7 +220,7 @@ class OrientalMotorBLVR:
         except (LinkLost, GarbledReply) as error:
             cause = str(error).rstrip(".")
             raise LinkLost(
-                f"{self._title} did not confirm its stop; use the emergency stop. {cause}."
+                f"{self._commands.title} did not confirm its stop; use the emergency stop. {cause}."
             ) from error
 
     def preset(self, theta_deg: float) -> None:
@@ -227,24 +229,15 @@ class OrientalMotorBLVR:
         :raises DeviceFault: another angle, moving, or read back different
         :raises LinkLost: no reply
         """
-        if abs(theta_deg - self._scaling.zero_at_deg) * self._scaling.pulses_per_deg > 0.5:
-            raise DeviceFault(
-                f"{self._title} can only be declared to stand at {self._scaling.zero_at_deg:g} deg,"
-                f" where its drive's zero is, not at {theta_deg:g} deg."
-            )
-        if self.status().moving:
-            raise DeviceFault(f"{self._title} is moving; its zero can be set at standstill only.")
+        self._commands.check_zero_angle(theta_deg)
+        self._commands.refuse_while_moving(self.status())
         self._edge(PRESET)
         self._target_pulses = None
         pulses = self._read(FEEDBACK)
         if abs(pulses) > _IN_POSITION_PULSES:
             raise DeviceFault(
-                f"{self._title} stands at {pulses} pulses after its zero was set; it was not taken."
+                f"{self._commands.title} stands at {pulses} pulses after its zero was set; it was not taken."
             )
-
-    @property
-    def _title(self) -> str:
-        return self._name[:1].upper() + self._name[1:]
 
     def _set_watchdog(self, timeout_ms: int) -> None:
         """:raises DeviceFault: the drive did not take it"""
@@ -252,7 +245,7 @@ class OrientalMotorBLVR:
             self._write(WATCHDOG, timeout_ms)
         if (set_ms := self._read(WATCHDOG)) != timeout_ms:
             raise DeviceFault(
-                f"{self._title} has a communication watchdog of {set_ms} ms instead of {timeout_ms}."
+                f"{self._commands.title} has a communication watchdog of {set_ms} ms instead of {timeout_ms}."
             )
 
     def _feed(self) -> None:
@@ -277,30 +270,6 @@ class OrientalMotorBLVR:
 
     def _is_at(self, target: int) -> bool:
         return abs(self._read(FEEDBACK) - target) <= _IN_POSITION_PULSES
-
-    def _pulses(self, theta_deg: float) -> int:
-        if not math.isfinite(theta_deg):
-            raise DeviceFault(f"{self._title} was asked to move to {theta_deg}.")
-        pulses = self._scaling.to_pulses(theta_deg)
-        if not -(2**31) <= pulses < 2**31:
-            raise DeviceFault(
-                f"{self._title} cannot be told {theta_deg:g} deg; that is more pulses than it counts."
-            )
-        return pulses
-
-    def _rpm(self, speed_deg_s: float) -> int:
-        """Motor speed: link speed times gear ratio, deg/s to revolutions per minute."""
-        rpm = speed_deg_s * self._scaling.ratio * _RPM_PER_DEG_S
-        if not 0 < rpm <= _MAX_RPM:
-            most = _MAX_RPM / self._scaling.ratio / _RPM_PER_DEG_S
-            raise DeviceFault(
-                f"{self._title} was asked for {speed_deg_s:g} deg/s; 0 to {most:g} is possible."
-            )
-        return max(1, round(rpm))
-
-    def _refuse_on_alarm(self, status: AxisStatus) -> None:
-        if status.alarm is not None:
-            raise DeviceFault(f"{self._title} shows alarm {status.alarm:X}h; find its cause, then reset it.")
 
 
 class _Feeder:
