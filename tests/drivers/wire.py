@@ -5,12 +5,14 @@ from __future__ import annotations
 import os
 import select
 import socket
+import tempfile
 import threading
 import time
 import tty
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from pathlib import Path
 from types import TracebackType
 from typing import Self
 
@@ -98,7 +100,10 @@ class PtyEnd(_FarEnd):
         super().__init__(exchanges)
         self._device, self._station = os.openpty()
         tty.setraw(self._station)
-        self.port = os.ttyname(self._station)
+        # a number is given again at once: whoever opens a lost port anew must not find another test's line
+        self._names = tempfile.TemporaryDirectory()
+        self.port = f"{self._names.name}/port"
+        Path(self.port).symlink_to(os.ttyname(self._station))
 
     def _read(self, wait_s: float, most: int = 1000) -> bytes:
         readable, _, _ = select.select([self._device], [], [], wait_s)
@@ -108,6 +113,7 @@ class PtyEnd(_FarEnd):
         os.write(self._device, data)
 
     def _release(self) -> None:
+        self._names.cleanup()
         os.close(self._device)
         os.close(self._station)
 
