@@ -16,7 +16,15 @@ from pydantic import (
 
 from station.five_bar import Robot as RobotFile
 from station.plans import PLANS
-from station.records import CalibrationSummary, MemorySummary, Reading, Record, Sections
+from station.records import (
+    AnyReference,
+    CalibrationSummary,
+    MemorySummary,
+    Positive,
+    Reading,
+    Record,
+    Sections,
+)
 
 Serial = Annotated[
     str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64, pattern=r"^[\w.\-/]+$")
@@ -45,6 +53,15 @@ class CalibrationBody(BaseModel):
     operator: Name
     work_order: Name | None = None
     metadata: dict[str, JsonValue] = Field(default_factory=dict)
+    references: tuple[AnyReference, ...] = Field(
+        default=(), max_length=20, description="what other instruments measured; for this run"
+    )
+    accuracy_mm: Positive | None = Field(
+        default=None, description="largest position error that is wanted; else the robot file's"
+    )
+    until_mm: Positive | None = Field(
+        default=None, description="the same, and plan `adaptive` ends as soon as it is reached"
+    )
 
 
 class DatasetFields(BaseModel):

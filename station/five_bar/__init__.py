@@ -14,12 +14,14 @@ from station.five_bar.error_model import (
     position_jacobian,
 )
 from station.five_bar.kinematics import HOME, Geometry, Unreachable, elbows, forward, inverse
-from station.five_bar.mechanism import GRID, MOST_ZERO_OFFSET, SCALE_SD_MM, FiveBar, lengths, load, pull
+from station.five_bar.mechanism import GRID, SCALE_SD_MM, FiveBar, lengths, load, pull
 from station.five_bar.plausibility import check_distances, check_places, check_poses
+from station.five_bar.references import measured_value, with_references
 from station.five_bar.robot_file import (
     FIVE_BAR_MODEL,
     FRESH_INSET_MM,
     INSET_MM,
+    MOST_ZERO_OFFSET,
     Robot,
     RobotFile,
     Tolerances,
@@ -56,9 +58,11 @@ __all__ = [
     "inverse",
     "lengths",
     "load",
+    "measured_value",
     "perturbed",
     "pose",
     "position_jacobian",
     "pull",
     "read_sections",
+    "with_references",
 ]

@@ -20,7 +20,8 @@ from station.five_bar.error_model import (
 )
 from station.five_bar.kinematics import Geometry, inverse
 from station.five_bar.plausibility import check_distances, check_poses
-from station.five_bar.robot_file import FIVE_BAR_MODEL, Robot
+from station.five_bar.references import with_references
+from station.five_bar.robot_file import FIVE_BAR_MODEL, MOST_ZERO_OFFSET, Robot
 from station.mechanism import (
     Conditions,
     Observation,
@@ -39,8 +40,6 @@ UNKNOWN_MOUNT_SD_MM = 300.0
 """Prior of c where the robot file does not say where a mount is."""
 IMPOSSIBLE_SDS = 20.0
 """A parameter this many tolerances from nominal is a wrong file or a missing effect, not a calibration."""
-MOST_ZERO_OFFSET = 4.0
-"""Tolerances of a zero offset."""
 GRID = (9, 7)
 """Points of the workspace at which position errors are predicted."""
 
@@ -65,7 +64,11 @@ class FiveBar:
 
     @cached_property
     def parameters(self) -> tuple[Parameter, ...]:
-        """The unknowns with the priors of the robot file."""
+        """The unknowns with the priors of the robot file and of its references."""
+        return with_references(self._by_tolerance, self.robot)
+
+    @cached_property
+    def _by_tolerance(self) -> tuple[Parameter, ...]:
         robot, tolerance = self.robot, self.robot.tolerances
         zero_sd = np.radians(tolerance.zero_offset_deg)
         degrees = 180.0 / np.pi
@@ -183,13 +186,13 @@ class FiveBar:
     def implausible(self, p: Real) -> str:
         """A link 3 mm off is a wrong robot file or a wrong column, not a calibration; names the parameter."""
         offset = np.array(
-            [abs(x - q.prior_mean) / q.prior_sd for x, q in zip(p, self.parameters, strict=True)]
+            [abs(x - q.prior_mean) / q.prior_sd for x, q in zip(p, self._by_tolerance, strict=True)]
         )
         worst = int(np.argmax(offset))
         limit_deg = MOST_ZERO_OFFSET * self.robot.tolerances.zero_offset_deg
         if offset[worst] <= IMPOSSIBLE_SDS and (np.degrees(np.abs(p[:2])) <= limit_deg).all():
             return ""
-        q = self.parameters[worst]
+        q = self._by_tolerance[worst]
         return f"{q.name} would be {p[worst] * q.shown:.3f} {q.unit}, {offset[worst]:.0f} times its tolerance"
 
     def position_errors(self, p: Real) -> tuple[Real, Real]:

@@ -14,6 +14,7 @@ multiplication by i and a unit vector u(theta) is exp(i theta).
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
@@ -24,12 +25,26 @@ from pydantic import Field, ValidationError
 from drivers.scaling import JointScaling
 from station.errors import InputRefused
 from station.five_bar.kinematics import Geometry, Unreachable, inverse
-from station.records import Complex, Finite, Positive, Section, Sections, refusal
+from station.records import (
+    AnyReference,
+    Complex,
+    Finite,
+    JointAngle,
+    MountingError,
+    Positive,
+    Section,
+    Sections,
+    refusal,
+)
 
 Pair = tuple[float, float]
 FIVE_BAR_MODEL = "five-bar"
 INSET_MM = 4.0
 """Kept free of the workspace's edge by what is measured, for the overshoot of an approach."""
+MOST_ZERO_OFFSET = 4.0
+"""Tolerances of a zero offset."""
+MOST_MOUNTING_SDS = 20.0
+"""Standard deviations of the mounting error; more is a wrong entry."""
 FRESH_INSET_MM = 15.0
 """Kept free of it by fresh positions, which are predicted: the fit is surest in the interior."""
 
@@ -60,6 +75,10 @@ class Robot:
     """How well that is known: "roughly measured", and within 0.16 mm of what Table 8 found."""
     mounts: dict[str, Pair] = field(default_factory=dict)
     """c of further mounting places of the mechanism, by the `mount` id of the measurement file."""
+    references: tuple[AnyReference, ...] = ()
+    """What was measured of the mechanism and, in one run, of the joints, by other instruments."""
+    accuracy_mm: float | None = None
+    """Largest position error that is wanted of a calibration; None where nobody said."""
     tolerances: Tolerances = field(default_factory=Tolerances)
     workspace_x: Pair = (-240.0, 240.0)
     workspace_y: Pair = (-782.0, -632.0)
@@ -94,9 +113,12 @@ class Robot:
 
     def to_json(self) -> Sections:
         """The sections of the robot file; `from_dict` reads them back."""
+        # what is not given is left out: the file of a robot without it stays what it was
+        references = [r.model_dump() for r in self.references if isinstance(r, MountingError)]
         return {
             "robot": {
                 "serial": self.serial,
+                **({} if self.accuracy_mm is None else {"accuracy_mm": self.accuracy_mm}),
                 "e": self.e,
                 "L": self.L,
                 "l": self.l,
@@ -112,6 +134,7 @@ class Robot:
                 "drm_mm": self.drm,
                 "drm_sd_mm": self.drm_sd,
                 "mounts": self.mounts,
+                **({"reference": references} if references else {}),
             },
             "workspace": {"x": self.workspace_x, "y": self.workspace_y},
             "joints": {
@@ -154,6 +177,26 @@ class Robot:
         y = np.linspace(*self.workspace_y, ny)
         return np.asarray((x[:, None] + 1j * y[None, :]).ravel())
 
+    def informed(self, references: Sequence[AnyReference]) -> Robot:
+        """The same robot, with references that hold for one run beside those of its file.
+
+        :raises InputRefused: one that is beyond what its tolerance allows.
+        """
+        for reference in references:
+            if isinstance(reference, JointAngle):
+                size, unit = reference.offset_deg, "deg"
+                most = MOST_ZERO_OFFSET * self.tolerances.zero_offset_deg
+            else:
+                axis = 0 if reference.kind == "drm_x" else 1
+                size, unit = reference.value_mm - self.drm[axis], "mm"
+                most = MOST_MOUNTING_SDS * self.drm_sd[axis]
+            if abs(size) > most:
+                raise InputRefused(
+                    f"Reference {reference.words} is {abs(size):.3g} {unit} from what the robot file expects;"
+                    f" at most {most:.3g} {unit} is believed. Check the value, its sign and the robot file."
+                )
+        return replace(self, references=(*self.references, *references))
+
     def with_mechanism(self, drm: Pair, sd: Pair) -> Robot:
         """The same robot with the MAEMM known as given."""
         return replace(self, drm=drm, drm_sd=sd)
@@ -187,6 +230,8 @@ class _RobotSection(Section):
     """Serial number of the robot."""
     model: Literal["five-bar"] = "five-bar"
     """Kind of machine."""
+    accuracy_mm: Positive | None = None
+    """Largest position error over the workspace that is wanted of a calibration, mm."""
     e: tuple[tuple[Finite, Finite], tuple[Finite, Finite]] = Robot.e
     """Base joints 1 and 2, (x, y), mm."""
     L: Positive | tuple[Positive, Positive] = Robot.L
@@ -205,6 +250,8 @@ class _MechanismSection(Section):
     """Expected mounting error, mm."""
     drm_sd_mm: Positive | tuple[Positive, Positive] = Robot.drm_sd
     """How well it is known, mm."""
+    reference: tuple[MountingError, ...] = ()
+    """Measured errors of the mounting; they last until the mechanism is mounted anew."""
     mounts: dict[str, tuple[Finite, Finite]] = Field(default_factory=dict)
     """Further mounting points c by the `mount` id of the measurement file, mm."""
 
@@ -260,7 +307,12 @@ class RobotFile(Section):
             zero_at_deg=self.joints.zero_at_deg,
             sign=self.joints.sign if isinstance(self.joints.sign, tuple) else (self.joints.sign,) * 2,
             feedback_sd_deg=self.joints.feedback_sd_deg,
+            accuracy_mm=self.robot.accuracy_mm,
         )
+        try:
+            robot = robot.informed(self.mechanism.reference)
+        except InputRefused as error:
+            raise InputRefused(f"{source}: [[mechanism.reference]] {error}") from error
         try:
             inverse(robot.geometry, robot.workspace_grid(3, 3))
         except Unreachable as error:

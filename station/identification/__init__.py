@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from station.identification.bound import PLAN_ENDED, accuracy_of, bounds_mm, with_accuracy
 from station.identification.document import gate_record, identification_document, position_error_map
 from station.identification.estimate import Gate, Identification, identify
 from station.identification.memory import Memory
@@ -17,10 +18,13 @@ from station.identification.verification import (
 )
 
 __all__ = [
+    "PLAN_ENDED",
     "Gate",
     "Identification",
     "Memory",
     "Verification",
+    "accuracy_of",
+    "bounds_mm",
     "fresh_stops",
     "fresh_stops_of",
     "gate_record",
@@ -31,5 +35,6 @@ __all__ = [
     "prediction_fault",
     "result_of",
     "verify",
+    "with_accuracy",
     "without_jump",
 ]

@@ -11,6 +11,7 @@ from scipy.special import chdtrc
 from station.fitting import REFUSED_P
 from station.five_bar import FRESH_INSET_MM, FiveBar, Robot, inverse
 from station.identification.estimate import Identification
+from station.identification.references import contradicted
 from station.records import (
     LIMIT_SDS,
     Accuracy,
@@ -19,6 +20,7 @@ from station.records import (
     Reading,
     Real,
     Reason,
+    ReferenceUse,
     Stop,
     because,
     from_readings,
@@ -129,6 +131,7 @@ def result_of(
             predicted_position_error_mm=fit.position_error(compensated=True),
         ),
         residuals=residual_rows(readings, residual, np.full(len(readings), limit)),
+        references=fit.references,
         lack_of_fit=misfit.text if misfit else None,
     )
 
@@ -164,6 +167,17 @@ def prediction_fault(check: Verification) -> Reason | None:
     )
 
 
+def reference_contradicted(use: ReferenceUse) -> Reason:
+    """Why a result that rests on this reference cannot be believed."""
+    return because(
+        "reference_contradicted",
+        reference=use.reference.words,
+        difference=use.residual or 0.0,
+        sd=use.sd or 0.0,
+        unit=use.unit,
+    )
+
+
 def _not_finite(fit: Identification[FiveBar]) -> Reason | None:
     """Why nothing can be said of the run; None when all numbers are finite."""
     sd = np.sqrt(np.diag(fit.covariance)[:2])
@@ -174,6 +188,8 @@ def _not_finite(fit: Identification[FiveBar]) -> Reason | None:
 
 def _misfit(fit: Identification[FiveBar], check: Verification) -> Reason | None:
     """What the model does not account for, in the readings or in the fresh ones; None when it fits."""
+    if worst := contradicted(fit.references):
+        return reference_contradicted(worst)
     if not fit.adequate:
         return because("lack_of_fit", p=fit.lack_of_fit_p)
     return prediction_fault(check)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from station.records.accuracy import PositionError, Remedy, WeakDirection
+from station.records.accuracy import AccuracyReached, PositionError, Remedy, WeakDirection
 from station.records.backup import BackupMade
 from station.records.calibration import (
     Application,
@@ -94,6 +94,7 @@ from station.records.quantity import Quantity
 from station.records.reading import Reading
 from station.records.reason import Reason, ReasonValue, because
 from station.records.record import Record
+from station.records.references import AnyReference, JointAngle, MountingError, ReferenceUse
 from station.records.remembered import MemorySummary, Remembered
 from station.records.residuals import LIMIT_SDS, residual_rows
 from station.records.result import (
@@ -134,8 +135,10 @@ __all__ = [
     "MODEL_SCHEMA",
     "TIME",
     "Accuracy",
+    "AccuracyReached",
     "Angles",
     "AnyModelDocument",
+    "AnyReference",
     "Application",
     "ApplicationRun",
     "ApplicationState",
@@ -168,6 +171,7 @@ __all__ = [
     "Index",
     "Interlock",
     "Iteration",
+    "JointAngle",
     "JointApplication",
     "JointCurve",
     "KeptRobot",
@@ -181,6 +185,7 @@ __all__ = [
     "MistakeRecord",
     "MixtureDocument",
     "ModelDocument",
+    "MountingError",
     "NoiseOfReadings",
     "Outcome",
     "OutlierNote",
@@ -201,6 +206,7 @@ __all__ = [
     "ReasonValue",
     "Record",
     "ReferenceOfReadings",
+    "ReferenceUse",
     "RefusedDiagnosis",
     "Remedy",
     "Remembered",

@@ -6,11 +6,12 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from station.records.accuracy import PositionError, WeakDirection
+from station.records.accuracy import AccuracyReached, PositionError, WeakDirection
 from station.records.diagnosis_document import DiagnosisDocument, Finding
 from station.records.quantity import Quantity
 from station.records.reason import Reason
 from station.records.record import Record
+from station.records.references import MountingError, ReferenceUse
 
 Verdict = Literal["pass", "fail"]
 Outcome = Literal[
@@ -83,6 +84,8 @@ class LastingParameters(Record):
     names: tuple[str, ...]
     mean: tuple[float, ...]
     covariance: tuple[tuple[float, ...], ...]
+    references: tuple[MountingError, ...] = ()
+    """Measurements of the mounting that took part."""
 
 
 class ResultParts(Record):
@@ -96,11 +99,15 @@ class ResultParts(Record):
     """With no compensation."""
     after: Accuracy | None = None
     """With the identified offsets applied."""
+    accuracy: AccuracyReached | None = None
+    """What is promised of positions, beside what was wanted; null where no offsets were identified."""
     iterations: tuple[Iteration, ...] = ()
     residuals: tuple[Residual, ...] = ()
     """Of the readings of the fit."""
     memory: MemoryUse | None = None
     """Null when nothing was known before."""
+    references: tuple[ReferenceUse, ...] = ()
+    """What other instruments measured, and how well it agrees with the rest."""
     lack_of_fit: str | None = None
     """What the model does not account for; null when it fits or none was judged."""
     findings: tuple[Finding, ...] = ()

@@ -9,6 +9,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any
 
+from station.records.references import AnyReference
+
 
 class State(StrEnum):
     """Of a calibration run."""
@@ -46,6 +48,12 @@ class CalibrationRequest:
     metadata: dict[str, Any] = field(default_factory=dict)
     of: int | None = None
     """The earlier run that this one is about or continues; else None."""
+    references: tuple[AnyReference, ...] = ()
+    """What other instruments say, for this run."""
+    until_mm: float | None = None
+    """Bound on the largest position error at which plan `adaptive` ends."""
+    accuracy_mm: float | None = None
+    """Largest position error that is wanted."""
 
     @property
     def label(self) -> str:

@@ -12,7 +12,7 @@ from types import MappingProxyType
 
 from station.five_bar import Robot
 from station.plans import PLANS
-from station.records import CalibrationRequest, PlanName, Procedure, Reading
+from station.records import Calibration, CalibrationRequest, PlanName, Procedure, Reading
 from station.store import Store
 
 
@@ -37,6 +37,12 @@ class Start:
         if self.request.plan is None:
             raise ValueError(f"a run of kind {self.request.kind} names no plan")
         return self.request.plan
+
+    @property
+    def wanted_mm(self) -> float | None:
+        """Largest position error that is wanted; None where nobody said."""
+        request = self.request
+        return request.until_mm or request.accuracy_mm or self.robot.accuracy_mm
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,6 +85,16 @@ class RunKind:
     def plans(self) -> tuple[PlanName, ...]:
         """Plans that this kind measures by; a start request that names one of them is of this kind."""
         return tuple(plan.name for plan in PLANS.values() if plan.run_kind == self.name)
+
+
+def robot_as_measured(store: Store, calibration: Calibration) -> Robot:
+    """The robot file of an ended run, with the references that it was started with.
+
+    :raises NotFound: no such run.
+    """
+    robot = store.robot_of(calibration.id)
+    own = [use.reference for use in calibration.references if use.reference not in robot.references]
+    return robot.informed(own)
 
 
 _KINDS: dict[str, RunKind] = {}

@@ -127,12 +127,13 @@ class Orchestrator:
             if trouble := self.no_room():
                 raise StoreUnavailable(trouble)
             robot = self._robot(request.robot_serial)
+            measured = robot.informed(request.references)
             kind.check(self._store, request)
             uid = uid7()
             calibration_id = self._store.create(
                 request, robot, key=idempotency_key, body_hash=body_hash, uid=uid
             )
-            run = Run(calibration_id, uid, request, robot)
+            run = Run(calibration_id, uid, request, measured)
             with self._lock:
                 self._run = run
         self._listeners.publish("run", run.brief())

@@ -37,6 +37,7 @@ from station.store.rows import (
     LIST_COLUMNS,
     READING_COLUMNS,
     Page,
+    asked_more,
     calibration_from_row,
     compact,
     document_from,
@@ -114,6 +115,8 @@ class Store(Memories, ZeroJournal):
                 if taken is not None:
                     raise KeyReused(int(taken[0]))
                 db.execute("INSERT INTO idempotency_keys VALUES (?, ?, ?)", [key, body_hash, calibration_id])
+            if more := asked_more(request):
+                self.add_event(calibration_id, "asked", more)
         self._times.begin(calibration_id, created_ms)
         return calibration_id
 

@@ -41,7 +41,7 @@ def start_calibration(
     idempotency_key: IdempotencyKey = None,
 ) -> CalibrationSummary:
     """Start a run.  The same `Idempotency-Key` with the same body answers the same run."""
-    request = CalibrationRequest(kind=kind_of_plan(body.plan), **body.model_dump())
+    request = CalibrationRequest(kind=kind_of_plan(body.plan), **dict(body))
     submitted = runtime.orchestrator.submit(request, idempotency_key=idempotency_key)
     return _started(submitted, runtime, response)
 
