@@ -116,7 +116,10 @@ class LimitSettings(_Section):
     swing_mm: Annotated[float, Field(ge=0, le=200)] = 80.0
     """How far outside it the arm may swing on the way, zero offsets not yet known included."""
     settle_s: Annotated[float, Field(ge=0, le=10)] = 0.3
-    """Pause between standstill and the first sample."""
+    """Longest wait after standstill for samples that agree; after it they only have to be within
+    `scale_spread_mm`."""
+    settled_mm: Annotated[float, Field(ge=0, le=1)] = 0.006
+    """Samples within this of each other agree: the arm has come to rest."""
     samples: Annotated[int, Field(ge=2, le=100)] = 5
     """Samples of the scale in one reading."""
     scale_spread_mm: Annotated[float, Field(gt=0, le=1)] = 0.05

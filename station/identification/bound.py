@@ -37,8 +37,13 @@ def accuracy_of(
     return AccuracyReached.of(by_drives, by_model, wanted_mm, stopped)
 
 
-def with_accuracy(result: CalibrationResult, accuracy: AccuracyReached) -> CalibrationResult:
-    """The result, no pass where the wish is not met: what nobody could compute is not met either."""
+def with_accuracy(
+    result: CalibrationResult, accuracy: AccuracyReached, possible_mm: float | None = None
+) -> CalibrationResult:
+    """The result, no pass where the wish is not met: what nobody could compute is not met either.
+
+    :param possible_mm: what further readings could reach; by default what was reached
+    """
     result = result.model_copy(update={"accuracy": accuracy})
     if result.verdict != "pass" or accuracy.reached is not False:
         return result
@@ -46,5 +51,7 @@ def with_accuracy(result: CalibrationResult, accuracy: AccuracyReached) -> Calib
     if accuracy.bound_95_mm is None:
         reason = because("accuracy_unknown", wanted_mm=wanted_mm)
     else:
-        reason = because("not_accurate_enough", wanted_mm=wanted_mm, possible_mm=accuracy.bound_95_mm)
+        reason = because(
+            "not_accurate_enough", wanted_mm=wanted_mm, possible_mm=possible_mm or accuracy.bound_95_mm
+        )
     return result.model_copy(update={"verdict": "fail", "outcome": "not_accurate_enough", "reason": reason})

@@ -135,7 +135,8 @@ class Identification(Generic[M_co]):
         names = tuple(parameters[i].name for i in kept)
         measured = tuple(u.reference for u in self.references if isinstance(u.reference, MountingError))
         held = tuple(dict.fromkeys((*self.remembered, *measured)))
-        return Memory(names, self.p[kept], self.covariance[np.ix_(kept, kept)], held)
+        ratio = self.noise.sigma_mm / float(np.sqrt(np.mean(self.mechanism.row_sd**2)))
+        return Memory(names, self.p[kept], self.covariance[np.ix_(kept, kept)], ratio, held)
 
     def quantities(self) -> tuple[Quantity, ...]:
         """Every parameter in shown units with its standard uncertainty.

@@ -34,6 +34,8 @@ class Memory:
     """(M,) mm"""
     covariance: Real
     """(M, M)"""
+    noise_ratio: float = 1.0
+    """Noise of a reading over its specification, as repeats showed it."""
     references: tuple[MountingError, ...] = ()
     """Measurements of the mounting that it holds already; what is measured once counts once."""
 
@@ -45,12 +47,15 @@ class Memory:
             mean=tuple(self.mean.tolist()),
             covariance=covariance,
             references=self.references,
+            noise_ratio=self.noise_ratio,
         )
 
     @classmethod
     def of(cls, kept: LastingParameters) -> Memory:
         """From what the store kept."""
-        return cls(kept.names, np.array(kept.mean), np.array(kept.covariance), kept.references)
+        return cls(
+            kept.names, np.array(kept.mean), np.array(kept.covariance), kept.noise_ratio, kept.references
+        )
 
     def aged(self, parameters: tuple[Parameter, ...], years: float) -> Memory:
         """The same, less sure by what may have changed since."""
@@ -73,11 +78,11 @@ class Memory:
             off = value - known.mean[i]
             variance = known.covariance[i, i] + sd**2
             gain = known.covariance[:, i] / variance
-            known = Memory(
-                known.names,
-                known.mean + gain * off,
-                known.covariance - np.outer(gain, known.covariance[i]),
-                (*known.references, reference),
+            known = replace(
+                known,
+                mean=known.mean + gain * off,
+                covariance=known.covariance - np.outer(gain, known.covariance[i]),
+                references=(*known.references, reference),
             )
             p_value = min(p_value, float(2.0 * ndtr(-abs(off) / np.sqrt(variance))))
         return known, p_value

@@ -102,6 +102,30 @@ def result_of(
 ) -> CalibrationResult:
     """Zero offsets with uncertainty, before and after, and a verdict that fails closed."""
     check = verify(fit, from_readings(fresh))
+    result = _result(
+        fit, readings, _misfit(fit, check), because("fresh_readings_agree", rms_um=check.rms_mm * 1e3)
+    )
+    assert result.after is not None
+    fresh_mm = {
+        "fresh_reading_rms_mm": check.rms_mm,
+        "fresh_reading_max_mm": float(np.abs(check.residual_mm).max()),
+    }
+    return result.model_copy(update={"after": result.after.model_copy(update=fresh_mm)})
+
+
+def predicted_result(fit: Identification[FiveBar], readings: list[Reading]) -> CalibrationResult:
+    """The same where each reading was predicted before it was used, which `fit.lack_of_fit_p` judges."""
+    misfit = None
+    if worst := contradicted(fit.references):
+        misfit = reference_contradicted(worst)
+    elif not fit.adequate:
+        misfit = because("predictions_disagree", p=fit.lack_of_fit_p)
+    return _result(fit, readings, misfit, because("readings_as_predicted", readings=len(readings)))
+
+
+def _result(
+    fit: Identification[FiveBar], readings: list[Reading], misfit: Reason | None, agreed: Reason
+) -> CalibrationResult:
     quantities = fit.quantities()
     everything = from_readings(readings)
     mechanism = FiveBar(fit.mechanism.robot, everything)
@@ -109,13 +133,12 @@ def result_of(
     raw = everything.distance - mechanism.observe(start, everything.theta).value
     residual = everything.distance - mechanism.observe(fit.p, everything.theta).value
     limit = LIMIT_SDS * fit.noise.sigma_mm
-    misfit = _misfit(fit, check)
     not_finite = _not_finite(fit)
     fault = not_finite or misfit
     return CalibrationResult(
         verdict="fail" if fault else "pass",
         outcome="failed" if not_finite else "unexplained" if misfit else "good",
-        reason=fault or because("fresh_readings_agree", rms_um=check.rms_mm * 1e3),
+        reason=fault or agreed,
         method="measurement model",
         zero_offsets=quantities[:2],
         parameters=quantities[2:],
@@ -126,8 +149,6 @@ def result_of(
         ),
         after=Accuracy(
             reading_rms_mm=float(np.sqrt(np.mean(fit.residual_mm**2))),
-            fresh_reading_rms_mm=check.rms_mm,
-            fresh_reading_max_mm=float(np.abs(check.residual_mm).max()),
             predicted_position_error_mm=fit.position_error(compensated=True),
         ),
         residuals=residual_rows(readings, residual, np.full(len(readings), limit)),

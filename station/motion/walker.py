@@ -31,6 +31,10 @@ _STILL_DEG = 0.004
 """Two pulses: less is no motion that could have a direction."""
 
 
+_Samples = tuple[list[float], Angles]
+"""Of the scale, and the mean feedback."""
+
+
 class Cancelled(Exception):
     """The run was told to end."""
 
@@ -86,8 +90,8 @@ class Walker:
         :raises DeviceError: a device failed.
         :raises StepFailed: a limit forbids the stop, it was not reached, or its reading is in doubt.
         """
-        self.stand_at(stop)
-        samples, theta = self._samples(stop, number)
+        self._move_to(stop)
+        samples, theta = self._settled() or self._samples(stop, number)
         scale_mm = round(statistics.fmean(samples), _DIGITS)
         self._check_stands(stop, theta)
         self._check_travel(stop, number, samples, theta)
@@ -97,12 +101,15 @@ class Walker:
 
     def stand_at(self, stop: Stop) -> None:
         """Go there and come to rest.  :raises: as `measure`."""
+        self._move_to(stop)
+        self._pause(self.machine.limits.settle_s)
+
+    def _move_to(self, stop: Stop) -> None:
         way = self._way(stop)
         check_way(self.robot, self.joints, self.machine.limits, stop, [self._theta, *way])
         self.machine.compensation_deg = self._compensation(stop)
         for target in way:
             self._go(stop, target, self.machine.limits.speed_deg_s)
-        self._pause(self.machine.limits.settle_s)
 
     def go(self, stop: Stop, speed_deg_s: float, *, scale: bool) -> None:
         """Straight there at a speed, without a check of limits.  :raises: as `measure`
@@ -203,30 +210,48 @@ class Walker:
 
     # Reading --------------------------------------------------------------------------------------
 
-    def _samples(self, stop: Stop, number: int) -> tuple[list[float], Angles]:
-        """Scale samples that agree, and the mean feedback; one second try."""
+    def _settled(self) -> _Samples | None:
+        """The first samples that agree; None where none do within the longest wait.
+
+        No wait is longer than a fixed pause was: what is still moving then is judged as before.
+        """
+        limits = self.machine.limits
+        until = time.monotonic() + limits.settle_s / self.machine.devices.speed
+        scale: list[float] = []
+        angles: list[Angles] = []
+        while len(scale) < limits.samples or time.monotonic() < until:
+            self._sample(scale, angles)
+            last = scale[-limits.samples :]
+            if not math.isfinite(scale[-1]):
+                return None
+            if len(last) == limits.samples and max(last) - min(last) <= limits.settled_mm:
+                return last, _mean(angles[-limits.samples :])
+        return None
+
+    def _samples(self, stop: Stop, number: int) -> _Samples:
+        """Scale samples that are near each other, and the mean feedback; one second try."""
         spread = 0.0
         for _ in range(2):
             scale: list[float] = []
             angles: list[Angles] = []
             for _ in range(self.machine.limits.samples):
-                self.check_cancel()
-                with self.machine.using(self.machine.devices.scale):
-                    scale.append(self.machine.devices.scale.read_mm())
-                angles.append(self._feedback())
+                self._sample(scale, angles)
             if not all(math.isfinite(value) for value in scale):
                 raise StepFailed(f"Reading {number} at position {stop.position} is not a number.")
             spread = max(scale) - min(scale)
             if spread <= self.machine.limits.scale_spread_mm:
-                return scale, (
-                    round(statistics.fmean(pair[0] for pair in angles), _DIGITS),
-                    round(statistics.fmean(pair[1] for pair in angles), _DIGITS),
-                )
+                return scale, _mean(angles)
             self._pause(self.machine.limits.settle_s)
         raise StepFailed(
             f"Reading {number} at position {stop.position} does not settle: its samples spread"
             f" {spread:.4f} mm, {self.machine.limits.scale_spread_mm:g} mm is allowed."
         )
+
+    def _sample(self, scale: list[float], angles: list[Angles]) -> None:
+        self.check_cancel()
+        with self.machine.using(self.machine.devices.scale):
+            scale.append(self.machine.devices.scale.read_mm())
+        angles.append(self._feedback())
 
     def _feedback(self) -> Angles:
         angles = []
@@ -284,6 +309,13 @@ class Walker:
         """:raises Cancelled: stop was pressed."""
         if self.cancel.is_set():
             raise Cancelled
+
+
+def _mean(angles: Sequence[Angles]) -> Angles:
+    return (
+        round(statistics.fmean(pair[0] for pair in angles), _DIGITS),
+        round(statistics.fmean(pair[1] for pair in angles), _DIGITS),
+    )
 
 
 def _direction(travel_deg: float, before: int) -> int:

@@ -86,6 +86,8 @@ class LastingParameters(Record):
     covariance: tuple[tuple[float, ...], ...]
     references: tuple[MountingError, ...] = ()
     """Measurements of the mounting that took part."""
+    noise_ratio: float = 1.0
+    """Noise of a reading over its specification, as repeats showed it."""
 
 
 class ResultParts(Record):

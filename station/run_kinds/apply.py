@@ -30,7 +30,9 @@ from station.records import (
     from_readings,
     residual_rows,
 )
-from station.run_kinds.calibrate import fit_of, passes_apart
+from station.run_kinds.adaptive import fit_in_sequence
+from station.run_kinds.calibrate import passes_apart
+from station.run_kinds.fits import fit_of
 from station.run_kinds.kind import RunKind, Start, register, robot_as_measured
 from station.run_kinds.zero_state import check_apply, check_roll_back, rolled_back_by
 from station.store import Store
@@ -68,9 +70,9 @@ def source_of(store: Store, calibration_id: int) -> Source:
         readings = [r for r in readings if r.walk == 1]
     use = calibration.memory
     memory = store.memory_left_by(use.from_calibration) if use and use.used else None
-    fit = fit_of(
-        robot_as_measured(store, calibration), readings, memory, (use.age_days if use else None) or 0.0
-    )
+    refit = fit_in_sequence if calibration.plan == "adaptive" else fit_of
+    robot = robot_as_measured(store, calibration)
+    fit = refit(robot, readings, memory, (use.age_days if use else None) or 0.0)
     offsets = [zero.value_deg for zero in calibration.zero_offsets if zero.value_deg is not None]
     if len(offsets) != 2:
         raise InputRefused(f"Run {calibration_id} has no zero offsets; calibrate again.")

@@ -8,17 +8,13 @@ import numpy as np
 from scipy.special import chdtrc
 
 from station.errors import InputRefused
-from station.five_bar import FiveBar, Robot
+from station.five_bar import Robot
 from station.identification import (
     PLAN_ENDED,
-    Identification,
-    Memory,
     Verification,
     accuracy_of,
     fresh_stops,
     fresh_stops_of,
-    gate_record,
-    identify,
     not_identified,
     prediction_fault,
     result_of,
@@ -30,18 +26,16 @@ from station.published import MAX_PASSES, PublishedRun
 from station.records import (
     AccuracyReached,
     CalibrationResult,
-    MemoryUse,
     PlanName,
     Procedure,
     Reading,
     Remembered,
     Walk,
     because,
-    from_readings,
 )
+from station.run_kinds.adaptive import adaptive
+from station.run_kinds.fits import fit_of, with_memory_use
 from station.run_kinds.kind import RunKind, Start, register
-
-DAYS_PER_YEAR = 365.25
 
 
 def calibrate(start: Start) -> Procedure:
@@ -52,6 +46,8 @@ def calibrate(start: Start) -> Procedure:
     if start.plan == "paper":  # the published method has no use for what earlier runs know
         return published(start.robot, start.wanted_mm)
     memory = start.store.memory(start.robot.serial)
+    if start.plan == "adaptive":
+        return adaptive(start.robot, memory, start.wanted_mm, start.pace)
     return measured_and_verified(start.plan, start.robot, memory, start.wanted_mm)
 
 
@@ -127,28 +123,7 @@ def measured_and_verified(
     result = result_of(fit, readings, fresh).model_copy(update={"lasting": fit.lasting.record()})
     result = without_jump(result, robot, [*readings, *fresh])
     result = with_accuracy(result, accuracy_of(fit, wanted_mm))
-    if memory is None or fit.gate is None:
-        return result
-    use = MemoryUse(**dict(gate_record(fit.gate)), from_calibration=memory.calibration_id, age_days=age_days)
-    return result.model_copy(update={"memory": use})
-
-
-def fit_of(
-    robot: Robot, readings: list[Reading], memory: Remembered | None, age_days: float
-) -> Identification[FiveBar]:
-    """The measurement model on readings, with what is remembered as it was at that age.
-
-    :raises InputRefused: as `identify`.
-    """
-    measurements = from_readings(readings)
-    if memory is None:
-        return identify(robot, measurements)
-    parameters = FiveBar(robot, measurements).parameters
-    return identify(
-        robot,
-        measurements,
-        Memory.of(memory.memory).aged(parameters, age_days / DAYS_PER_YEAR),
-    )
+    return with_memory_use(result, fit.gate, memory, age_days)
 
 
 CALIBRATE = register(RunKind("calibrate", calibrate, offsets=True))

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 
 from station.five_bar import Robot
-from station.plans import PLANS
+from station.plans import PLANS, USUAL, Pace
 from station.records import Calibration, CalibrationRequest, PlanName, Procedure, Reading
 from station.store import Store
 
@@ -23,6 +23,8 @@ class Start:
     store: Store
     request: CalibrationRequest
     robot: Robot
+    pace: Pace = USUAL
+    """Of this station."""
 
     @property
     def of(self) -> int:

@@ -31,7 +31,7 @@ from station.motion import (
     Walker,
     Zeroing,
 )
-from station.plans import PLANS
+from station.plans import PLANS, Pace
 from station.records import (
     CalibrationRequest,
     CalibrationResult,
@@ -386,7 +386,7 @@ class Orchestrator:
         walker.prepare(from_outside=kind.from_outside)
         zeroing = Zeroing(run.id, self._machine, walker, self._store)
         zeroing.settle()
-        procedure = kind.procedure(Start(self._store, run.request, run.robot))
+        procedure = kind.procedure(Start(self._store, run.request, run.robot, Pace.of(self._settings.limits)))
 
         def carry_out(step: Step) -> Any:
             match step:

@@ -62,10 +62,12 @@ def test_it_ties_down_what_readings_cannot(readings: Measurements) -> None:
 
 def test_it_agrees_or_is_doubted(readings: Measurements) -> None:
     good = fit(readings, seen(TRUTH)).references[0]
+    assert good.p_value is not None
     assert good.p_value > 1e-3
     assert contradicted((good,)) is None
     wrong = fit(readings, seen(TRUTH, 1.0)).references[0]
     assert contradicted((good, wrong)) == wrong
+    assert wrong.residual is not None
     assert wrong.residual == pytest.approx(1.0, abs=0.5)
 
 
