@@ -29,6 +29,7 @@ _COMMANDS = {
     "reproduce": ("studies", "The paper's tables and figures, computed again beside ours."),
     "restore": ("restoring", "Put a backup in the place of the history; what was there is kept."),
     "retract": ("apply", "Bring the arm back into its workspace, slowly."),
+    "robot": ("robot", "Write an arm's robot file from its URDF description."),
     "rollback": ("apply", "Put the zeros back that the drives had before a run was applied."),
     "runs": ("history", "The runs, newest first."),
     "serve": ("serve", "The service with the operator's page."),

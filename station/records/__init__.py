@@ -120,7 +120,7 @@ from station.records.run import (
     Submitted,
     ZeroWrite,
 )
-from station.records.sections import Finite, Positive, Section, Sections, refusal
+from station.records.sections import Finite, Positive, Section, Sections, refusal, sections_to_toml
 from station.records.types import LARGEST_ID, Angles, Complex, Index, Real
 from station.records.uid import uid7
 from station.records.visited import inside_visited, visited_in_degrees, visited_ranges
@@ -255,6 +255,7 @@ __all__ = [
     "recorded_columns",
     "refusal",
     "residual_rows",
+    "sections_to_toml",
     "translated",
     "uid7",
     "visited_in_degrees",
