@@ -121,7 +121,8 @@ from station.records.run import (
     ZeroWrite,
 )
 from station.records.sections import Finite, Positive, Section, Sections, refusal, sections_to_toml
-from station.records.types import LARGEST_ID, Angles, Complex, Index, Real
+from station.records.trend import TrendPoint
+from station.records.types import LARGEST_ID, Angles, Complex, Flags, Index, Real
 from station.records.uid import uid7
 from station.records.visited import inside_visited, visited_in_degrees, visited_ranges
 
@@ -162,6 +163,7 @@ __all__ = [
     "ExplanationRecord",
     "Finding",
     "Finite",
+    "Flags",
     "ForeignTable",
     "GateOfMemory",
     "IdentificationDocument",
@@ -234,6 +236,7 @@ __all__ = [
     "Table",
     "TemperatureReference",
     "TermOfModel",
+    "TrendPoint",
     "Verdict",
     "WeakDirection",
     "Workspace",
