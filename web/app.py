@@ -22,6 +22,7 @@ from web.routes import (
     health,
     live,
     plans,
+    quality,
     readings,
     retract,
     robots,
@@ -56,7 +57,8 @@ def create_app(runtime: Runtime, *, static: Path = pages.STATIC) -> FastAPI:
     app.state.runtime = runtime
     app.state.feed = LiveFeed(runtime.orchestrator, build=pages.build_id(static))
     for module in (
-        station, backups, calibrations, datasets, diagnoses, emulator, plans, readings, retract, robots, stop,
+        station, backups, calibrations, datasets, diagnoses, emulator, plans, quality, readings, retract,
+        robots, stop,
     ):  # fmt: skip
         app.include_router(module.router, prefix=API, dependencies=[Depends(known_query(API))])
     app.include_router(live.router, prefix=API)

@@ -7,8 +7,8 @@ from station.motion.emulated_rig import EffectTable, EmulatedRig
 from station.motion.emulated_rig import FaultOrder as FaultOrder
 from station.motion.events import Listener, Listeners, LiveEvent
 from station.motion.machine import Machine
+from station.motion.positioner import Cancelled, Positioner
 from station.motion.retracting import Retracting
-from station.motion.walker import Cancelled, Walker
 from station.motion.zero_writer import Zeroing, shift_of
 
 __all__ = [
@@ -21,8 +21,8 @@ __all__ = [
     "Listeners",
     "LiveEvent",
     "Machine",
+    "Positioner",
     "Retracting",
-    "Walker",
     "Zeroing",
     "build_devices",
     "shift_of",

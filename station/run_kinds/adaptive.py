@@ -40,12 +40,12 @@ from station.plans import (
 from station.records import (
     CalibrationResult,
     Complex,
+    MeasurementSequence,
     Procedure,
     Reading,
     Real,
     Remembered,
     Stop,
-    Walk,
 )
 from station.run_kinds.fits import aged, with_memory_use
 
@@ -251,7 +251,7 @@ def adaptive(robot: Robot, remembered: Remembered | None, wanted_mm: float | Non
         number = len(known.readings) + 1
         now = Situation(known, aim, here_deg)
         stop = now.stop_at(first[number - 1] if number <= len(first) else now.next_place())
-        readings: list[Reading] = yield Walk(f"Measuring, reading {number}", 1, (stop,))
+        readings: list[Reading] = yield MeasurementSequence(f"Measuring, reading {number}", 1, (stop,))
         known, here_deg = known.absorb(readings[0]), np.array(readings[0].theta_deg)
         try:
             stopped = Situation(known, aim, here_deg).stops_because()

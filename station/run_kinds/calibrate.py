@@ -26,11 +26,11 @@ from station.published import MAX_PASSES, PublishedRun
 from station.records import (
     AccuracyReached,
     CalibrationResult,
+    MeasurementSequence,
     PlanName,
     Procedure,
     Reading,
     Remembered,
-    Walk,
     because,
 )
 from station.run_kinds.adaptive import adaptive
@@ -57,7 +57,7 @@ def published(robot: Robot, wanted_mm: float | None = None) -> Procedure:
     everything: list[Reading] = []
     for number in range(1, MAX_PASSES + 1):
         stops = make_plan("paper", robot, run.total).stops
-        readings: list[Reading] = yield Walk(f"Measuring, pass {number}", number, stops)
+        readings: list[Reading] = yield MeasurementSequence(f"Measuring, pass {number}", number, stops)
         run.absorb(readings)
         everything += readings
         if run.converged:
@@ -66,7 +66,7 @@ def published(robot: Robot, wanted_mm: float | None = None) -> Procedure:
     if result.outcome != "not_verified":
         return without_jump(result, robot, everything)
     stops = fresh_stops_of(robot, run.total, seed=len(everything))
-    fresh: list[Reading] = yield Walk("Verifying at fresh places", number + 1, stops)
+    fresh: list[Reading] = yield MeasurementSequence("Verifying at fresh positions", number + 1, stops)
     result = without_jump(_verified(run, result, fresh), robot, [*everything, *fresh])
     return with_accuracy(result, _published_accuracy(run, everything, wanted_mm))
 
@@ -84,7 +84,7 @@ def _published_accuracy(
 
 def passes_apart(readings: list[Reading]) -> list[Reading]:
     """Of plan `paper`: a position's passes stand at different angles, they are no repeats."""
-    return [replace(r, position=f"{r.position} pass {r.walk}") for r in readings]
+    return [replace(r, position=f"{r.position} pass {r.sequence}") for r in readings]
 
 
 def _verified(run: PublishedRun, result: CalibrationResult, fresh: list[Reading]) -> CalibrationResult:
@@ -112,14 +112,14 @@ def _verified(run: PublishedRun, result: CalibrationResult, fresh: list[Reading]
 def measured_and_verified(
     plan: PlanName, robot: Robot, memory: Remembered | None = None, wanted_mm: float | None = None
 ) -> Procedure:
-    """The measurement model on a chosen plan, then fresh places that took no part in the fit."""
-    readings: list[Reading] = yield Walk("Measuring", 1, make_plan(plan, robot).stops)
+    """The measurement model on a chosen plan, then fresh positions that took no part in the fit."""
+    readings: list[Reading] = yield MeasurementSequence("Measuring", 1, make_plan(plan, robot).stops)
     age_days = memory.age_days if memory else 0.0
     try:
         fit = fit_of(robot, readings, memory, age_days)
     except InputRefused as refusal:
         return without_jump(not_identified(str(refusal)), robot, readings)
-    fresh: list[Reading] = yield Walk("Verifying at fresh places", 2, fresh_stops(fit))
+    fresh: list[Reading] = yield MeasurementSequence("Verifying at fresh positions", 2, fresh_stops(fit))
     result = result_of(fit, readings, fresh).model_copy(update={"lasting": fit.lasting.record()})
     result = without_jump(result, robot, [*readings, *fresh])
     result = with_accuracy(result, accuracy_of(fit, wanted_mm))

@@ -1,4 +1,4 @@
-"""Runs calibrations one at a time: states, the worker that walks, abort, stop, make-safe.
+"""Runs calibrations one at a time: states, the worker that measures, abort, stop, make-safe.
 
 One worker thread does all ordinary work with the devices, so that nothing has to share them; while
 nothing runs it looks at the machine twice a second.  `stop` and `abort` work from any thread and go
@@ -27,8 +27,8 @@ from station.motion import (
     Listeners,
     LiveEvent,
     Machine,
+    Positioner,
     Retracting,
-    Walker,
     Zeroing,
 )
 from station.plans import PLANS, Pace
@@ -36,6 +36,7 @@ from station.records import (
     CalibrationRequest,
     CalibrationResult,
     CalibrationSummary,
+    MeasurementSequence,
     Reading,
     Reason,
     Retract,
@@ -45,7 +46,6 @@ from station.records import (
     StationView,
     Step,
     Submitted,
-    Walk,
     Workspace,
     because,
     uid7,
@@ -380,24 +380,24 @@ class Orchestrator:
         kind = self._kinds[run.request.kind]
         assert kind.procedure is not None
         elapsed_s = self._continue(run, kind)
-        walker = Walker(
+        positioner = Positioner(
             self._machine, run.robot, self._settings.joints, run.cancel, time.monotonic() - elapsed_s
         )
-        walker.prepare(from_outside=kind.from_outside)
-        zeroing = Zeroing(run.id, self._machine, walker, self._store)
+        positioner.prepare(from_outside=kind.from_outside)
+        zeroing = Zeroing(run.id, self._machine, positioner, self._store)
         zeroing.settle()
         procedure = kind.procedure(Start(self._store, run.request, run.robot, Pace.of(self._settings.limits)))
 
         def carry_out(step: Step) -> Any:
             match step:
-                case Walk():
-                    return self._walk(run, walker, step)
+                case MeasurementSequence():
+                    return self._sequence(run, positioner, step)
                 case SetZeros():
                     self._begin(run, step)
                     return zeroing.carry_out(step)
                 case Retract():
                     self._begin(run, step)
-                    return Retracting(self._machine, walker).carry_out()
+                    return Retracting(self._machine, positioner).carry_out()
 
         try:
             result = follow_procedure(procedure, carry_out)
@@ -417,16 +417,16 @@ class Orchestrator:
 
     def _begin(self, run: Run, step: SetZeros | Retract) -> None:
         """A step without readings."""
-        self._listeners.publish("walk", run.begin_walk(Walk(step.title, step.number, ())))
+        self._listeners.publish("walk", run.begin_sequence(MeasurementSequence(step.title, step.number, ())))
         self._listeners.publish("run", run.brief())
 
-    def _walk(self, run: Run, walker: Walker, walk: Walk) -> list[Reading]:
-        self._listeners.publish("walk", run.begin_walk(walk))
+    def _sequence(self, run: Run, positioner: Positioner, sequence: MeasurementSequence) -> list[Reading]:
+        self._listeners.publish("walk", run.begin_sequence(sequence))
         self._set_state(run, State.RUNNING)
         readings = []
-        for index, stop in enumerate(walk.stops):
+        for index, stop in enumerate(sequence.stops):
             try:
-                reading = walker.measure(stop, run.step + 1, walk.number)
+                reading = positioner.measure(stop, run.step + 1, sequence.number)
             except DeviceError as error:
                 raise StepFailed(f"At position {stop.position}: {error}") from error
             self._store.add_reading(run.id, reading)

@@ -52,6 +52,7 @@ from station.store.rows import (
     summary_from_row,
 )
 from station.store.times import RunTimes, now, now_ms
+from station.store.trends import Trends
 from station.store.zero_journal import ZeroJournal
 
 log = logging.getLogger(__name__)
@@ -60,7 +61,7 @@ S = TypeVar("S", bound=CalibrationSummary)
 _UNFINISHED = (State.QUEUED, State.RUNNING)
 
 
-class Store(Memories, ZeroJournal):
+class Store(Memories, ZeroJournal, Trends):
     """Thread safe.  Order is by number: the clock that gives the times may jump.
 
     Every method may raise `StoreUnavailable`, unless it says otherwise.

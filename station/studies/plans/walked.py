@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from station.records import CalibrationResult, Procedure, Reading, Walk
+from station.records import CalibrationResult, MeasurementSequence, Procedure, Reading
 from station.studies.simulation import SimulatedMachine
 
 SAMPLES = 5
@@ -29,16 +29,16 @@ def walk(procedure: Procedure, machine: SimulatedMachine) -> Walked:
     try:
         step = next(procedure)
         while True:
-            assert isinstance(step, Walk)
+            assert isinstance(step, MeasurementSequence)
             readings = _measured(machine, step, len(taken))
             taken += readings
             step = procedure.send(readings)
     except StopIteration as end:
-        own = [r.t_s for r in taken if r.walk == 1]
+        own = [r.t_s for r in taken if r.sequence == 1]
         return Walked(end.value, tuple(taken), max(own, default=0.0))
 
 
-def _measured(machine: SimulatedMachine, step: Walk, before: int) -> list[Reading]:
+def _measured(machine: SimulatedMachine, step: MeasurementSequence, before: int) -> list[Reading]:
     m = machine.run(step.stops, SAMPLES)
     return [
         Reading(
@@ -48,7 +48,7 @@ def _measured(machine: SimulatedMachine, step: Walk, before: int) -> list[Readin
             approach=(int(m.approach[k, 0]), int(m.approach[k, 1])),
             scale_mm=float(m.distance[k]),
             position=stop.position,
-            walk=step.number,
+            sequence=step.number,
             samples_mm=(float(m.distance[k]),) * SAMPLES,
         )
         for k, (stop, (a, b)) in enumerate(zip(step.stops, np.degrees(m.theta), strict=True))

@@ -19,7 +19,7 @@ DATA_ROBOT = robot_of(0.03)
 @pytest.fixture(scope="module")
 def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
     stops = make_plan("rapid", DATA_ROBOT).stops
-    m = drawn(DATA_ROBOT, 1)[0].machine().walk(stops)
+    m = drawn(DATA_ROBOT, 1)[0].machine().measure(stops)
     readings = [
         Reading(
             k + 1,

@@ -42,7 +42,7 @@ def test_machines_keep_it() -> None:
         machine, rng = drawn(robot, seed)
         seen_deg = float(np.degrees(machine.truth[0]) + rng.normal(0.0, 0.005))
         informed = robot.informed([JointAngle(joint=1, at_deg=0.0, reads_deg=seen_deg, sd_deg=0.005)])
-        fit = identify(informed, machine.machine().walk(stops))
+        fit = identify(informed, machine.machine().measure(stops))
         kept.append(np.array(machine.largest_errors_mm(fit)) <= bounds_mm(fit))
     share = np.mean(kept, axis=0)
     assert (share >= 0.875).all()
@@ -52,7 +52,7 @@ def test_machines_keep_it() -> None:
 def test_zeros_that_are_not_as_identified_are_counted() -> None:
     robot = robot_of(0.003)
     machine, _ = drawn(robot, 3)
-    fit = identify(robot, machine.machine().walk(make_plan("full", robot).stops))
+    fit = identify(robot, machine.machine().measure(make_plan("full", robot).stops))
     off = fit.dtheta + np.radians([0.2, 0.2])
     assert accuracy_of(fit, None, zeros=off).bound_95_mm > 2.0 + bounds_mm(fit)[0]  # type: ignore[operator]
 

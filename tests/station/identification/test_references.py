@@ -22,7 +22,7 @@ TRUTH = drawn_machine(np.random.default_rng(5))
 
 @pytest.fixture(scope="module")
 def readings() -> Measurements:
-    return SimulatedMachine(ROBOT, TRUTH, "whole pulses", 5).walk(make_plan("rapid", ROBOT).stops)
+    return SimulatedMachine(ROBOT, TRUTH, "whole pulses", 5).measure(make_plan("rapid", ROBOT).stops)
 
 
 def seen(truth: Real, off_deg: float = 0.0) -> JointAngle:

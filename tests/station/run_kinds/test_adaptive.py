@@ -1,4 +1,4 @@
-"""Plan `adaptive`: few readings after a collision, the promise kept, wrong memories refused, wishes answered."""
+"""Plan `adaptive`: few readings after a collision, promises kept, wrong memories refused, wishes met."""
 
 from __future__ import annotations
 
