@@ -130,6 +130,12 @@ class LimitSettings(_Section):
     """How far a moving joint may leave the way from its start to its target."""
     overshoot_deg: Annotated[float, Field(gt=0, le=5)] = 0.5
     """Run-up of a stop that must be approached from a given side."""
+    prompt_s: Annotated[float, Field(gt=0, le=86400)] = 300.0
+    """How long a run waits for an answer, in real time; then it is made safe and ends."""
+    level_sd_deg: Annotated[float, Field(gt=0, le=1)] = 0.005
+    """Standard uncertainty of a level on a link, as plan `reference` asks for it."""
+    check_valid_h: Annotated[float, Field(gt=0, le=8760)] = 24.0
+    """How long a passed check holds, hours."""
     travel_error_mm: Annotated[float, Field(gt=0, le=500)] = 60.0
     """How far the scale's travel may differ from what the joints say."""
 

@@ -84,6 +84,24 @@ class ApplyBody(BaseModel):
     operator: Name
 
 
+class AnswerBody(BaseModel):
+    """The answer to what a run asks."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    prompt: str = Field(description="`id` of the prompt")
+    value: float | None = Field(default=None, description="where a number is asked for")
+
+
+class ClearBody(BaseModel):
+    """Who lets a robot work again after a failed check, and why."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    operator: Name
+    reason: Annotated[str, StringConstraints(strip_whitespace=True, min_length=3, max_length=500)]
+
+
 class SeparatingStop(Record):
     position: str
     x_mm: float

@@ -58,7 +58,7 @@ class FiveBar:
         self.measured = measurements.distance
         self.reading_of_row: Index = np.arange(len(measurements))
         self._mount = measurements.mount
-        c = np.array([complex(*robot.mounts.get(name, robot.c)) for name in measurements.mounts])
+        c = np.array([complex(*(robot.mount_of(name) or robot.c)) for name in measurements.mounts])
         self._cd = c + complex(*robot.d)
         self._extra = len(measurements.mounts) - 1
 
@@ -77,7 +77,7 @@ class FiveBar:
         out += [Parameter(name, "geometry", "mm", 0.0, tolerance.link_mm) for name in NAMES[6:10]]
         for label in self.measurements.mounts:
             suffix = "" if label == self.measurements.mounts[0] else f"@{label}"
-            known = not suffix or label in robot.mounts
+            known = not suffix or robot.mount_of(label) is not None
             for axis, name in enumerate(("rMx", "rMy")):
                 sd = robot.drm_sd[axis] if known else UNKNOWN_MOUNT_SD_MM
                 out.append(Parameter(name + suffix, "mechanism", "mm", robot.drm[axis], sd))

@@ -45,6 +45,9 @@ MOST_ZERO_OFFSET = 4.0
 """Tolerances of a zero offset."""
 MOST_MOUNTING_SDS = 20.0
 """Standard deviations of the mounting error; more is a wrong entry."""
+SECOND = "second"
+ASIDE_MM = 200.0
+"""Where the second mounting point is, if the robot file names none."""
 FRESH_INSET_MM = 15.0
 """Kept free of it by fresh positions, which are predicted: the fit is surest in the interior."""
 
@@ -160,6 +163,22 @@ class Robot:
         """Pulses to angle of joint 1 or 2."""
         i = joint - 1
         return JointScaling(self.counts_per_rev, self.ratio, self.zero_at_deg[i], self.sign[i])
+
+    def mount_of(self, label: str) -> Pair | None:
+        """c of a mounting point; None where that is not known."""
+        if not label:
+            return self.c
+        return self.mounts.get(label, self.second_mount[1] if label == SECOND else None)
+
+    @property
+    def second_mount(self) -> tuple[str, Pair]:
+        """Label and c of the mounting point that plan `two_mounts` uses beside the first one.
+
+        The first of the robot file's, else one that much aside.
+        """
+        for label, c in self.mounts.items():
+            return label, c
+        return SECOND, (self.c[0] + ASIDE_MM, self.c[1])
 
     @property
     def pulse_deg(self) -> float:

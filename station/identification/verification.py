@@ -101,7 +101,7 @@ def result_of(
     fit: Identification[FiveBar], readings: list[Reading], fresh: list[Reading]
 ) -> CalibrationResult:
     """Zero offsets with uncertainty, before and after, and a verdict that fails closed."""
-    check = verify(fit, from_readings(fresh))
+    check = verify(fit, from_readings(fresh, fit.measurements.mounts))
     result = _result(
         fit, readings, _misfit(fit, check), because("fresh_readings_agree", rms_um=check.rms_mm * 1e3)
     )

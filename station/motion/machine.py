@@ -164,6 +164,11 @@ class Machine:
                 if status.alarm is not None or not status.enabled:
                     axis.enable()
 
+    def mounted_at(self, c: tuple[float, float]) -> None:
+        """Somebody has mounted the mechanism there, mm; with the emulated machine this does it."""
+        if self.devices.remount is not None:
+            self.devices.remount(c)
+
     # Stopping ------------------------------------------------------------------------------------
 
     def quick_stop(self) -> dict[str, str | None]:

@@ -48,6 +48,8 @@ class Positioner:
     joints: tuple[JointSettings, JointSettings]
     cancel: Event
     started: float = field(default_factory=time.monotonic)
+    mount: str | None = None
+    """Where the mechanism is mounted; None: at the robot file's `c`."""
     _theta: Angles = (math.nan, math.nan)
     _direction: tuple[int, int] = (0, 0)
     _origin: tuple[float, float] | None = None
@@ -278,7 +280,8 @@ class Positioner:
         And it must have moved at all: a readout that froze goes on to answer.
         """
         geometry = self.robot.geometry
-        distance = float(abs(forward(geometry, np.radians(np.array([theta])))[0] - geometry.cd))
+        foot = complex(*(self.robot.mount_of(self.mount or "") or self.robot.c)) + complex(*self.robot.d)
+        distance = float(abs(forward(geometry, np.radians(np.array([theta])))[0] - foot))
         scale_mm = statistics.fmean(samples)
         if self._before is not None:
             stood = abs(samples[0] - self._before[0]) < _FROZEN_MM

@@ -6,7 +6,8 @@ Each plan is a module that registers itself.  Importing the package registers th
 from __future__ import annotations
 
 # they register themselves, in the order in which they are offered
-from station.plans import boundary, full, foreseen, diagnostic_sequence  # isort: skip  # noqa: F401
+from station.plans import boundary, full, foreseen, check_positions, guided, diagnostic_sequence  # isort: skip  # noqa: F401
+from station.plans.check_positions import REST_P, SHIFT_P, ShiftTest
 from station.plans.diagnostic_sequence import FRESH_PLACES, SIDES, diagnostic_fresh_stops
 from station.plans.drawing import plan_as_text, plan_page
 from station.plans.duration import USUAL, Pace
@@ -19,12 +20,15 @@ from station.plans.quickest import Quickest
 __all__ = [
     "FRESH_PLACES",
     "PLANS",
+    "REST_P",
+    "SHIFT_P",
     "SIDES",
     "USUAL",
     "Contradiction",
     "Pace",
     "PlanDesign",
     "Quickest",
+    "ShiftTest",
     "Visits",
     "candidates",
     "changes_of",

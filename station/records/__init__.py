@@ -90,6 +90,7 @@ from station.records.measurement_file import (
 from station.records.measurements import Measurements, from_readings, number
 from station.records.plan_document import PlanDocument, PlannedStop, PlanPrediction, PredictedSd
 from station.records.procedure import Procedure
+from station.records.prompt import Prompt
 from station.records.quantity import Quantity
 from station.records.reading import Reading
 from station.records.reason import Reason, ReasonValue, because
@@ -100,6 +101,7 @@ from station.records.residuals import LIMIT_SDS, residual_rows
 from station.records.result import (
     Accuracy,
     CalibrationResult,
+    CheckFound,
     Iteration,
     LastingParameters,
     MemoryUse,
@@ -110,6 +112,7 @@ from station.records.result import (
     ZeroOffset,
 )
 from station.records.run import (
+    Ask,
     CalibrationRequest,
     MeasurementSequence,
     PlanName,
@@ -143,11 +146,13 @@ __all__ = [
     "Application",
     "ApplicationRun",
     "ApplicationState",
+    "Ask",
     "BackupMade",
     "Calibration",
     "CalibrationRequest",
     "CalibrationResult",
     "CalibrationSummary",
+    "CheckFound",
     "ColumnMap",
     "Columns",
     "Complex",
@@ -202,6 +207,7 @@ __all__ = [
     "PredictedAccuracy",
     "PredictedSd",
     "Procedure",
+    "Prompt",
     "Quantity",
     "Reading",
     "Real",

@@ -6,6 +6,7 @@ from datetime import datetime
 from typing import Literal
 
 from station.records.calibration import CalibrationSummary
+from station.records.prompt import Prompt
 from station.records.record import Record
 from station.records.result import Iteration
 from station.records.run import PlanName, State
@@ -134,6 +135,8 @@ class RunBrief(Record):
     step: int | None = None
     steps: int | None = None
     iterations: tuple[Iteration, ...] = ()
+    prompt: Prompt | None = None
+    """What the run waits to be told, in state `waiting`."""
 
 
 class RunView(RunBrief):

@@ -82,9 +82,15 @@ def number(labels: Sequence[Hashable]) -> tuple[Index, tuple[Hashable, ...]]:
     return np.array([order[label] for label in labels], dtype=np.intp), tuple(order)
 
 
-def from_readings(readings: Sequence[Reading]) -> Measurements:
-    """Readings of one run as the orchestrator and the store hold them."""
-    mount, mounts = number([r.mount or "" for r in readings])
+def from_readings(readings: Sequence[Reading], mounts: Sequence[str] = ()) -> Measurements:
+    """Readings of one run as the orchestrator and the store hold them.
+
+    :param mounts: those of the readings that they belong to, where these may lack some
+    """
+    labels = [r.mount or "" for r in readings]
+    # the robot file's own mounting point comes first, whenever it was measured at
+    mounts = tuple(dict.fromkeys([*mounts, *[label for label in labels if not label], *labels])) or ("",)
+    mount = np.array([mounts.index(label) for label in labels], dtype=np.intp)
 
     def optional(values: list[float | None]) -> Real | None:
         return None if any(v is None for v in values) else np.array(values, dtype=float)
@@ -98,7 +104,7 @@ def from_readings(readings: Sequence[Reading]) -> Measurements:
         position=number([r.position for r in readings])[0],
         mount=mount,
         samples=np.array([max(len(r.samples_mm), 1) for r in readings], dtype=np.intp),
-        mounts=tuple(str(m) for m in mounts),
+        mounts=mounts,
         temperature_c=optional([r.temperature_c for r in readings]),
         payload_kg=optional([r.payload_kg for r in readings]),
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from datetime import datetime
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -78,6 +79,24 @@ class MemoryUse(Record):
     age_days: float | None = None
 
 
+class CheckFound(Record):
+    """How small a shift of the zeros a check would have found, and what it found."""
+
+    smallest_shift_deg: float
+    """A shift of either zero of this size is found with 99 % probability."""
+    smallest_by_joint_deg: tuple[float, float]
+    shift_deg: tuple[float, float]
+    """The shift of each zero that explains the readings best."""
+    p_value: float
+    """Of the readings, if nothing has changed."""
+    blind: str
+    """The direction of both zeros together in which a shift shows least."""
+    blind_shift_deg: float
+    """The shift that is found along it."""
+    valid_until: datetime | None
+    """Until when the check holds; null when it failed."""
+
+
 class LastingParameters(Record):
     """What a pass leaves to the robot's next run: geometry and mechanism, mm and mm^2."""
 
@@ -103,6 +122,8 @@ class ResultParts(Record):
     """With the identified offsets applied."""
     accuracy: AccuracyReached | None = None
     """What is promised of positions, beside what was wanted; null where no offsets were identified."""
+    check: CheckFound | None = None
+    """Of a check."""
     iterations: tuple[Iteration, ...] = ()
     residuals: tuple[Residual, ...] = ()
     """Of the readings of the fit."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from station.run_kinds import (  # noqa: F401 - they register themselves
     apply,
     calibrate,
+    check,
     diagnose,
     import_file,
     retract,

@@ -58,8 +58,9 @@ MOST = 60
 FIRST_GRID = (7, 4)
 RECENT, APART_DEG = 12, 1.0
 """A position must be that far from those of so many readings before: elsewhere tells more."""
-NEAR = 1.05
-"""Share of the best bound that readings can reach at which further ones are not worth their time."""
+NEAR, NEARER = 1.06, 1.02
+"""Share of the best bound that readings can reach at which further ones are not worth their time, and the one
+that the first readings aim at."""
 CLEARLY = 1.15
 """Share of the wish above which the best bound must lie before a run gives up early."""
 POWER = 0.985
@@ -158,7 +159,8 @@ class Situation:
         places, known = self.aim.first, self.known
         test, changes = self._test if known.memory else (None, np.zeros((0, 0)))
         best = float(np.trace(with_readings(known.covariance, self._rows_of_full) @ self._weight))
-        spare = NEAR if self.aim.wanted_mm is None else max(NEAR, self.aim.wanted_mm / self.best_mm)
+        wanted = self.aim.wanted_mm
+        spare = NEARER if wanted is None else max(NEARER, wanted / self.best_mm)
         chosen = Quickest(
             covariance=known.covariance,
             rows=known.rows(places),

@@ -13,11 +13,8 @@ from station.identification import (
     PLAN_ENDED,
     Verification,
     accuracy_of,
-    fresh_stops,
     fresh_stops_of,
-    not_identified,
     prediction_fault,
-    result_of,
     with_accuracy,
     without_jump,
 )
@@ -34,8 +31,10 @@ from station.records import (
     because,
 )
 from station.run_kinds.adaptive import adaptive
-from station.run_kinds.fits import fit_of, with_memory_use
+from station.run_kinds.fits import fit_of
+from station.run_kinds.guided import reference, two_mounts
 from station.run_kinds.kind import RunKind, Start, register
+from station.run_kinds.verified import identified_and_verified
 
 
 def calibrate(start: Start) -> Procedure:
@@ -46,6 +45,8 @@ def calibrate(start: Start) -> Procedure:
     if start.plan == "paper":  # the published method has no use for what earlier runs know
         return published(start.robot, start.wanted_mm)
     memory = start.store.memory(start.robot.serial)
+    if guided := GUIDED.get(start.plan):
+        return guided(start, memory)
     if start.plan == "adaptive":
         return adaptive(start.robot, memory, start.wanted_mm, start.pace)
     return measured_and_verified(start.plan, start.robot, memory, start.wanted_mm)
@@ -114,16 +115,9 @@ def measured_and_verified(
 ) -> Procedure:
     """The measurement model on a chosen plan, then fresh positions that took no part in the fit."""
     readings: list[Reading] = yield MeasurementSequence("Measuring", 1, make_plan(plan, robot).stops)
-    age_days = memory.age_days if memory else 0.0
-    try:
-        fit = fit_of(robot, readings, memory, age_days)
-    except InputRefused as refusal:
-        return without_jump(not_identified(str(refusal)), robot, readings)
-    fresh: list[Reading] = yield MeasurementSequence("Verifying at fresh positions", 2, fresh_stops(fit))
-    result = result_of(fit, readings, fresh).model_copy(update={"lasting": fit.lasting.record()})
-    result = without_jump(result, robot, [*readings, *fresh])
-    result = with_accuracy(result, accuracy_of(fit, wanted_mm))
-    return with_memory_use(result, fit.gate, memory, age_days)
+    return (yield from identified_and_verified(robot, readings, memory, wanted_mm))
 
 
+GUIDED = {"reference": reference, "two_mounts": two_mounts}
+"""Plans that need a person once."""
 CALIBRATE = register(RunKind("calibrate", calibrate, offsets=True))

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from station.five_bar import FiveBar, Robot
 from station.identification import Gate, Identification, Memory, gate_record, identify
-from station.records import CalibrationResult, MemoryUse, Reading, Remembered, from_readings
+from station.records import CalibrationResult, MemoryUse, Reading, Real, Remembered, from_readings
 
 DAYS_PER_YEAR = 365.25
+UNKNOWN_OFFSET_MM = 1e4
 
 
 def aged(memory: Remembered, robot: Robot, age_days: float) -> Memory:
@@ -24,6 +27,21 @@ def fit_of(
     """
     known = None if memory is None else aged(memory, robot, age_days)
     return identify(robot, from_readings(readings), known)
+
+
+def wandered(fit: Identification[FiveBar], age_days: float) -> Real:
+    """(P, P) covariance of a fit that is so old; of the readout's offsets nothing is known any more."""
+    parameters = fit.mechanism.parameters
+    names = [p.name for p in parameters]
+    covariance = fit.covariance.copy()
+    old = fit.lasting.aged(parameters, age_days / DAYS_PER_YEAR)
+    kept = [names.index(name) for name in old.names]
+    covariance[np.ix_(kept, kept)] = old.covariance
+    for i, parameter in enumerate(parameters):
+        if parameter.role == "reading_offset":
+            covariance[i] = covariance[:, i] = 0.0
+            covariance[i, i] = UNKNOWN_OFFSET_MM**2
+    return covariance
 
 
 def with_memory_use(

@@ -7,12 +7,13 @@ and, in `station.messages`, its texts.  The orchestrator knows none by name.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import MappingProxyType
 
 from station.five_bar import Robot
-from station.plans import PLANS, USUAL, Pace
+from station.plans import PLANS, Pace
 from station.records import Calibration, CalibrationRequest, PlanName, Procedure, Reading
+from station.settings import LimitSettings
 from station.store import Store
 
 
@@ -23,8 +24,13 @@ class Start:
     store: Store
     request: CalibrationRequest
     robot: Robot
-    pace: Pace = USUAL
+    limits: LimitSettings = field(default_factory=LimitSettings)
     """Of this station."""
+
+    @property
+    def pace(self) -> Pace:
+        """How fast this station is."""
+        return Pace.of(self.limits)
 
     @property
     def of(self) -> int:

@@ -8,16 +8,22 @@ to the drives directly, past the worker and past every queue.
 from __future__ import annotations
 
 import logging
-import time
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from queue import Empty, Queue
 from threading import Lock, Thread
-from typing import Any
 
 from drivers.errors import DeviceError
-from station.errors import Busy, InputRefused, KeyReused, NotFound, StepFailed, StoreUnavailable
+from station.errors import (
+    Busy,
+    InputRefused,
+    KeyReused,
+    NotApplicable,
+    NotFound,
+    StepFailed,
+    StoreUnavailable,
+)
 from station.five_bar import Robot
 from station.messages import display_name
 from station.motion import (
@@ -27,32 +33,25 @@ from station.motion import (
     Listeners,
     LiveEvent,
     Machine,
-    Positioner,
-    Retracting,
-    Zeroing,
 )
-from station.plans import PLANS, Pace
+from station.plans import PLANS
 from station.records import (
     CalibrationRequest,
     CalibrationResult,
     CalibrationSummary,
-    MeasurementSequence,
-    Reading,
+    Prompt,
     Reason,
-    Retract,
-    SetZeros,
     State,
     StationInfo,
     StationView,
-    Step,
     Submitted,
     Workspace,
     because,
     uid7,
 )
-from station.run_kinds import RUN_KINDS, RunKind, Start
+from station.run_kinds import RUN_KINDS, RunKind
 from station.service.clock_watch import ClockWatch
-from station.service.procedures import follow_procedure
+from station.service.execution import Execution, Unanswered
 from station.service.run import Run
 from station.settings import Settings
 from station.store import Store, request_hash, too_full
@@ -199,6 +198,24 @@ class Orchestrator:
         """Names of what `stop` stops."""
         return tuple(axis.name for axis in self._machine.devices.axes)
 
+    def prompt(self, calibration_id: int) -> Prompt | None:
+        """What a run asks at this moment."""
+        run = self._run
+        return run.prompt if run is not None and run.id == calibration_id else None
+
+    def answer(self, calibration_id: int, prompt: str, value: float | None, who: str) -> None:
+        """Answer what a run asks.
+
+        :raises NotFound: there is no such run.
+        :raises NotApplicable: it asks nothing, or something else.
+        :raises FieldRefused: the value is missing or impossible; the run goes on waiting.
+        """
+        run = self._run
+        if run is None or run.id != calibration_id:
+            self._store.summary(calibration_id)
+            raise NotApplicable(f"Run {calibration_id} does not ask anything.")
+        run.answer(prompt, value, who)
+
     def stop(self, who: str) -> dict[str, str | None]:
         """Quick stop of both axes, now, whatever else happens; a run that is under way is aborted.
 
@@ -342,9 +359,18 @@ class Orchestrator:
 
     def _perform(self, run: Run) -> _Ending:
         try:
-            result = self._calibrate(run)
+            result = Execution(
+                run,
+                self._kinds[run.request.kind],
+                self._machine,
+                self._store,
+                self._settings,
+                self._listeners,
+            ).result()
         except Cancelled:
             return _Ending(State.ABORTED)
+        except Unanswered as error:
+            return _Ending(State.ABORTED, because("prompt_expired", text=error.text, limit_s=error.limit_s))
         except (DeviceError, StepFailed, InputRefused) as error:
             return _Ending(State.FAILED, because("step_failed", text=str(error)))
         except StoreUnavailable as error:
@@ -372,74 +398,6 @@ class Orchestrator:
         if run.cancel.is_set():
             ending = _Ending(State.ABORTED, because("stopped", by=run.stopped_by or "somebody"))
         return _Ending(ending.state, _with_doubt(ending.reason, doubt))
-
-    def _calibrate(self, run: Run) -> CalibrationResult:
-        if run.cancel.is_set():
-            raise Cancelled
-        self._set_state(run, State.RUNNING)
-        kind = self._kinds[run.request.kind]
-        assert kind.procedure is not None
-        elapsed_s = self._continue(run, kind)
-        positioner = Positioner(
-            self._machine, run.robot, self._settings.joints, run.cancel, time.monotonic() - elapsed_s
-        )
-        positioner.prepare(from_outside=kind.from_outside)
-        zeroing = Zeroing(run.id, self._machine, positioner, self._store)
-        zeroing.settle()
-        procedure = kind.procedure(Start(self._store, run.request, run.robot, Pace.of(self._settings.limits)))
-
-        def carry_out(step: Step) -> Any:
-            match step:
-                case MeasurementSequence():
-                    return self._sequence(run, positioner, step)
-                case SetZeros():
-                    self._begin(run, step)
-                    return zeroing.carry_out(step)
-                case Retract():
-                    self._begin(run, step)
-                    return Retracting(self._machine, positioner).carry_out()
-
-        try:
-            result = follow_procedure(procedure, carry_out)
-        finally:
-            procedure.close()
-        self._listeners.publish("residuals", run.add_result(result))
-        return result
-
-    def _continue(self, run: Run, kind: RunKind) -> float:
-        """Take over the readings of an earlier run; real time since it started, 0 where there is none."""
-        if kind.continues is None:
-            return 0.0
-        earlier = kind.continues(self._store, run.request)
-        self._store.add_readings(run.id, earlier.readings)
-        run.inherit(len(earlier.readings))
-        return max(earlier.elapsed_s, earlier.readings[-1].t_s / self._machine.devices.speed)
-
-    def _begin(self, run: Run, step: SetZeros | Retract) -> None:
-        """A step without readings."""
-        self._listeners.publish("walk", run.begin_sequence(MeasurementSequence(step.title, step.number, ())))
-        self._listeners.publish("run", run.brief())
-
-    def _sequence(self, run: Run, positioner: Positioner, sequence: MeasurementSequence) -> list[Reading]:
-        self._listeners.publish("walk", run.begin_sequence(sequence))
-        self._set_state(run, State.RUNNING)
-        readings = []
-        for index, stop in enumerate(sequence.stops):
-            try:
-                reading = positioner.measure(stop, run.step + 1, sequence.number)
-            except DeviceError as error:
-                raise StepFailed(f"At position {stop.position}: {error}") from error
-            self._store.add_reading(run.id, reading)
-            readings.append(reading)
-            row = run.add_reading(index, reading, self._machine.shown_place(reading.theta_deg))
-            self._listeners.publish("reading", row)
-            self._listeners.publish("run", run.brief())
-        return readings
-
-    def _set_state(self, run: Run, state: State) -> None:
-        self._store.set_state(run.id, state, steps=run.steps)
-        run.state = state
-        self._listeners.publish("run", run.brief())
 
 
 def _with_doubt(reason: Reason | None, doubt: str | None) -> Reason | None:

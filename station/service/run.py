@@ -8,12 +8,15 @@ from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from threading import Event, Lock
 
+from station.errors import NotApplicable
 from station.five_bar import Robot
 from station.records import (
+    Ask,
     CalibrationRequest,
     CalibrationResult,
     Iteration,
     MeasurementSequence,
+    Prompt,
     Reading,
     ResidualOfReading,
     RunBrief,
@@ -26,6 +29,15 @@ from station.records import (
 )
 
 Place = tuple[float, float] | None
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What somebody answered a prompt."""
+
+    prompt: str
+    value: float | None
+    by: str
 
 
 @dataclass
@@ -45,6 +57,11 @@ class Run:
     """Steps that an earlier run made."""
     steps: int = 0
     iterations: tuple[Iteration, ...] = ()
+    prompt: Prompt | None = None
+    """What the run waits to be told."""
+    answered: Event = field(default_factory=Event)
+    _asked: Ask | None = None
+    _answer: Answer | None = None
     _sequence: MeasurementSequence | None = None
     _stops: list[RunStop] = field(default_factory=list)
     _readings: list[RunReading] = field(default_factory=list)
@@ -60,6 +77,27 @@ class Run:
     def inherit(self, steps: int) -> None:
         """Continue after the steps of an earlier run."""
         self.inherited = self.step = self.steps = steps
+
+    def ask(self, prompt: Prompt, step: Ask) -> None:
+        """Wait for an answer from now on."""
+        with self._lock:
+            self.answered.clear()
+            self.prompt, self._asked = prompt, step
+
+    def answer(self, prompt: str, value: float | None, who: str) -> None:
+        """:raises NotApplicable: this is not what is asked.  :raises FieldRefused: the value cannot be."""
+        with self._lock:
+            if self.prompt is None or self._asked is None or self.prompt.id != prompt:
+                raise NotApplicable(f"Run {self.id} does not ask this (any more).")
+            self._answer = Answer(prompt, self._asked.checked(value), who)
+            self.prompt = self._asked = None
+            self.answered.set()
+
+    def take_answer(self) -> Answer:
+        """What was answered.  Only after `answered`."""
+        with self._lock:
+            assert self._answer is not None
+            return self._answer
 
     def begin_sequence(self, sequence: MeasurementSequence) -> SequenceView:
         """Returns the `walk` event."""
@@ -138,4 +176,5 @@ class Run:
             step=self.step,
             steps=self.steps,
             iterations=self.iterations,
+            prompt=self.prompt,
         )

@@ -7,7 +7,7 @@ import logging
 import os
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Self
 
@@ -65,6 +65,8 @@ class Runtime:
                 settings, speed = rig.settings(settings), rig.speed
             devices = build_devices(settings, emulated=emulated, speed=speed)
 
+            if rig is not None:
+                devices = replace(devices, remount=rig.remount)
             orchestrator = Orchestrator(devices, store, settings)
             opened.callback(orchestrator.shutdown)
             opened.enter_context(backup_timer(store, backup_folder(settings, home), settings.backup))

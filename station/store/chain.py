@@ -68,7 +68,7 @@ def verify(ask: Ask) -> Verified:
     """Make every record again and compare, in the order in which the runs ended."""
     links = ask("SELECT run_id, uid, samples_sha256, hash FROM chain ORDER BY n", [])
     first = min((link[0] for link in links), default=None)
-    ended = "state NOT IN ('queued', 'running')"
+    ended = "state NOT IN ('queued', 'running', 'waiting')"
     (older,) = ask(f"SELECT count(*) FROM calibrations WHERE {ended} AND (? IS NULL OR id < ?)", [first] * 2)[
         0
     ]

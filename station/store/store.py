@@ -58,7 +58,7 @@ from station.store.zero_journal import ZeroJournal
 log = logging.getLogger(__name__)
 
 S = TypeVar("S", bound=CalibrationSummary)
-_UNFINISHED = (State.QUEUED, State.RUNNING)
+_UNFINISHED = (State.QUEUED, State.RUNNING, State.WAITING)
 
 
 class Store(Memories, ZeroJournal, Trends):
@@ -165,7 +165,7 @@ class Store(Memories, ZeroJournal, Trends):
         with self._writing() as db:
             db.execute(
                 "UPDATE calibrations SET state = ?, steps = coalesce(?, steps),"
-                " started_ms = coalesce(started_ms, ?) WHERE id = ? AND state IN (?, ?)",
+                " started_ms = coalesce(started_ms, ?) WHERE id = ? AND state IN (?, ?, ?)",
                 [state, steps, self._times.now_ms(calibration_id), calibration_id, *_UNFINISHED],
             )
 
@@ -205,7 +205,7 @@ class Store(Memories, ZeroJournal, Trends):
             ended = db.execute(
                 "UPDATE calibrations SET state = ?, verdict = ?, outcome = ?, reason = ?, reason_code = ?,"
                 " reason_params = ?, ended_ms = max(?, created_ms, coalesce(started_ms, 0))"
-                " WHERE id = ? AND state IN (?, ?)",
+                " WHERE id = ? AND state IN (?, ?, ?)",
                 [
                     end.state,
                     end.verdict,
@@ -238,7 +238,7 @@ class Store(Memories, ZeroJournal, Trends):
 
         Where the last process knew how such a run had ended, that is stored.  Returns the ids.
         """
-        rows = self._readers.all("SELECT id FROM calibrations WHERE state IN (?, ?)", list(_UNFINISHED))
+        rows = self._readers.all("SELECT id FROM calibrations WHERE state IN (?, ?, ?)", list(_UNFINISHED))
         known = self._unstored.left_behind()
         ids = [int(row["id"]) for row in rows]
         for run in ids:

@@ -19,9 +19,9 @@ from station.records import (
 from station.run_kinds import application, kind_of_plan
 from station.service import Runtime
 from web.aside import aside
-from web.bodies import ApplyBody, CalibrationBody, CalibrationList
+from web.bodies import AnswerBody, ApplyBody, CalibrationBody, CalibrationList
 from web.problems import documented
-from web.routes.parts import LOCATION, CalibrationId, IdempotencyKey, TheRuntime
+from web.routes.parts import LOCATION, CalibrationId, CallerName, IdempotencyKey, TheRuntime
 
 ABORT_TIMEOUT_S = 5.0
 
@@ -82,6 +82,7 @@ def read_calibration(calibration_id: CalibrationId, runtime: TheRuntime) -> Cali
     calibration = runtime.store.calibration(calibration_id)
     known = {
         "application": application(runtime.store, calibration),
+        "prompt": runtime.orchestrator.prompt(calibration_id),
         "zero_offset_tolerance_deg": runtime.store.robot_of(calibration_id).tolerances.zero_offset_deg,
     }
     return calibration.model_copy(update=known)
@@ -106,6 +107,19 @@ async def abort_calibration(calibration_id: CalibrationId, runtime: TheRuntime) 
         raise HTTPException(
             504, "The abort was sent but not confirmed; use the stop or the emergency stop."
         ) from late
+
+
+@router.post(
+    "/{calibration_id}/answer",
+    response_model=CalibrationSummary,
+    responses=documented(404, 409),
+)
+def answer_prompt(
+    calibration_id: CalibrationId, body: AnswerBody, runtime: TheRuntime, operator: CallerName = None
+) -> CalibrationSummary:
+    """Answer what a run in state `waiting` asks.  After a value that cannot be it goes on waiting."""
+    runtime.orchestrator.answer(calibration_id, body.prompt, body.value, operator or "REST")
+    return runtime.store.summary(calibration_id)
 
 
 @router.post(
