@@ -27,6 +27,8 @@ def measured_value(reference: AnyReference, robot: Robot) -> tuple[float, float]
 
 def with_references(parameters: Sequence[Parameter], robot: Robot) -> tuple[Parameter, ...]:
     """The unknowns of a robot with what its references say of them."""
+    if not robot.references:
+        return tuple(parameters)
     out = {p.name: p for p in parameters}
     for reference in robot.references:
         value, sd = measured_value(reference, robot)

@@ -6,7 +6,7 @@ Each plan is a module that registers itself.  Importing the package registers th
 from __future__ import annotations
 
 # they register themselves, in the order in which they are offered
-from station.plans import boundary, full, foreseen, check_positions, guided, diagnostic_sequence  # isort: skip  # noqa: F401
+from station.plans import boundary, full, diagnostic_sequence, foreseen, check_positions, guided  # isort: skip  # noqa: F401
 from station.plans.check_positions import REST_P, SHIFT_P, ShiftTest
 from station.plans.diagnostic_sequence import FRESH_PLACES, SIDES, diagnostic_fresh_stops
 from station.plans.drawing import plan_as_text, plan_page

@@ -59,6 +59,7 @@ from station.records.identification_document import (
 )
 from station.records.kept import KeptRobot, StoredEvent
 from station.records.live import (
+    CalibrationHolds,
     DeviceState,
     DeviceView,
     Interlock,
@@ -149,6 +150,7 @@ __all__ = [
     "Ask",
     "BackupMade",
     "Calibration",
+    "CalibrationHolds",
     "CalibrationRequest",
     "CalibrationResult",
     "CalibrationSummary",

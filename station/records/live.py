@@ -65,6 +65,19 @@ class RetractView(Record):
     text: str
 
 
+class CalibrationHolds(Record):
+    """Whether calibrated work of a robot may go on."""
+
+    robot_serial: str
+    locked: bool
+    """A check has failed, and neither a passed calibration nor an engineer has cleared it."""
+    text: str
+    check: int | None = None
+    """The run that says so."""
+    calibration_valid_until: datetime | None = None
+    """Of the last passed check; null where there is none since the last calibration."""
+
+
 class Workspace(Record):
     """Limits of the workspace, mm."""
 
@@ -156,5 +169,7 @@ class StationView(Record):
     """Null while it is not known where the arm stands."""
     workspace: Workspace
     retract: RetractView
+    calibration: CalibrationHolds
+    """Of the robot measured last."""
     run: RunView | None
     last: CalibrationSummary | None

@@ -36,6 +36,7 @@ from station.motion import (
 )
 from station.plans import PLANS
 from station.records import (
+    CalibrationHolds,
     CalibrationRequest,
     CalibrationResult,
     CalibrationSummary,
@@ -49,7 +50,7 @@ from station.records import (
     because,
     uid7,
 )
-from station.run_kinds import RUN_KINDS, RunKind
+from station.run_kinds import RUN_KINDS, RunKind, calibration_holds, clear_failed_check
 from station.service.clock_watch import ClockWatch
 from station.service.execution import Execution, Unanswered
 from station.service.run import Run
@@ -93,6 +94,7 @@ class Orchestrator:
         self._clock = ClockWatch(store)
         if self._last is not None:
             self._machine.robot = store.robot_or_nominal(self._last.robot_serial)
+        self._holds = self._calibration_holds()
         self._closing = False
         self._stop_records: list[Thread] = []
         self._queue: Queue[Run | None] = Queue()
@@ -198,6 +200,25 @@ class Orchestrator:
         """Names of what `stop` stops."""
         return tuple(axis.name for axis in self._machine.devices.axes)
 
+    def clear_failed_check(self, serial: str, who: str, reason: str) -> CalibrationHolds:
+        """Let calibrated work go on after a failed check.
+
+        :raises NotFound: no such robot.
+        :raises NotApplicable: nothing is locked.
+        """
+        clear_failed_check(self._store, serial, who, reason)
+        with self._lock:
+            self._holds = self._calibration_holds()
+        return calibration_holds(self._store, serial)
+
+    def _calibration_holds(self) -> CalibrationHolds:
+        """Of the robot measured last; kept, so that a snapshot asks nothing."""
+        serial = self._machine.robot.serial
+        try:
+            return calibration_holds(self._store, serial)
+        except StoreUnavailable as error:
+            return CalibrationHolds(robot_serial=serial, locked=True, text=f"Not known: {error}")
+
     def prompt(self, calibration_id: int) -> Prompt | None:
         """What a run asks at this moment."""
         run = self._run
@@ -279,7 +300,7 @@ class Orchestrator:
     def snapshot(self) -> StationView:
         """Everything a page needs.  Never waits for a device."""
         with self._lock:
-            run, last = self._run, self._last
+            run, last, holds = self._run, self._last, self._holds
         robot = run.robot if run else self._machine.robot
         return StationView(
             station=StationInfo(
@@ -293,6 +314,7 @@ class Orchestrator:
             machine=self._machine.view(),
             workspace=Workspace(x=robot.workspace_x, y=robot.workspace_y),
             retract=self._machine.retract(),
+            calibration=holds,
             run=run.view() if run else None,
             last=last,
         )
@@ -329,7 +351,7 @@ class Orchestrator:
             log.exception("The end of run %d cannot be read back", run.id)
             summary = self._unread(run, because("store_failed", text=str(error)))
         with self._lock:
-            self._last, self._run = summary, None
+            self._last, self._run, self._holds = summary, None, self._calibration_holds()
         run.ended.set()
         self._listeners.publish("ended", summary)
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from fastapi import APIRouter
 
-from web.bodies import Robot, Serial
+from station.records import CalibrationHolds
+from web.bodies import ClearBody, Robot, Serial
 from web.problems import documented
 from web.routes.parts import CallerName, TheRuntime
 
@@ -20,6 +21,12 @@ def read_robot(serial: Serial, runtime: TheRuntime) -> Robot:
         file=runtime.store.robot(serial).to_json(),
         memory=memory.summary() if memory else None,
     )
+
+
+@router.post("/{serial:path}/clear-check", response_model=CalibrationHolds, responses=documented(404, 409))
+def clear_check(serial: Serial, body: ClearBody, runtime: TheRuntime) -> CalibrationHolds:
+    """After a failed check an engineer lets calibrated work go on; who and why stay on record."""
+    return runtime.orchestrator.clear_failed_check(serial, body.operator, body.reason)
 
 
 @router.delete("/{serial:path}/memory", status_code=204, responses=documented(404))
