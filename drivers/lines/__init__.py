@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from drivers.lines.modbus import ModbusBus, UnansweredWrite
+from drivers.lines.on_line import OnLine
 from drivers.lines.retrying import within
-from drivers.lines.serial import SerialLine, Trace
+from drivers.lines.serial import SerialLine
 
 __all__ = [
     "ModbusBus",
+    "OnLine",
     "SerialLine",
-    "Trace",
     "UnansweredWrite",
     "within",
 ]

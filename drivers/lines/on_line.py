@@ -1,0 +1,17 @@
+"""What every user of a line has in common: the line."""
+
+from __future__ import annotations
+
+from drivers.lines.serial import SerialLine
+
+
+class OnLine:
+    """A readout, a bus, or a drive on a bus."""
+
+    def __init__(self, line: SerialLine) -> None:
+        self._line = line
+
+    @property
+    def line(self) -> SerialLine:
+        """Whose notice and opener are everybody's on it."""
+        return self._line
