@@ -15,3 +15,8 @@ class OnLine:
     def line(self) -> SerialLine:
         """Whose notice and opener are everybody's on it."""
         return self._line
+
+
+def line_of(device: object) -> SerialLine | None:
+    """The line of a device; None where it has none, as in tests without a wire."""
+    return device.line if isinstance(device, OnLine) else None

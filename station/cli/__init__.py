@@ -20,6 +20,7 @@ _COMMANDS = {
     "columns": ("columns", "Propose a column map for a file of measurements made elsewhere."),
     "confusion": ("confusion", "The diagnosis judged on random emulated machines."),
     "diagnose": ("diagnosis", "Trace what the model leaves over to its cause."),
+    "doctor": ("doctor", "Look at every device and its line, and say what to do; nothing moves."),
     "export": ("archive", "The readings of one run as a measurement file."),
     "identify": ("identify", "Zero offsets with uncertainty from a measurement file."),
     "import": ("importing", "Keep a measurement file as a finished run, with its diagnosis."),

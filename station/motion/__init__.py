@@ -7,8 +7,10 @@ from station.motion.emulated_rig import EffectTable, EmulatedRig
 from station.motion.emulated_rig import FaultOrder as FaultOrder
 from station.motion.events import Listener, Listeners, LiveEvent
 from station.motion.machine import Machine
+from station.motion.opening import Equipment, equipment
 from station.motion.retracting import Retracting
 from station.motion.walker import Cancelled, Walker
+from station.motion.way_back import outside_mm
 from station.motion.zero_writer import Zeroing, shift_of
 
 __all__ = [
@@ -16,6 +18,7 @@ __all__ = [
     "Devices",
     "EffectTable",
     "EmulatedRig",
+    "Equipment",
     "FaultOrder",
     "Listener",
     "Listeners",
@@ -25,5 +28,7 @@ __all__ = [
     "Walker",
     "Zeroing",
     "build_devices",
+    "equipment",
+    "outside_mm",
     "shift_of",
 ]
