@@ -65,6 +65,11 @@ class SerialLine:
     def is_open(self) -> bool:
         return self._port is not None
 
+    @property
+    def is_played_back(self) -> bool:
+        """Whether nobody is there, and a wire log answers."""
+        return self.opener is not open_port
+
     def open(self) -> None:
         """Open for this process alone; open it again whenever it breaks, until it is closed.
 

@@ -287,4 +287,15 @@ def _make(settings: HeidenhainSettings) -> HeidenhainND:
     return HeidenhainND(settings.url, timeout_s=settings.timeout_s)
 
 
-DRIVER = ScaleDriver(HeidenhainSettings, _make)
+def in_words(data: bytes) -> str:
+    """What was sent or came, for whoever reads a wire log."""
+    match = _VALUE_LINE.fullmatch(data)
+    if data == _ASK_VALUE:
+        return "what is the value?"
+    if match is not None:
+        fault = ", marked as faulty" if match[3] == _FAULT else ""
+        return f"the value is {match[1].decode()}{match[2].decode().strip()}{fault}"
+    return f"{data!r}"[2:-1]
+
+
+DRIVER = ScaleDriver(HeidenhainSettings, _make, in_words)

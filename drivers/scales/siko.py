@@ -22,6 +22,14 @@ from drivers.scales.readout import Readout
 
 READ_POSITION, IDENTIFY, READ_RESOLUTION = 0x16, 0x1B, 0x1E
 CHECK_SUM_ERROR, REFUSED, ILLEGAL_VALUE = 0x82, 0x83, 0x85
+_COMMANDS = {
+    READ_POSITION: "position",
+    IDENTIFY: "type and firmware",
+    READ_RESOLUTION: "resolution",
+    CHECK_SUM_ERROR: "received a wrong check byte",
+    REFUSED: "refuses, or cannot measure",
+    ILLEGAL_VALUE: "refuses the value",
+}
 _SHORT = 0x80
 _SHORT_LENGTH, _LONG_LENGTH = 3, 6
 _TYPES = {34: "MSA501", 23: "MSA510/1", 21: "MA501"}
@@ -194,4 +202,15 @@ def with_check_byte(telegram: bytes) -> bytes:
     return telegram + bytes((check,))
 
 
-DRIVER = ScaleDriver(SikoSettings, SikoHead)
+def in_words(data: bytes) -> str:
+    """What was sent or came, for whoever reads a wire log."""
+    if len(data) not in (_SHORT_LENGTH, _LONG_LENGTH) or with_check_byte(data[:-1]) != data:
+        return f"bytes {data.hex(' ')}"
+    command = _COMMANDS.get(data[1], f"command {data[1]:02X}h")
+    head = f"head {data[0] & ~_SHORT}"
+    if len(data) == _SHORT_LENGTH:
+        return f"{head}: {command}"
+    return f"{head}: {command} = {int.from_bytes(data[2:5], 'little', signed=True)}"
+
+
+DRIVER = ScaleDriver(SikoSettings, SikoHead, in_words)

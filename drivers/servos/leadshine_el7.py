@@ -265,4 +265,18 @@ def _make(settings: LeadshineSettings, drives: Sequence[Drive]) -> tuple[Leadshi
     return tuple(LeadshineEL7(bus, drive.unit, drive.scaling, name=drive.name) for drive in drives)
 
 
-DRIVER = ServoDriver(LeadshineSettings, _make)
+REGISTERS = {
+    CONTROL_MODE: "control mode",
+    ALARM_RESET: "alarm reset",
+    DIGITAL_INPUT_1: "function of input 1",
+    **{address: f"function of output {n}" for n, address in enumerate(DIGITAL_OUTPUTS, start=1)},
+    ALARM: "alarm",
+    MOTION_STATUS: "motion status",
+    TRIGGER: "trigger",
+    OUTPUT_STATUS: "outputs",
+    FEEDBACK: "position, pulses",
+    PATH_0: "path 0: mode, target, speed, ramps, pause, trigger",
+    PATH_0 + 1: "target of path 0, pulses",
+}
+
+DRIVER = ServoDriver(LeadshineSettings, _make, REGISTERS)

@@ -105,7 +105,7 @@ class OrientalMotorBLVR(OnLine):
         except DeviceError:
             self._bus.release(self)
             raise
-        if self._watchdog_ms:
+        if self._watchdog_ms and not self.line.is_played_back:
             self._feeder = _Feeder(self._feed, self._watchdog_ms / 1000 / _FEEDS_PER_TIMEOUT, self._name)
 
     def make_safe(self) -> None:
@@ -299,4 +299,17 @@ def _make(settings: OrientalMotorSettings, drives: Sequence[Drive]) -> tuple[Ori
     )
 
 
-DRIVER = ServoDriver(OrientalMotorSettings, _make)
+REGISTERS = {
+    DIRECT_DATA: "direct data: number, type, position, speed, ramps, torque, trigger",
+    POSITION_DATA: "position of the direct data, steps",
+    INPUTS: "inputs",
+    OUTPUTS: "outputs",
+    ALARM: "alarm",
+    FEEDBACK: "position, steps",
+    ALARM_RESET: "alarm reset",
+    PRESET: "position preset",
+    RESOLUTION: "resolution",
+    WATCHDOG: "communication watchdog, ms",
+}
+
+DRIVER = ServoDriver(OrientalMotorSettings, _make, REGISTERS)

@@ -28,6 +28,7 @@ _COMMANDS = {
     "plan": ("plan", "The positions of a plan, their order and the accuracy they predict."),
     "real-robot": ("real_robot", "The closed loop on logs of a real arm, as figures and drawings."),
     "reproduce": ("studies", "The paper's tables and figures, computed again beside ours."),
+    "replay": ("wire", "Carry out a run again from its wire log, without a machine, and compare."),
     "restore": ("restoring", "Put a backup in the place of the history; what was there is kept."),
     "retract": ("apply", "Bring the arm back into its workspace, slowly."),
     "rollback": ("apply", "Put the zeros back that the drives had before a run was applied."),
@@ -36,6 +37,7 @@ _COMMANDS = {
     "show": ("history", "One run."),
     "solve": ("diagnosis", "Joint commands for target positions under the identified model."),
     "verify": ("archive", "Whether every finished run is as it ended."),
+    "wire": ("wire", "Every request and answer of one run, with its time, in plain words."),
     "transfer": ("diagnosis", "Apply the effects learned on one log, unchanged, to another log."),
 }
 """Module and purpose of each command; imported when it is asked for, since the numerics take long to load."""

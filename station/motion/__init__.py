@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from station.motion.clock import Clock, PlayedClock, RunClock
 from station.motion.devices import Devices, build_devices
 from station.motion.emulated_rig import EffectTable, EmulatedRig
 from station.motion.emulated_rig import FaultOrder as FaultOrder
@@ -11,10 +12,12 @@ from station.motion.opening import Equipment, equipment
 from station.motion.retracting import Retracting
 from station.motion.walker import Cancelled, Walker
 from station.motion.way_back import outside_mm
+from station.motion.wire_words import in_words
 from station.motion.zero_writer import Zeroing, shift_of
 
 __all__ = [
     "Cancelled",
+    "Clock",
     "Devices",
     "EffectTable",
     "EmulatedRig",
@@ -24,11 +27,14 @@ __all__ = [
     "Listeners",
     "LiveEvent",
     "Machine",
+    "PlayedClock",
     "Retracting",
+    "RunClock",
     "Walker",
     "Zeroing",
     "build_devices",
     "equipment",
+    "in_words",
     "outside_mm",
     "shift_of",
 ]

@@ -124,6 +124,7 @@ from station.records.sections import Finite, Positive, Section, Sections, refusa
 from station.records.types import LARGEST_ID, Angles, Complex, Index, Real
 from station.records.uid import uid7
 from station.records.visited import inside_visited, visited_in_degrees, visited_ranges
+from station.records.wire import WireHeader
 
 __all__ = [
     "DIAGNOSIS_SCHEMA",
@@ -236,6 +237,7 @@ __all__ = [
     "Verdict",
     "Walk",
     "WeakDirection",
+    "WireHeader",
     "Workspace",
     "ZeroOffset",
     "ZeroWrite",
