@@ -44,7 +44,7 @@ _COLUMNS = (
     "ended_at",
     "reason",
 )
-_TOLD = (
+_SHOWN = (
     "id", "uid", "robot_serial", "kind", "plan", "operator", "work_order", "state", "verdict", "outcome",
     "reason", "created_at", "started_at", "ended_at",
 )  # fmt: skip
@@ -133,8 +133,8 @@ def show_command(home: Path, calibration_id: int, as_json: bool, config: Path | 
         click.echo(json.dumps(content, indent=1))
         return
     console = Console(highlight=False)
-    row = calibration.model_dump(mode="json", include=set(_TOLD))
-    for key in _TOLD:
+    row = calibration.model_dump(mode="json", include=set(_SHOWN))
+    for key in _SHOWN:
         console.print(f"{key.removesuffix('_at').replace('_', ' '):>14}  {row[key] or ''}", soft_wrap=True)
     if memory := calibration.memory:
         console.print(

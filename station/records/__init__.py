@@ -110,6 +110,7 @@ from station.records.result import (
 )
 from station.records.run import (
     CalibrationRequest,
+    MeasurementSequence,
     PlanName,
     Retract,
     SetZeros,
@@ -117,7 +118,6 @@ from station.records.run import (
     Step,
     Stop,
     Submitted,
-    Walk,
     ZeroWrite,
 )
 from station.records.sections import Finite, Positive, Section, Sections, refusal

@@ -18,7 +18,7 @@ from station.service.runtime import Runtime
 from station.store.store import Store
 from tests.station.asking import kinds_with
 from tests.station.conftest import SETTINGS
-from tests.station.fakes import Rig, make_rig, two_walks
+from tests.station.fakes import Rig, make_rig, two_sequences
 from web.app import create_app
 
 BODY = {"robot_serial": "FB-1", "plan": "paper", "operator": "ada"}
@@ -78,7 +78,7 @@ def service(tmp_path: Path) -> Iterator[Service]:
     with ExitStack() as opened:
         store = Store(tmp_path / "station.db")
         opened.callback(store.close)
-        orchestrator = Orchestrator(rig.devices, store, SETTINGS, kinds_with(two_walks))
+        orchestrator = Orchestrator(rig.devices, store, SETTINGS, kinds_with(two_sequences))
         opened.callback(orchestrator.shutdown)
         opened.callback(rig.released.set)
         runtime = Runtime(SETTINGS, tmp_path, store, orchestrator, ExitStack())

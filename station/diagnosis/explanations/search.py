@@ -105,7 +105,7 @@ class Search:
         return sorted(self.found.values(), key=lambda c: -c.log_posterior)
 
     def _leaves_noise(self, single: Candidate) -> bool:
-        """Whether one error leaves no more than noise, so that only its rivals need a second error."""
+        """Whether one error leaves no more than noise, so that only its alternatives need a second error."""
         bank = self.bank
         return bank.noise.level(bank.square - 2.0 * bank.known(single.choices).gain) < NOISY
 
@@ -192,10 +192,10 @@ class Search:
             looked = len(self._looked)
             best = self._settled(best)
             for left_out in range(len(best.choices)):
-                rest = tuple(c for k, c in enumerate(best.choices) if k != left_out)
-                known = self.found.get(tuple(sorted(c.family for c in rest)))
+                others = tuple(c for k, c in enumerate(best.choices) if k != left_out)
+                known = self.found.get(tuple(sorted(c.family for c in others)))
                 if known is not None:
-                    self._look(replace(known, choices=rest) if len(rest) == 1 else known)
+                    self._look(replace(known, choices=others) if len(others) == 1 else known)
             self._look(best)
             if len(self._looked) == looked:
                 return
@@ -226,8 +226,8 @@ class Search:
         for _ in range(SWEEPS):
             prices, moved = 0.0, False
             for k, old in enumerate(choices):
-                rest = [c for j, c in enumerate(choices) if j != k]
-                known = self.bank.known(rest)
+                others = [c for j, c in enumerate(choices) if j != k]
+                known = self.bank.known(others)
                 scan = self.bank.scan(known, only=old.family)
                 new = scan.best[old.family]
                 if new is None:

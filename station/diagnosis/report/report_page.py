@@ -311,6 +311,8 @@ def _invisible(findings: Findings) -> Section:
     ]
     return Section(
         "What these readings could not have shown",
-        ("Smaller effects than these may be there: each size would be found in four of five such walks.",),
+        (
+            "Smaller effects than these may be there: each size would be found in four of five such sequences.",
+        ),
         (Table(("effect", "parameter", "smallest visible size", "remark"), rows),),
     )
