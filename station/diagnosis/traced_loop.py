@@ -150,7 +150,7 @@ def traced(
 
 
 def _confirmed(found: Trace, fresh: Measurements) -> tuple[Trace, tuple[Confirmation, ...]]:
-    """Every stage against the fresh readings; they also settle between look-alikes left open by the sequence."""
+    """Every stage against the fresh readings; they also decide between causes that the sequence left open."""
     base = found.stages[0].fit
     mechanism = base.model.mechanism
     checks = tuple(_check(base, stage, fresh) for stage in found.stages)
@@ -202,7 +202,7 @@ def _alternative(found: Trace, checks: Sequence[Confirmation]) -> str | None:
 def _residual(found: Trace, checks: Sequence[Confirmation], stage: int) -> WhitenedResidual:
     """What a stage leaves, of fresh readings too where there are any."""
     if checks:
-        return checks[stage].residual
+        return checks[stage].whitened
     return whitened_residual(found.stages[stage].fit)
 
 

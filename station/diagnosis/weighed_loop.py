@@ -163,8 +163,8 @@ def _explained(robot: Robot, files: _Files) -> tuple[ExplanationSet, _Files]:
     backwards = np.flatnonzero(np.diff(files.sequence.t_s) < 0)
     if backwards.size:
         raise InputRefused(
-            f"Reading {files.sequence.ids[int(backwards[0]) + 1]}, column t_s: time runs backwards; put the rows "
-            "in the order they were measured."
+            f"Reading {files.sequence.ids[int(backwards[0]) + 1]}, column t_s: time runs backwards; "
+            "put the rows in the order they were measured."
         )
     mechanism.check()
     check_places(files.sequence)

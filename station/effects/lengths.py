@@ -41,7 +41,7 @@ class JointClearance(JointEffect):
     id = "joint_clearance"
     physics = "The pin of a passive joint lies on the side to which the load pulls it."
     remedy = "Replace the bearing of the passive joint."
-    experiment = "Repeat the sequence with the load on the platform reversed."
+    experiment = "Repeat the measurement sequence with the load on the platform reversed."
 
     def variants(self, c: Conditions) -> Variants | None:
         link = f"l{self.joint}"

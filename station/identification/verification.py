@@ -1,4 +1,4 @@
-"""Verification at fresh places, and the result of a calibration by the measurement model."""
+"""Verification at fresh positions, and the result of a calibration by the measurement model."""
 
 from __future__ import annotations
 

@@ -82,7 +82,7 @@ class MeasurementSequence:
     title: str
     """In the operator's words, e.g. "Measuring, pass 2"."""
     number: int
-    """1, 2, ...; stored with each reading of the sequence as `pass`."""
+    """1, 2, ...; stored with each of its readings."""
     stops: tuple[Stop, ...]
 
 

@@ -1,4 +1,4 @@
-"""Zero offsets written to the drives, verified at fresh places, taken back when that fails.
+"""Zero offsets written to the drives, verified at fresh positions, taken back when that fails.
 
 Before anything is written a few fresh readings show that the machine is still the one that was
 calibrated.  The model of that calibration stays frozen; only the frame of its angles moves, by what
@@ -99,7 +99,7 @@ def apply(source: Source) -> Procedure:
     try:
         shift: Angles = yield SetZeros("Writing the zero offsets", 2, source.id, source.offsets_deg)
         fit = source.fit.moved(shift)
-        readings, check = yield from _measured(fit, "Verifying at fresh places", 3)
+        readings, check = yield from _measured(fit, "Verifying at fresh positions", 3)
     except (DeviceError, StepFailed) as error:
         yield from _way_back(source, str(error))
         raise StepFailed(f"{error} The old zero offsets are in the drives.") from error

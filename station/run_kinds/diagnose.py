@@ -48,7 +48,7 @@ def judged(
     found = findings_of(diagnose(robot, sequence))
     zeros = np.radians([q.value for q in found.parameters[:2]])
     fresh = yield MeasurementSequence(
-        "Confirming at fresh places", 2, diagnostic_fresh_stops(robot, zeros, _seed(sequence))
+        "Confirming at fresh positions", 2, diagnostic_fresh_stops(robot, zeros, _seed(sequence))
     )
     return result_of(diagnosed(robot, [*readings, *fresh]), readings, _described(readings))
 

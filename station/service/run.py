@@ -62,7 +62,7 @@ class Run:
         self.inherited = self.step = self.steps = steps
 
     def begin_sequence(self, sequence: MeasurementSequence) -> SequenceView:
-        """Returns the `sequence` event."""
+        """Returns the `walk` event."""
         with self._lock:
             self._sequence = sequence
             self.steps += len(sequence.stops)
@@ -84,7 +84,7 @@ class Run:
             scale_mm=reading.scale_mm,
             sd_mm=statistics.stdev(reading.samples_mm),
             t_s=reading.t_s,
-            sequence=reading.sequence,
+            walk=reading.sequence,
         )
         with self._lock:
             self.step += 1
@@ -134,7 +134,7 @@ class Run:
             started_at=self._started_at,
             elapsed_s=round(elapsed_s, 1),
             remaining_s=round(to_do * elapsed_s / own, 1) if own else None,
-            sequence=SequenceTitle(number=sequence.number, title=sequence.title) if sequence else None,
+            walk=SequenceTitle(number=sequence.number, title=sequence.title) if sequence else None,
             step=self.step,
             steps=self.steps,
             iterations=self.iterations,

@@ -1,4 +1,4 @@
-"""The one place for sequences in virtual time: a machine with known errors, measured as the station would.
+"""Measurement sequences in virtual time: a machine with known errors, measured as the station would.
 
 The machine is the emulated one with its own physics; nothing of the identification is used to make
 its readings.

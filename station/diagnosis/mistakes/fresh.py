@@ -25,7 +25,7 @@ AGREEING = 0.85
 
 
 def between(robot: Robot, m: Measurements, fresh: Measurements, sequence_fit: Fitted) -> Mistake | None:
-    """The mistake that explains why fresh readings do not agree with `sequence_fit`, the fit of the sequence."""
+    """The mistake that explains why fresh readings do not agree with `sequence_fit`."""
     mechanism = FiveBar(robot, fresh)
     with np.errstate(invalid="ignore"):
         residual = fresh.distance - mechanism.observe(sequence_fit.p, fresh.theta).value

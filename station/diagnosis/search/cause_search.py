@@ -34,7 +34,7 @@ HELPFUL = 0.995
 """Left-out error over that without the effect: below this, readings that it has not seen support it."""
 ODD_SHARE = 0.03
 END_SHARE = 0.12
-"""Of the sequence, in which readings off to one side together look like a step and not like slips of the head."""
+"""Share of the sequence in which readings that deviate to one side look like a step, not like slips."""
 ALIAS = 11.0
 """Chi-square by which a look-alike may be worse and still be the cause (true cause kept in 99.9 %)."""
 

@@ -35,7 +35,7 @@ __all__ = [
     "Adequacy",
     "Confirmation",
     "Departure",
-    "Rest",
+    "WhitenedResidual",
     "added",
     "by_approach_and_place",
     "by_searched",

@@ -1,4 +1,4 @@
-"""Nameless alternatives of a cause: the residual simply wanders in time, with the place, the angle, the travel.
+"""Unnamed alternatives to a cause: the residual wanders with time, position, angle or travel.
 
 Each alternative is a Gaussian process added to the noise (Rasmussen and Williams, Gaussian Processes for
 Machine Learning, 2006, chapter 5), its size found by restricted maximum likelihood (Patterson and

@@ -87,9 +87,6 @@ def test_what_the_owner_has_to_do(verdict: str, confirmed: bool | None, outcome:
     assert decision.outcome == outcome
 
 
-@pytest.mark.xfail(
-    strict=True, reason="a smooth curve of the joint takes both; the search does not reach the pair"
-)
 def test_second_ripple_of_the_same_joint_is_found() -> None:
     """The first ripple is found while the second disturbs it; both are settled beside each other."""
     ripples = [

@@ -100,7 +100,7 @@ def stated(step: Step) -> tuple[str, int, tuple[str, ...] | tuple[int, tuple[flo
 
 
 CHECK = ("Checking the machine", 1, ("C1", "C2", "C3", "C4"))
-VERIFY = ("Verifying at fresh places", 3, tuple(f"V{k}" for k in range(1, 9)))
+VERIFY = ("Verifying at fresh positions", 3, tuple(f"V{k}" for k in range(1, 9)))
 BACK = ("Rolling back", 2, (7, (0.0, 0.0)))
 WAY_BACK = ("Rolling back", 4, (7, (0.0, 0.0)))
 

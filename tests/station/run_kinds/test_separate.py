@@ -39,7 +39,7 @@ def test_the_set_is_smaller_afterwards_and_holds_the_truth() -> None:
     assert separated.outcome in ("repair", "ambiguous")
     assert more[0].reading == 121
     assert sum(r.sequence == 1 for r in more) in COUNTS
-    # fresh places are judged by, never learned from
+    # fresh positions are judged by, never learned from
     assert len(separated.residuals) == 120 + sum(r.sequence == 1 for r in more)
 
 

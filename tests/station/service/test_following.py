@@ -99,7 +99,7 @@ def test_zeros_that_are_set_are_a_step_that_is_seen(start: Start, store: Store) 
     ]
     briefs = [event.data for event in events if event.type == "run"]
     assert (2, "Writing the zero offsets") in [
-        (b.sequence.number, b.sequence.title) for b in briefs if isinstance(b, RunBrief) and b.sequence
+        (b.walk.number, b.walk.title) for b in briefs if isinstance(b, RunBrief) and b.walk
     ]
     row = store.summary(run)
     assert (row.step, row.steps) == (3, 3)

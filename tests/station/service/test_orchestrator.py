@@ -67,7 +67,7 @@ def until(orchestrator: Orchestrator, condition: Callable[[StationView], bool]) 
 
 def measuring(snapshot: StationView) -> bool:
     """A run has begun a measurement sequence."""
-    return snapshot.run is not None and snapshot.run.sequence is not None
+    return snapshot.run is not None and snapshot.run.walk is not None
 
 
 # The whole way -----------------------------------------------------------------------------------
@@ -613,7 +613,7 @@ def test_the_snapshot_tells_the_run_reading_by_reading(start: Start, rig: Rig) -
     assert [stop.done for stop in third.stops] == [True, True, True]
     assert [row.reading for row in third.readings] == [1, 2, 3]
     assert third.readings[0].x_mm == pytest.approx(-200.0)
-    assert third.sequence == SequenceTitle(number=1, title="Measuring, pass 1")
+    assert third.walk == SequenceTitle(number=1, title="Measuring, pass 1")
     assert (third.step, third.steps) == (3, 3)
     assert third.remaining_s == 0
     assert all(lock.ok for lock in seen[2].interlocks)
