@@ -180,7 +180,7 @@ class RetentionSettings(_Section):
 class QualitySettings(_Section):
     """`[quality]`: what process control compares finished runs with."""
 
-    zero_offset_deg: Annotated[float, Field(gt=0, le=90)] = 1.0
+    zero_offset_deg: Annotated[float, Field(gt=0, le=90)] = 3.0
     """Largest zero offset, to either side, that counts as within the process limits."""
     position_error_mm: Annotated[float, Field(gt=0, le=1000)] = 0.5
     """Largest position error, 95 % bound over the workspace, that counts as within the process limits."""

@@ -29,6 +29,7 @@ _COMMANDS = {
     "plan": ("plan", "The positions of a plan, their order and the accuracy they predict."),
     "quality": ("quality", "Capability, run rules and a Pareto of outcomes over finished runs."),
     "real-robot": ("real_robot", "The closed loop on logs of a real arm, as figures and drawings."),
+    "refit": ("refit", "What today's software says of stored runs; nothing stored is changed."),
     "reproduce": ("studies", "The paper's tables and figures, computed again beside ours."),
     "replay": ("wire", "Carry out a run again from its wire log, without a machine, and compare."),
     "restore": ("restoring", "Put a backup in the place of the history; what was there is kept."),
