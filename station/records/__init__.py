@@ -96,7 +96,7 @@ from station.records.quantity import Quantity
 from station.records.reading import Reading
 from station.records.reason import Reason, ReasonValue, because
 from station.records.record import Record
-from station.records.references import AnyReference, JointAngle, MountingError, ReferenceUse
+from station.records.references import AnyReference, Asked, JointAngle, MountingError, ReferenceUse
 from station.records.remembered import MemorySummary, Remembered
 from station.records.residuals import LIMIT_SDS, residual_rows
 from station.records.result import (
@@ -130,6 +130,7 @@ from station.records.trend import TrendPoint
 from station.records.types import LARGEST_ID, Angles, Complex, Flags, Index, Real
 from station.records.uid import uid7
 from station.records.visited import inside_visited, visited_in_degrees, visited_ranges
+from station.records.wire import WireHeader
 
 __all__ = [
     "DIAGNOSIS_SCHEMA",
@@ -148,6 +149,7 @@ __all__ = [
     "ApplicationRun",
     "ApplicationState",
     "Ask",
+    "Asked",
     "BackupMade",
     "Calibration",
     "CalibrationHolds",
@@ -253,6 +255,7 @@ __all__ = [
     "TrendPoint",
     "Verdict",
     "WeakDirection",
+    "WireHeader",
     "Workspace",
     "ZeroOffset",
     "ZeroWrite",

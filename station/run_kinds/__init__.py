@@ -13,7 +13,7 @@ from station.run_kinds import (  # noqa: F401 - they register themselves
 )
 from station.run_kinds.diagnose import diagnosed
 from station.run_kinds.import_file import Upload, import_dataset
-from station.run_kinds.kind import RUN_KINDS, Continued, RunKind, Start, kind_of_plan
+from station.run_kinds.kind import RUN_KINDS, Continued, RunKind, Start, kind_of_plan, request_of
 from station.run_kinds.lock import calibration_holds, check_not_locked, clear_failed_check
 from station.run_kinds.separate import planned
 from station.run_kinds.zero_state import application
@@ -32,4 +32,5 @@ __all__ = [
     "import_dataset",
     "kind_of_plan",
     "planned",
+    "request_of",
 ]

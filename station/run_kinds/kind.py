@@ -8,11 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from datetime import datetime
 from types import MappingProxyType
 
 from station.five_bar import Robot
 from station.plans import PLANS, Pace
-from station.records import Calibration, CalibrationRequest, PlanName, Procedure, Reading
+from station.records import Asked, Calibration, CalibrationRequest, PlanName, Procedure, Reading
 from station.settings import LimitSettings
 from station.store import Store
 
@@ -24,6 +25,8 @@ class Start:
     store: Store
     request: CalibrationRequest
     robot: Robot
+    began_at: datetime | None = None
+    """The station's clock when the run was created; None is now."""
     limits: LimitSettings = field(default_factory=LimitSettings)
     """Of this station."""
 
@@ -121,3 +124,23 @@ def register(kind: RunKind) -> RunKind:
 def kind_of_plan(plan: PlanName) -> str:
     """The name of the kind that measures by a plan."""
     return PLANS[plan].run_kind
+
+
+def request_of(store: Store, run: int) -> CalibrationRequest:
+    """The request that a run was started with.  :raises NotFound: no such run."""
+    known = store.calibration(run)
+    plan = known.plan if RUN_KINDS[known.kind].plans else None
+    asked = next((event.data for event in store.events(run) if event.kind == "asked"), {})
+    more = Asked.model_validate(asked)
+    return CalibrationRequest(
+        known.robot_serial,
+        known.kind,
+        known.operator,
+        plan=plan,
+        of=known.of,
+        work_order=known.work_order,
+        metadata=known.metadata,
+        references=more.references,
+        until_mm=more.until_mm,
+        accuracy_mm=more.accuracy_mm,
+    )

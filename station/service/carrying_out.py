@@ -1,15 +1,19 @@
-"""One run carried out: step by step from its procedure to its result, every reading stored at once."""
+"""One run carried out on a machine: connect, move, measure, follow its procedure to the result.
+
+The orchestrator does this with the devices, a replay with the wire log that an earlier run left.
+"""
 
 from __future__ import annotations
 
 import time
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime, timedelta
 from typing import Any
 
 from drivers.errors import DeviceError
 from station.errors import StepFailed
-from station.motion import Cancelled, Listeners, Machine, Positioner, Retracting, Zeroing
+from station.motion import Cancelled, Clock, Listeners, Machine, Positioner, Retracting, Zeroing
 from station.records import (
     Ask,
     CalibrationResult,
@@ -40,8 +44,8 @@ class Unanswered(Exception):
 
 
 @dataclass(frozen=True)
-class Execution:
-    """Of one run, in the worker's thread."""
+class CarryingOut:
+    """One run, on the thread that calls `result`."""
 
     run: Run
     kind: RunKind
@@ -49,30 +53,36 @@ class Execution:
     store: Store
     settings: Settings
     listeners: Listeners
+    begin_clock: Callable[[float], Clock]
+    """From the seconds since the run began; called after all lines were closed, before any is opened."""
+    take_wire: Callable[[], bytes]
+    """What happened on the lines since the last call, to be stored."""
+    answers: Iterator[float | None] | None = None
+    """What people answered when the run was made; None: people are asked."""
 
     def result(self) -> CalibrationResult:
-        """Follow the procedure to its end.
+        """Every reading is in the store by then.
 
-        :raises Cancelled: the run was told to end.
+        :raises Cancelled: stop was pressed.
         :raises Unanswered: a prompt has expired.
-        :raises DeviceError: a device failed.
-        :raises StepFailed: a step could not be carried out.
-        :raises InputRefused: the readings cannot be used.
+        :raises DeviceError, StepFailed, InputRefused: it failed; says why.
         """
-        run = self.run
+        run, kind = self.run, self.kind
         if run.cancel.is_set():
             raise Cancelled
         self._set_state(State.RUNNING)
-        assert self.kind.procedure is not None
+        assert kind.procedure is not None
         elapsed_s = self._continue()
-        positioner = Positioner(
-            self.machine, run.robot, self.settings.joints, run.cancel, time.monotonic() - elapsed_s
-        )
+        # Every run proves afresh that the right devices answer, and depends on nothing that was before it.
+        self.machine.release()
+        clock = self.begin_clock(elapsed_s)
+        positioner = Positioner(self.machine, run.robot, self.settings.joints, run.cancel, clock)
         self.machine.mounted_at(run.robot.c)
-        positioner.prepare(from_outside=self.kind.from_outside)
+        positioner.prepare(from_outside=kind.from_outside)
         zeroing = Zeroing(run.id, self.machine, positioner, self.store)
         zeroing.settle()
-        procedure = self.kind.procedure(Start(self.store, run.request, run.robot, self.settings.limits))
+        began_at = self.store.summary(run.id).created_at
+        procedure = kind.procedure(Start(self.store, run.request, run.robot, began_at, self.settings.limits))
 
         def carry_out(step: Step) -> Any:
             match step:
@@ -106,8 +116,9 @@ class Execution:
 
     def _begin(self, step: SetZeros | Retract | Ask) -> None:
         """A step without readings."""
-        began = self.run.begin_sequence(MeasurementSequence(step.title, step.number, ()))
-        self.listeners.publish("walk", began)
+        self.listeners.publish(
+            "walk", self.run.begin_sequence(MeasurementSequence(step.title, step.number, ()))
+        )
         self.listeners.publish("run", self.run.brief())
 
     def _sequence(self, positioner: Positioner, sequence: MeasurementSequence) -> list[Reading]:
@@ -122,7 +133,7 @@ class Execution:
             except DeviceError as error:
                 raise StepFailed(f"At position {stop.position}: {error}") from error
             reading = replace(reading, mount=sequence.mount)
-            self.store.add_reading(run.id, reading)
+            self.store.add_reading(run.id, reading, wire=self.take_wire())
             readings.append(reading)
             row = run.add_reading(index, reading, self.machine.shown_place(reading.theta_deg))
             self.listeners.publish("reading", row)
@@ -130,10 +141,19 @@ class Execution:
         return readings
 
     def _ask(self, positioner: Positioner, step: Ask) -> float | None:
-        """Wait for somebody's answer, at standstill; stop and abort end the wait at once.
+        """What somebody answers, at standstill.
 
         :raises Unanswered: the time is over.
         """
+        value = next(self.answers) if self.answers is not None else self._answer(step)
+        if step.mounted_at is not None:
+            self.machine.mounted_at(step.mounted_at)
+            positioner.look()
+        self._set_state(State.RUNNING)
+        return value
+
+    def _answer(self, step: Ask) -> float | None:
+        """Wait for it; stop and abort end the wait at once."""
         run, limit_s = self.run, self.settings.limits.prompt_s
         deadline = time.monotonic() + limit_s
         expires_at = datetime.now(UTC) + timedelta(seconds=limit_s)
@@ -152,10 +172,6 @@ class Execution:
             "answer",
             {"prompt": answer.prompt, "text": step.text, "value": answer.value, "by": answer.by},
         )
-        if step.mounted_at is not None:
-            self.machine.mounted_at(step.mounted_at)
-            positioner.look()
-        self._set_state(State.RUNNING)
         return answer.value
 
     def _set_state(self, state: State) -> None:
