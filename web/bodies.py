@@ -54,7 +54,7 @@ class CalibrationBody(BaseModel):
     work_order: Name | None = None
     metadata: dict[str, JsonValue] = Field(default_factory=dict)
     references: tuple[AnyReference, ...] = Field(
-        default=(), max_length=20, description="what other instruments measured; for this run"
+        default_factory=tuple, max_length=20, description="what other instruments measured; for this run"
     )
     accuracy_mm: Positive | None = Field(
         default=None, description="largest position error that is wanted; else the robot file's"
