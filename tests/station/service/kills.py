@@ -169,9 +169,7 @@ def main() -> int:
                 print(blows[-1], flush=True)
     wrong = [blow for blow in blows if blow.wrong]
     longest_s = max((blow.stood_s for blow in blows), default=0.0)
-    print(
-        f"{arguments.servo}: {len(blows)} blows, longest motion afterwards {longest_s:.2f} s, {len(wrong)} wrong"
-    )
+    print(f"{arguments.servo}: {len(blows)}, longest motion after it {longest_s:.2f} s, {len(wrong)} wrong")
     return 1 if wrong else 0
 
 
