@@ -91,6 +91,7 @@ class Victim:
         stood_s = self._last_motion_s(time.monotonic())
         if number is signal.SIGSTOP:
             station.send_signal(signal.SIGCONT)
+            station.send_signal(signal.SIGINT)  # where no watchdog stopped the drives it would measure on
         station.wait(END_S)
         limit_s = WATCHDOG_S + LOOK_S if self.servo == "orientalmotor" else LONGEST_MOVE_S
         wrong = f"moved for {stood_s:.2f} s" if stood_s > limit_s else self._again()
