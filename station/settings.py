@@ -177,6 +177,17 @@ class RetentionSettings(_Section):
     Without it they are kept."""
 
 
+class QualitySettings(_Section):
+    """`[quality]`: what process control compares finished runs with."""
+
+    zero_offset_deg: Annotated[float, Field(gt=0, le=90)] = 3.0
+    """Largest zero offset, to either side, that counts as within the process limits."""
+    position_error_mm: Annotated[float, Field(gt=0, le=1000)] = 0.5
+    """Largest position error, 95 % bound over the workspace, that counts as within the process limits."""
+    runs: Annotated[int, Field(ge=3, le=100_000)] = 1000
+    """The newest so many finished runs are looked at."""
+
+
 class EmulatedSettings(_Section):
     """`[emulated]`: the machine that stands in when no devices are named."""
 
@@ -197,6 +208,7 @@ class Settings(_Section):
     service: ServiceSettings = ServiceSettings()
     backup: BackupSettings = BackupSettings()
     retention: RetentionSettings = RetentionSettings()
+    quality: QualitySettings = QualitySettings()
     emulated: EmulatedSettings = EmulatedSettings()
 
     @model_validator(mode="after")

@@ -21,6 +21,7 @@ from web.routes import (
     emulator,
     health,
     live,
+    quality,
     readings,
     retract,
     robots,
@@ -55,7 +56,8 @@ def create_app(runtime: Runtime, *, static: Path = pages.STATIC) -> FastAPI:
     app.state.runtime = runtime
     app.state.feed = LiveFeed(runtime.orchestrator, build=pages.build_id(static))
     for module in (
-        station, backups, calibrations, datasets, diagnoses, emulator, readings, retract, robots, stop,
+        station, backups, calibrations, datasets, diagnoses, emulator, quality, readings, retract, robots,
+        stop,
     ):  # fmt: skip
         app.include_router(module.router, prefix=API, dependencies=[Depends(known_query(API))])
     app.include_router(live.router, prefix=API)

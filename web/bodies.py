@@ -190,7 +190,7 @@ class ReadingAnswer(Record):
             approach2=reading.approach[1],
             scale_mm=reading.scale_mm,
             position=reading.position,
-            walk=reading.walk,
+            walk=reading.sequence,
             temperature_c=reading.temperature_c,
             payload_kg=reading.payload_kg,
             mount=reading.mount,

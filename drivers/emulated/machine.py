@@ -1,7 +1,7 @@
 """The physical machine: two motors, gears, arms and links, a slider and a scale head.
 
 It computes forward, from the motors' pulses to what the head sees, and shares no formula with the
-station's identification.  It takes its time from a clock that is given to it, so a walk of hundreds
+station's identification.  It takes its time from a clock that is given to it, so a sequence of hundreds
 of stops can be simulated in virtual time.
 """
 

@@ -79,7 +79,7 @@ class VirtualRig:
             true_point_mm=machine.point_mm(),
         )
 
-    def walk(self, stops_deg: Iterable[tuple[float, float]], *, samples: int = 1) -> list[VirtualReading]:
+    def measure(self, stops_deg: Iterable[tuple[float, float]], *, samples: int = 1) -> list[VirtualReading]:
         """One reading at each stop, in order."""
         return [self.stop_at(stop, samples=samples) for stop in stops_deg]
 

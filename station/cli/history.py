@@ -18,7 +18,7 @@ from rich.console import Console
 from rich.table import Table
 
 from station.cli.kept import config_option, kept, run_argument
-from station.records import State
+from station.records import Reading, State
 from station.store import Store
 
 _COLUMNS = (
@@ -44,7 +44,7 @@ _COLUMNS = (
     "ended_at",
     "reason",
 )
-_TOLD = (
+_DETAILS = (
     "id", "uid", "robot_serial", "kind", "plan", "operator", "work_order", "state", "verdict", "outcome",
     "reason", "created_at", "started_at", "ended_at",
 )  # fmt: skip
@@ -113,6 +113,13 @@ def _cell(value: object) -> str:
     return f"{value:+.4f}" if isinstance(value, float) else str(value)
 
 
+def _shown_reading(reading: Reading) -> dict[str, object]:
+    """Under the names of REST and the database."""
+    row = asdict(reading)
+    row["walk"] = row.pop("sequence")
+    return row
+
+
 @click.command("show")
 @run_argument
 @click.option("--json", "as_json", is_flag=True, help="Everything, readings and events included, as JSON.")
@@ -127,14 +134,14 @@ def show_command(home: Path, calibration_id: int, as_json: bool, config: Path | 
     if as_json:
         content = {
             **calibration.model_dump(mode="json", by_alias=True),
-            "readings": [asdict(reading) for reading in readings],
+            "readings": [_shown_reading(reading) for reading in readings],
             "events": [event.model_dump(mode="json") for event in events],
         }
         click.echo(json.dumps(content, indent=1))
         return
     console = Console(highlight=False)
-    row = calibration.model_dump(mode="json", include=set(_TOLD))
-    for key in _TOLD:
+    row = calibration.model_dump(mode="json", include=set(_DETAILS))
+    for key in _DETAILS:
         console.print(f"{key.removesuffix('_at').replace('_', ' '):>14}  {row[key] or ''}", soft_wrap=True)
     if memory := calibration.memory:
         console.print(

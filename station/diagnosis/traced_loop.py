@@ -16,12 +16,12 @@ from station.diagnosis.readiness import check_enough, checked_fresh
 from station.diagnosis.search import Hint, Stage, Trace, hints, long_trace, trace, with_alias
 from station.diagnosis.tests_of_fit import (
     Confirmation,
-    Rest,
+    WhitenedResidual,
     confirm,
     left_out_rms,
     of_fit,
-    rest_of,
     strongest,
+    whitened_residual,
 )
 from station.diagnosis.unnamed_error import UnnamedError, unnamed_error
 from station.effects import Effect
@@ -52,7 +52,7 @@ class TracedDiagnosis:
     confirmations: tuple[Confirmation, ...]
     """One per stage; empty without fresh readings."""
     hints: tuple[Hint, ...]
-    rival: str | None
+    alternative: str | None
     """A nameless dependence that makes the readings about as probable as the effects found."""
 
     unnamed: UnnamedError | None = None
@@ -82,7 +82,7 @@ class TracedDiagnosis:
         """Verdict and trusted stage."""
         checks = self.confirmations or (None,) * len(self.trace.stages)
         figures = [_figures(*stage, checks[0]) for stage in zip(self.trace.stages, checks, strict=True)]
-        return decide(figures, alternative=self.rival is not None, share=self.explained_share)
+        return decide(figures, alternative=self.alternative is not None, share=self.explained_share)
 
     @property
     def verdict(self) -> DiagnosisVerdict:
@@ -133,9 +133,9 @@ def traced(
     checks: tuple[Confirmation, ...] = ()
     if fresh is not None:
         found, checks = _confirmed(found, fresh)
-    rival = _rival(found, checks)
-    unexplained = not found.adequate or rival is not None or (bool(checks) and not checks[-1].confirmed)
-    described = 0 if rival is not None or _hopeless(found, checks) else -1
+    alternative = _alternative(found, checks)
+    unexplained = not found.adequate or alternative is not None or (bool(checks) and not checks[-1].confirmed)
+    described = 0 if alternative is not None or _hopeless(found, checks) else -1
     return TracedDiagnosis(
         robot=robot,
         measurements=found.stages[-1].fit.model.mechanism.measurements,
@@ -143,14 +143,14 @@ def traced(
         trace=found,
         fresh=fresh,
         confirmations=checks,
-        hints=hints(_rest(found, checks, described)) if unexplained else (),
-        rival=rival,
+        hints=hints(_residual(found, checks, described)) if unexplained else (),
+        alternative=alternative,
         unnamed=None if found.adequate else unnamed_error(found.stages[-1].fit),
     )
 
 
 def _confirmed(found: Trace, fresh: Measurements) -> tuple[Trace, tuple[Confirmation, ...]]:
-    """Every stage against the fresh readings; they also settle between look-alikes left open by the walk."""
+    """Every stage against the fresh readings; they also decide between causes that the sequence left open."""
     base = found.stages[0].fit
     mechanism = base.model.mechanism
     checks = tuple(_check(base, stage, fresh) for stage in found.stages)
@@ -188,26 +188,26 @@ def _trace(mechanism: AnyMechanism, effects: Sequence[Effect]) -> Trace:
         ) from error
 
 
-def _rival(found: Trace, checks: Sequence[Confirmation]) -> str | None:
+def _alternative(found: Trace, checks: Sequence[Confirmation]) -> str | None:
     """Of the effects found, by all readings there are."""
     if checks:
-        return checks[-1].rival
+        return checks[-1].alternative
     base, last = found.stages[0].fit, found.stages[-1].fit
     if not found.findings or not found.adequate or is_long(last.model.mechanism):
         return None
-    without = Rest((of_fit(base, last.row_sd),), base.prior, base.x)
-    return strongest(without, _rest(found, checks, -1), last.model.terms, last.conditions)
+    without = WhitenedResidual((of_fit(base, last.row_sd),), base.prior, base.x)
+    return strongest(without, _residual(found, checks, -1), last.model.terms, last.conditions)
 
 
-def _rest(found: Trace, checks: Sequence[Confirmation], stage: int) -> Rest:
+def _residual(found: Trace, checks: Sequence[Confirmation], stage: int) -> WhitenedResidual:
     """What a stage leaves, of fresh readings too where there are any."""
     if checks:
-        return checks[stage].rest
-    return rest_of(found.stages[stage].fit)
+        return checks[stage].whitened
+    return whitened_residual(found.stages[stage].fit)
 
 
 def _hopeless(found: Trace, checks: Sequence[Confirmation]) -> bool:
-    """The effects found take or predict so little that the rest is better described from the base on."""
+    """The effects found take or predict so little that the residual is better described from the base on."""
     if checks:
         return checks[-1].rms_mm > USELESS * checks[0].rms_mm
     before = float(np.sum(found.stages[0].fit.residual_mm ** 2))

@@ -74,7 +74,7 @@ class WeighedDiagnosis:
 class _Files:
     """What is diagnosed: without columns or rows that are known to be wrong."""
 
-    walk: Measurements
+    sequence: Measurements
     fresh: Measurements | None
     labelled: bool = True
     """Whether the labels of positions can be trusted."""
@@ -85,16 +85,18 @@ class _Files:
             case "position_labels" if mistake.file == "fresh":
                 return replace(self, fresh=_each(self.fresh, _unlabelled))
             case "position_labels":
-                return replace(self, walk=_unlabelled(self.walk), labelled=False)
+                return replace(self, sequence=_unlabelled(self.sequence), labelled=False)
             case "approach_sign" | "approach_missing":
-                return replace(self, walk=_undirected(self.walk), fresh=_each(self.fresh, _undirected))
+                return replace(
+                    self, sequence=_undirected(self.sequence), fresh=_each(self.fresh, _undirected)
+                )
             case "time" if mistake.file == "fresh":
                 return replace(self, fresh=_each(self.fresh, _untimed))
             case "time":
-                return replace(self, walk=_untimed(self.walk), fresh=_each(self.fresh, _untimed))
+                return replace(self, sequence=_untimed(self.sequence), fresh=_each(self.fresh, _untimed))
         if mistake.file == "fresh":
             return replace(self, fresh=None if self.fresh is None else _left(self.fresh, mistake))
-        return replace(self, walk=_left(self.walk, mistake))
+        return replace(self, sequence=_left(self.sequence, mistake))
 
 
 def weighed(
@@ -119,20 +121,20 @@ def weighed(
         files = files.without(mistake)
     found, files = _explained(robot, files)
     if found.decision.verdict not in ("adequate", "explained"):
-        late = _mistake(robot, files.walk, files.fresh, context, explained=False)
+        late = _mistake(robot, files.sequence, files.fresh, context, explained=False)
         if late is not None and late.severity == "as_effect":
             entry = late
         elif late is not None and mistake is None:
             mistake = late
             found, files = _explained(robot, files.without(late))
-    told = _told(found, files)
-    if told is not None:
-        raise MistakeRefused(told)
+    shown = _mistake_shown_by(found, files)
+    if shown is not None:
+        raise MistakeRefused(shown)
     held = set(found.weighing.mechanism.measurements.ids)
     fresh_ids = () if files.fresh is None else files.fresh.ids
     return WeighedDiagnosis(
         robot=robot,
-        measurements=_kept(files.walk, held),
+        measurements=_kept(files.sequence, held),
         fresh=None if files.fresh is None else _kept(files.fresh, held),
         found=found,
         mistake=mistake,
@@ -143,10 +145,10 @@ def weighed(
 
 
 def _mistake(
-    robot: Robot, walk: Measurements, fresh: Measurements | None, context: Context, *, explained: bool
+    robot: Robot, sequence: Measurements, fresh: Measurements | None, context: Context, *, explained: bool
 ) -> Mistake | None:
     """:raises MistakeRefused: one that has to be put right first."""
-    found = find_mistake(robot, walk, fresh, context, explained=explained)
+    found = find_mistake(robot, sequence, fresh, context, explained=explained)
     if found is not None and found.severity == "refused":
         raise MistakeRefused(found)
     return found
@@ -157,15 +159,15 @@ def _explained(robot: Robot, files: _Files) -> tuple[ExplanationSet, _Files]:
 
     :raises InputRefused: files that cannot be judged.
     """
-    mechanism = FiveBar(robot, files.walk)
-    backwards = np.flatnonzero(np.diff(files.walk.t_s) < 0)
+    mechanism = FiveBar(robot, files.sequence)
+    backwards = np.flatnonzero(np.diff(files.sequence.t_s) < 0)
     if backwards.size:
         raise InputRefused(
-            f"Reading {files.walk.ids[int(backwards[0]) + 1]}, column t_s: time runs backwards; put the rows "
-            "in the order they were measured."
+            f"Reading {files.sequence.ids[int(backwards[0]) + 1]}, column t_s: time runs backwards; "
+            "put the rows in the order they were measured."
         )
     mechanism.check()
-    check_places(files.walk)
+    check_places(files.sequence)
     check_enough(mechanism, labelled=files.labelled)
     fresh = None if files.fresh is None else checked_fresh(mechanism, files.fresh)
     try:
@@ -176,7 +178,7 @@ def _explained(robot: Robot, files: _Files) -> tuple[ExplanationSet, _Files]:
         ) from error
 
 
-def _told(found: ExplanationSet, files: _Files) -> Mistake | None:
+def _mistake_shown_by(found: ExplanationSet, files: _Files) -> Mistake | None:
     """What was done to the machine between readings, as the explanations know it."""
     fresh, validation = files.fresh, found.validation
     if fresh is None or validation is None or not found.explanations:
@@ -193,8 +195,8 @@ def _told(found: ExplanationSet, files: _Files) -> Mistake | None:
     sizes = " and ".join(
         f"{q.value:.4f} deg" for held in slips for q in held.parameters if q.name == "step_deg"
     )
-    clock = together(files.walk, fresh).t_s
-    if moment == clock[len(files.walk)] and not validation.agrees:
+    clock = together(files.sequence, fresh).t_s
+    if moment == clock[len(files.sequence)] and not validation.agrees:
         what = "Both joints were" if len(joints) == 2 else f"Joint {joints[0]} was"
         text = (
             f"{what} homed anew before the fresh readings, by {sizes}: those agree with the measurement "
@@ -203,8 +205,8 @@ def _told(found: ExplanationSet, files: _Files) -> Mistake | None:
         return Mistake(
             "zeros_written" if len(joints) == 2 else "rehomed", text, fresh.ids, "refused", "fresh"
         )
-    if len(joints) == 2 and moment in files.walk.t_s:
-        rows = tuple(i for i, t in zip(files.walk.ids, files.walk.t_s, strict=True) if t >= moment)
+    if len(joints) == 2 and moment in files.sequence.t_s:
+        rows = tuple(i for i, t in zip(files.sequence.ids, files.sequence.t_s, strict=True) if t >= moment)
         text = (
             f"From reading {rows[0]} on both joints are shifted, by {sizes}: zeros were written to the "
             "drives during the measurement sequence; measure again with one set of zeros."
@@ -213,22 +215,22 @@ def _told(found: ExplanationSet, files: _Files) -> Mistake | None:
     return None
 
 
-def _outliers(robot: Robot, walk: Measurements, found: ExplanationSet) -> tuple[Outlier, ...]:
+def _outliers(robot: Robot, sequence: Measurements, found: ExplanationSet) -> tuple[Outlier, ...]:
     """Readings of the sequence that took no part, glitches included."""
     held = set(found.weighing.mechanism.measurements.ids)
-    out = np.array([i not in held for i in walk.ids])
+    out = np.array([i not in held for i in sequence.ids])
     if not out.any():
         return ()
-    residual_mm, sd_mm = found.left_by(FiveBar(robot, walk))
+    residual_mm, sd_mm = found.left_by(FiveBar(robot, sequence))
     return tuple(
-        Outlier(walk.ids[k], float(residual_mm[k]), float(abs(residual_mm[k]) / sd_mm[k]))
+        Outlier(sequence.ids[k], float(residual_mm[k]), float(abs(residual_mm[k]) / sd_mm[k]))
         for k in np.flatnonzero(out)
     )
 
 
-def _distinct(fresh: Measurements | None, walk: Measurements) -> Measurements | None:
+def _distinct(fresh: Measurements | None, sequence: Measurements) -> Measurements | None:
     """Fresh readings under ids of their own."""
-    if fresh is None or not set(fresh.ids) & set(walk.ids):
+    if fresh is None or not set(fresh.ids) & set(sequence.ids):
         return fresh
     return replace(fresh, ids=tuple(f"fresh {i}" for i in fresh.ids))
 

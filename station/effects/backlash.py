@@ -16,7 +16,7 @@ class Backlash(JointEffect):
     id = "backlash"
     physics = "The arm lags by half the play in the sense of the joint's last motion."
     remedy = "Adjust or replace the reducer, or approach every position from the same side."
-    experiment = "Read the same places from the other side."
+    experiment = "Read the same positions from the other side."
     by_approach = True
     bounds: ClassVar[Bounds] = {"width_deg": (0.0, 1.0)}
 

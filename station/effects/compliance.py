@@ -20,7 +20,7 @@ class Compliance(JointEffect):
     id = "compliance"
     physics = "The arm sags under gravity, most when it is horizontal; a recorded payload adds to it."
     remedy = "Stiffen the drive train or compensate for the torque in the controller."
-    experiment = "Repeat the walk with a payload on the platform."
+    experiment = "Repeat the measurement sequence with a payload on the platform."
     bounds: ClassVar[Bounds] = dict.fromkeys(
         ("deg_at_horizontal", "deg_at_horizontal_per_kg", "deg_at_full_reach"), (0.0, 1.0)
     )

@@ -23,7 +23,7 @@ class CountSlip(JointEffect):
     id = "count_slip"
     physics = "A belt jumped, a coupling slipped or counts were lost: a step from one moment on."
     remedy = "Tighten coupling or belt, check the encoder cable, then calibrate again."
-    experiment = "Read the first places again: the step stays."
+    experiment = "Read the first positions again: the step stays."
     bounds: ClassVar[Bounds] = {"step_deg": (-5.0, 5.0)}
 
     def variants(self, c: Conditions) -> Variants | None:

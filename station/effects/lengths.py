@@ -15,7 +15,7 @@ class LinkLength(JointEffect):
     id = "link_length"
     physics = "A link is longer or shorter than its tolerance allows."
     remedy = "Measure the link; correct the robot file or replace the link."
-    experiment = "Measure the link, or repeat the walk from a second mount of the mechanism."
+    experiment = "Measure the link, or repeat the sequence from a second mount of the mechanism."
 
     def __init__(self, joint: int, link: str) -> None:
         super().__init__(joint)
@@ -41,7 +41,7 @@ class JointClearance(JointEffect):
     id = "joint_clearance"
     physics = "The pin of a passive joint lies on the side to which the load pulls it."
     remedy = "Replace the bearing of the passive joint."
-    experiment = "Repeat the walk with the load on the platform reversed."
+    experiment = "Repeat the measurement sequence with the load on the platform reversed."
 
     def variants(self, c: Conditions) -> Variants | None:
         link = f"l{self.joint}"

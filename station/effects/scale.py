@@ -61,7 +61,7 @@ class ScaleCyclic(Effect):
     id = "scale_cyclic"
     physics = "The graduation, its interpolation or a rolling element repeats along the travel."
     remedy = "Clean and realign the head; check what has this period (graduation, rolling element, screw)."
-    experiment = "Read finely over two or three periods of travel, or start at another place of the scale."
+    experiment = "Read finely over two or three periods of travel, or start at another point of the scale."
 
     repeats = True
     SHORTEST_MM = 0.4
@@ -98,7 +98,7 @@ class ScaleHysteresis(Effect):
     id = "scale_hysteresis"
     physics = "Head or slider hang back: the reading depends on the sense of the slider's last motion."
     remedy = "Check the head's coupling and the friction of the slider."
-    experiment = "Reach the same place once with the slider moving up and once moving down."
+    experiment = "Reach the same position once with the slider moving up and once moving down."
 
     def variants(self, c: Conditions) -> Variants | None:
         if len(np.unique(c.slider_direction[c.slider_direction != 0])) < 2:

@@ -17,7 +17,7 @@ class Drift(Effect):
     id = "drift"
     physics = "The reading wanders in proportion to time."
     remedy = "Let readout and machine warm up; check the mounting of scale and base."
-    experiment = "Stand still at one place and read for as long as the walk took."
+    experiment = "Stand still at one position and read for as long as the measurement sequence took."
 
     def variants(self, c: Conditions) -> Variants | None:
         return one(ON_READING, c.t_s)
@@ -32,7 +32,7 @@ class ThermalGrowth(Effect):
     id = "thermal_growth"
     physics = "Links or scale grow as the machine warms up."
     remedy = "Warm up before calibrating, or compensate for the recorded temperature."
-    experiment = "Repeat the walk warm, with the temperature recorded."
+    experiment = "Repeat the measurement sequence warm, with the temperature recorded."
     bounds: ClassVar[Bounds] = {
         "links_um_per_m_per_K": (0.0, 40.0),
         "scale_um_per_m_per_K": (-40.0, 40.0),

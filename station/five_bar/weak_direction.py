@@ -109,14 +109,14 @@ def remedies(fit: Posterior) -> tuple[Remedy, ...]:
             sd_deg=common_sd_deg(np.linalg.inv(known)),
         ),
         Remedy(
-            text=f"repeat the walk with the mechanism mounted {SECOND_MOUNT_MM:.0f} mm aside",
+            text=f"repeat the sequence with the mechanism mounted {SECOND_MOUNT_MM:.0f} mm aside",
             sd_deg=common_sd_deg(_with_second_mount(fit, information)),
         ),
     )
 
 
 def _with_second_mount(fit: Posterior, information: Real) -> Real:
-    """Posterior covariance after the same walk from a second mount with its own dr_M and rho_0."""
+    """Posterior covariance after the same sequence from a second mount with its own dr_M and rho_0."""
     size = len(information)
     geometry = fit.mechanism.nominal
     aside = type(geometry)(geometry.e, geometry.L, geometry.l, geometry.cd + SECOND_MOUNT_MM)

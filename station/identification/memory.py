@@ -78,11 +78,11 @@ def contradiction_p(solution: Solution, prior: Prior, parameters: tuple[Paramete
     nuisance = np.linalg.qr(J[:, passing] / np.linalg.norm(J[:, passing], axis=0))[0]
     root = prior.root[:, lasting]
     spread = np.linalg.inv(np.linalg.cholesky(root.T @ root)).T
-    told = J[:, lasting] @ spread
-    told -= nuisance @ (nuisance.T @ told)
+    informed = J[:, lasting] @ spread
+    informed -= nuisance @ (nuisance.T @ informed)
     misfit = solution.residual + J[:, lasting] @ (prior.mean - solution.x)[lasting]
     misfit -= nuisance @ (nuisance.T @ misfit)
-    U, sigma, _ = np.linalg.svd(told, full_matrices=False)
+    U, sigma, _ = np.linalg.svd(informed, full_matrices=False)
     can_tell = sigma > INFORMATIVE
     if not can_tell.any():
         return 1.0

@@ -1,4 +1,4 @@
-"""Verification at fresh places, and the result of a calibration by the measurement model."""
+"""Verification at fresh positions, and the result of a calibration by the measurement model."""
 
 from __future__ import annotations
 
@@ -88,11 +88,11 @@ def verify(fit: Identification[FiveBar], fresh: Measurements, *, offset_known: b
     ratio = fit.noise.sigma_mm / float(np.sqrt(np.mean(fit.mechanism.row_sd**2)))
     noise = np.diag((mechanism.row_sd * ratio * fit.sd_factor) ** 2)
     covariance = at.by_parameter @ fit.covariance @ at.by_parameter.T + noise
-    told = np.eye(len(residual)) if offset_known else null_space(np.ones((1, len(residual))))
-    rest, its_covariance = told.T @ residual, told.T @ covariance @ told
-    square = float(rest @ np.linalg.solve(its_covariance, rest))
-    sd = np.sqrt(np.diag(told @ its_covariance @ told.T))
-    return Verification(told @ rest, sd, float(chdtrc(len(rest), square)))
+    observable = np.eye(len(residual)) if offset_known else null_space(np.ones((1, len(residual))))
+    seen, seen_covariance = observable.T @ residual, observable.T @ covariance @ observable
+    square = float(seen @ np.linalg.solve(seen_covariance, seen))
+    sd = np.sqrt(np.diag(observable @ seen_covariance @ observable.T))
+    return Verification(observable @ seen, sd, float(chdtrc(len(seen), square)))
 
 
 def result_of(

@@ -9,8 +9,8 @@ from station.motion.emulated_rig import FaultOrder as FaultOrder
 from station.motion.events import Listener, Listeners, LiveEvent
 from station.motion.machine import Machine
 from station.motion.opening import Equipment, equipment
+from station.motion.positioner import Cancelled, Positioner
 from station.motion.retracting import Retracting
-from station.motion.walker import Cancelled, Walker
 from station.motion.way_back import outside_mm
 from station.motion.wire_words import in_words
 from station.motion.zero_writer import Zeroing, shift_of
@@ -28,9 +28,9 @@ __all__ = [
     "LiveEvent",
     "Machine",
     "PlayedClock",
+    "Positioner",
     "Retracting",
     "RunClock",
-    "Walker",
     "Zeroing",
     "build_devices",
     "equipment",

@@ -65,8 +65,8 @@ class Machine:
         self._pose: Pose | None = None
         self._stands_deg: tuple[float, float] | None = None
         """As in the pose; known without the scale, too."""
-        self._told: tuple[Interlock, ...] = ()
-        self._told_retract: RetractView | None = None
+        self._published: tuple[Interlock, ...] = ()
+        self._published_retract: RetractView | None = None
 
     # Working with the devices --------------------------------------------------------------------
 
@@ -310,12 +310,12 @@ class Machine:
 
     def _tell_interlocks(self) -> None:
         interlocks = self.interlocks()
-        if interlocks != self._told:
-            self._told = interlocks
+        if interlocks != self._published:
+            self._published = interlocks
             self._listeners.publish("interlock", interlocks)
         retract = self.retract()
-        if retract != self._told_retract:
-            self._told_retract = retract
+        if retract != self._published_retract:
+            self._published_retract = retract
             self._listeners.publish("retract", retract)
 
 

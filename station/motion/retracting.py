@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from drivers.errors import DeviceError, DeviceFault
 from station.errors import StepFailed
 from station.motion.machine import Machine
-from station.motion.walker import Walker
+from station.motion.positioner import Positioner
 from station.motion.way_back import TOLERANCE_MM, outside_mm, way_back
 from station.records import Stop
 
@@ -20,7 +20,7 @@ class Retracting:
     """Brings the arm of one run back."""
 
     machine: Machine
-    walker: Walker
+    positioner: Positioner
     _scale_is_lost: bool = False
 
     def carry_out(self) -> float:
@@ -33,21 +33,21 @@ class Retracting:
         :raises DeviceError: a drive failed.
         :raises StepFailed: no way is known, or a step did not bring the arm nearer.
         """
-        walker, robot = self.walker, self.walker.robot
-        stood_mm = distance_mm = outside_mm(robot, walker.theta_deg)
+        positioner, robot = self.positioner, self.positioner.robot
+        stood_mm = distance_mm = outside_mm(robot, positioner.theta_deg)
         speed = min(FASTEST_DEG_S, self.machine.limits.speed_deg_s)
-        for number, target in enumerate(way_back(robot, walker.theta_deg), start=1):
-            self.machine.moved(walker.theta_deg, scale_mm := self._scale_mm())
+        for number, target in enumerate(way_back(robot, positioner.theta_deg), start=1):
+            self.machine.moved(positioner.theta_deg, scale_mm := self._scale_mm())
             place = self.machine.place(target) or (0.0, 0.0)
             stop = Stop(f"{number} of the way back", place, target)
-            walker.go(stop, speed, scale=math.isfinite(scale_mm))
-            before_mm, distance_mm = distance_mm, outside_mm(robot, walker.theta_deg)
+            positioner.go(stop, speed, scale=math.isfinite(scale_mm))
+            before_mm, distance_mm = distance_mm, outside_mm(robot, positioner.theta_deg)
             if distance_mm > before_mm + TOLERANCE_MM:
                 raise StepFailed(
                     f"Step {number} of the way back led away from the workspace, from {before_mm:.1f} mm to"
                     f" {distance_mm:.1f} mm outside; switch the drives off and look at the arm."
                 )
-        self.machine.moved(walker.theta_deg, self._scale_mm())
+        self.machine.moved(positioner.theta_deg, self._scale_mm())
         if distance_mm > 0.0:
             raise StepFailed(f"The arm still stands {distance_mm:.1f} mm outside its workspace.")
         return stood_mm

@@ -16,7 +16,7 @@ from drivers.errors import DeviceError
 from station.errors import StepFailed
 from station.five_bar import forward
 from station.motion.machine import Machine
-from station.motion.walker import Walker
+from station.motion.positioner import Positioner
 from station.records import Angles, SetZeros, Stop, ZeroWrite
 from station.store import Store
 
@@ -31,7 +31,7 @@ class Zeroing:
 
     run_id: int
     machine: Machine
-    walker: Walker
+    positioner: Positioner
     store: Store
 
     def settle(self) -> None:
@@ -42,7 +42,7 @@ class Zeroing:
         for write in self._writes():
             if write.taken is not None:
                 continue
-            joint = self.walker.joints[write.joint - 1]
+            joint = self.positioner.joints[write.joint - 1]
             feedback = self._feedback(write.joint)
             here = min((joint.zero_at_deg, write.from_deg), key=lambda place: abs(feedback - place))
             if abs(feedback - here) * joint.scaling.pulses_per_deg <= SETTLE_PULSES:
@@ -60,14 +60,14 @@ class Zeroing:
         """
         if doubt := self.machine.make_safe():
             raise StepFailed(doubt)
-        self.walker.prepare()
+        self.positioner.prepare()
         self.settle()
         shift = shift_of(self._writes(step.of))
-        joints = self.walker.joints
+        joints = self.positioner.joints
         away = [offset + moved for offset, moved in zip(step.offsets_deg, shift, strict=True)]
         if due := [number for number in (1, 2) if away[number - 1]]:
             goal = (joints[0].zero_at_deg - away[0], joints[1].zero_at_deg - away[1])
-            self.walker.stand_at(Stop("zero", self._zero_place(), goal))
+            self.positioner.stand_at(Stop("zero", self._zero_place(), goal))
             try:
                 for number in due:
                     self._write(number, step.offsets_deg[number - 1])
@@ -75,12 +75,12 @@ class Zeroing:
                 with suppress(DeviceError):  # the next run looks again
                     self.settle()
                 raise
-            self.walker.look()
+            self.positioner.look()
         return shift_of(self._writes(step.of))
 
     def _write(self, number: int, offset_deg: float) -> None:
-        self.walker.check_cancel()
-        joint, axis = self.walker.joints[number - 1], self.machine.devices.axes[number - 1]
+        self.positioner.check_cancel()
+        joint, axis = self.positioner.joints[number - 1], self.machine.devices.axes[number - 1]
         write = self.store.begin_zero_write(self.run_id, number, offset_deg, self._feedback(number))
         with self.machine.using(axis):
             axis.preset(joint.zero_at_deg)
@@ -97,11 +97,11 @@ class Zeroing:
             return axis.feedback_deg()
 
     def _writes(self, since: int = 0) -> list[ZeroWrite]:
-        return self.store.zero_writes(self.walker.robot.serial, since=since)
+        return self.store.zero_writes(self.positioner.robot.serial, since=since)
 
     def _zero_place(self) -> Angles:
-        zeros = np.radians([[joint.zero_at_deg for joint in self.walker.joints]])
-        place = complex(forward(self.walker.robot.geometry, zeros)[0])
+        zeros = np.radians([[joint.zero_at_deg for joint in self.positioner.joints]])
+        place = complex(forward(self.positioner.robot.geometry, zeros)[0])
         return place.real, place.imag
 
 

@@ -1,4 +1,4 @@
-"""Plan `diagnostic`: a grid there and back that shows the cause of a residual, and fresh places afterwards.
+"""Plan `diagnostic`: a grid there and back that shows the cause of a residual, then fresh positions.
 
 There and back shows most places from both sides, ten places read before and twice afterwards from the
 same side show the noise and what time does.

@@ -110,6 +110,7 @@ from station.records.result import (
 )
 from station.records.run import (
     CalibrationRequest,
+    MeasurementSequence,
     PlanName,
     Retract,
     SetZeros,
@@ -117,11 +118,11 @@ from station.records.run import (
     Step,
     Stop,
     Submitted,
-    Walk,
     ZeroWrite,
 )
-from station.records.sections import Finite, Positive, Section, Sections, refusal
-from station.records.types import LARGEST_ID, Angles, Complex, Index, Real
+from station.records.sections import Finite, Positive, Section, Sections, refusal, sections_to_toml
+from station.records.trend import TrendPoint
+from station.records.types import LARGEST_ID, Angles, Complex, Flags, Index, Real
 from station.records.uid import uid7
 from station.records.visited import inside_visited, visited_in_degrees, visited_ranges
 from station.records.wire import WireHeader
@@ -163,6 +164,7 @@ __all__ = [
     "ExplanationRecord",
     "Finding",
     "Finite",
+    "Flags",
     "ForeignTable",
     "GateOfMemory",
     "IdentificationDocument",
@@ -176,6 +178,7 @@ __all__ = [
     "LearnedRanges",
     "LearnedReadings",
     "MachineView",
+    "MeasurementSequence",
     "Measurements",
     "MemorySummary",
     "MemoryUse",
@@ -234,8 +237,8 @@ __all__ = [
     "Table",
     "TemperatureReference",
     "TermOfModel",
+    "TrendPoint",
     "Verdict",
-    "Walk",
     "WeakDirection",
     "WireHeader",
     "Workspace",
@@ -257,6 +260,7 @@ __all__ = [
     "recorded_columns",
     "refusal",
     "residual_rows",
+    "sections_to_toml",
     "translated",
     "uid7",
     "visited_in_degrees",

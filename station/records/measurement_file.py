@@ -132,12 +132,12 @@ def recorded_columns(content: bytes) -> set[str]:
 def parse_readings(
     content: bytes,
     *,
-    walk: int = 1,
+    sequence: int = 1,
     after: int = 0,
     source: str = "measurement file",
     in_order: bool = True,
 ) -> list[Reading]:
-    """The file's rows as records of a walk, as the store keeps them.
+    """The file's rows as records of a sequence, as the store keeps them.
 
     Ids that are whole numbers rising from beyond `after` stay; else rows are numbered from there.
 
@@ -159,7 +159,7 @@ def parse_readings(
             approach=(int(m.approach[k, 0]), int(m.approach[k, 1])),
             scale_mm=float(m.distance[k]),
             position=places[k] or f"row {table.lines[k]}",
-            walk=walk,
+            sequence=sequence,
             temperature_c=None if m.temperature_c is None else float(m.temperature_c[k]),
             payload_kg=None if m.payload_kg is None else float(m.payload_kg[k]),
             mount=m.mounts[m.mount[k]] or None,

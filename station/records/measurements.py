@@ -1,6 +1,6 @@
 """Readings as arrays: what identification and diagnosis work on.
 
-One row a reading, whatever it came from: a file, a run in the store or a simulated walk.
+One row a reading, whatever it came from: a file, a run in the store or a simulated sequence.
 """
 
 from __future__ import annotations

@@ -18,7 +18,7 @@ class Reading:
     scale_mm: float
     """Mean of the samples."""
     position: str
-    walk: int = 1
+    sequence: int = 1
     samples_mm: tuple[float, ...] = ()
     temperature_c: float | None = None
     payload_kg: float | None = None

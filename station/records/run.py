@@ -76,13 +76,13 @@ class Stop:
 
 
 @dataclass(frozen=True, slots=True)
-class Walk:
+class MeasurementSequence:
     """A sequence of stops to be measured in this order."""
 
     title: str
     """In the operator's words, e.g. "Measuring, pass 2"."""
     number: int
-    """1, 2, ...; stored with each reading of the walk as `pass`."""
+    """1, 2, ...; stored with each of its readings."""
     stops: tuple[Stop, ...]
 
 
@@ -106,7 +106,7 @@ class Retract:
     number: int
 
 
-Step = Walk | SetZeros | Retract
+Step = MeasurementSequence | SetZeros | Retract
 """What a procedure may ask for."""
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
@@ -25,3 +26,15 @@ def refusal(error: ValidationError, source: str) -> InputRefused:
     first = error.errors()[0]
     where = ".".join(str(part) for part in first["loc"])
     return InputRefused(f"{source}: [{where}] {first['msg']} (given: {first['input']!r}).")
+
+
+def sections_to_toml(sections: Sections, path: str = "") -> str:
+    """The text of a file with these sections: numbers, strings, truth values and lists of them."""
+    lines = [f"[{path}]"] if path else []
+    tables = {key: value for key, value in sections.items() if isinstance(value, dict)}
+    # numbers, strings and lists are written alike in TOML and JSON
+    lines += [f"{key} = {json.dumps(value)}" for key, value in sections.items() if key not in tables]
+    text = "".join(f"{line}\n" for line in lines) + ("\n" if path else "")
+    return text + "".join(
+        sections_to_toml(table, f"{path}.{key}" if path else key) for key, table in tables.items()
+    )

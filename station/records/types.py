@@ -16,6 +16,8 @@ Angles = tuple[float, float]
 
 Index = NDArray[np.intp]
 
+Flags = NDArray[np.bool_]
+
 
 LARGEST_ID = 2**63 - 1
 """SQLite's largest row id; the database takes no larger number."""

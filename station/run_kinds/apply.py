@@ -1,4 +1,4 @@
-"""Zero offsets written to the drives, verified at fresh places, taken back when that fails.
+"""Zero offsets written to the drives, verified at fresh positions, taken back when that fails.
 
 Before anything is written a few fresh readings show that the machine is still the one that was
 calibrated.  The model of that calibration stays frozen; only the frame of its angles moves, by what
@@ -21,11 +21,11 @@ from station.records import (
     Accuracy,
     Angles,
     CalibrationResult,
+    MeasurementSequence,
     Procedure,
     Reading,
     Reason,
     SetZeros,
-    Walk,
     because,
     from_readings,
     residual_rows,
@@ -38,8 +38,8 @@ from station.store import Store
 CHECK_PLACES = 4
 OLD_ZEROS = (0.0, 0.0)
 
-_Steps = Generator[Walk | SetZeros, Any, Angles]
-_Measured = Generator[Walk | SetZeros, Any, tuple[list[Reading], Verification]]
+_Steps = Generator[MeasurementSequence | SetZeros, Any, Angles]
+_Measured = Generator[MeasurementSequence | SetZeros, Any, tuple[list[Reading], Verification]]
 
 
 @dataclass(frozen=True)
@@ -60,12 +60,12 @@ def source_of(store: Store, calibration_id: int) -> Source:
     calibration = store.calibration(calibration_id)
     readings = store.readings(calibration_id)
     if calibration.plan == "paper":  # a place's passes stand at different angles: they are no repeats
-        # without the walk that verified: it took no part in the fit
+        # without the sequence that verified: it took no part in the fit
         if calibration.after is not None and calibration.after.fresh_reading_rms_mm is not None:
-            readings = [r for r in readings if r.walk < readings[-1].walk]
-        readings = [replace(r, position=f"{r.position} pass {r.walk}") for r in readings]
-    else:  # the second walk verified, it took no part in the fit
-        readings = [r for r in readings if r.walk == 1]
+            readings = [r for r in readings if r.sequence < readings[-1].sequence]
+        readings = [replace(r, position=f"{r.position} pass {r.sequence}") for r in readings]
+    else:  # the second sequence verified, it took no part in the fit
+        readings = [r for r in readings if r.sequence == 1]
     use = calibration.memory
     memory = store.memory_left_by(use.from_calibration) if use and use.used else None
     fit = fit_of(store.robot_of(calibration_id), readings, memory, (use.age_days if use else None) or 0.0)
@@ -99,7 +99,7 @@ def apply(source: Source) -> Procedure:
     try:
         shift: Angles = yield SetZeros("Writing the zero offsets", 2, source.id, source.offsets_deg)
         fit = source.fit.moved(shift)
-        readings, check = yield from _measured(fit, "Verifying at fresh places", 3)
+        readings, check = yield from _measured(fit, "Verifying at fresh positions", 3)
     except (DeviceError, StepFailed) as error:
         yield from _way_back(source, str(error))
         raise StepFailed(f"{error} The old zero offsets are in the drives.") from error
@@ -131,7 +131,7 @@ def roll_back(source: Source, verified_shift: Angles | None) -> Procedure:
 def _measured(fit: Identification[FiveBar], title: str, number: int, count: int | None = None) -> _Measured:
     """Fresh readings and what they say about a model."""
     stops = fresh_stops(fit, seed=number) if count is None else fresh_stops(fit, count, number, "C")
-    readings: list[Reading] = yield Walk(title, number, stops)
+    readings: list[Reading] = yield MeasurementSequence(title, number, stops)
     return readings, verify(fit, from_readings(readings), offset_known=False)
 
 

@@ -24,12 +24,12 @@ from station.plans import make_plan
 from station.published import MAX_PASSES, PublishedRun
 from station.records import (
     CalibrationResult,
+    MeasurementSequence,
     MemoryUse,
     PlanName,
     Procedure,
     Reading,
     Remembered,
-    Walk,
     because,
     from_readings,
 )
@@ -56,7 +56,7 @@ def published(robot: Robot) -> Procedure:
     everything: list[Reading] = []
     for number in range(1, MAX_PASSES + 1):
         stops = make_plan("paper", robot, run.total).stops
-        readings: list[Reading] = yield Walk(f"Measuring, pass {number}", number, stops)
+        readings: list[Reading] = yield MeasurementSequence(f"Measuring, pass {number}", number, stops)
         run.absorb(readings)
         everything += readings
         if run.converged:
@@ -65,7 +65,7 @@ def published(robot: Robot) -> Procedure:
     if result.outcome != "not_verified":
         return without_jump(result, robot, everything)
     stops = fresh_stops_of(robot, run.total, seed=len(everything))
-    fresh: list[Reading] = yield Walk("Verifying at fresh places", number + 1, stops)
+    fresh: list[Reading] = yield MeasurementSequence("Verifying at fresh positions", number + 1, stops)
     return without_jump(_verified(run, result, fresh), robot, [*everything, *fresh])
 
 
@@ -92,14 +92,14 @@ def _verified(run: PublishedRun, result: CalibrationResult, fresh: list[Reading]
 
 
 def measured_and_verified(plan: PlanName, robot: Robot, memory: Remembered | None = None) -> Procedure:
-    """The measurement model on a chosen plan, then fresh places that took no part in the fit."""
-    readings: list[Reading] = yield Walk("Measuring", 1, make_plan(plan, robot).stops)
+    """The measurement model on a chosen plan, then fresh positions that took no part in the fit."""
+    readings: list[Reading] = yield MeasurementSequence("Measuring", 1, make_plan(plan, robot).stops)
     age_days = memory.age_days if memory else 0.0
     try:
         fit = fit_of(robot, readings, memory, age_days)
     except InputRefused as refusal:
         return without_jump(not_identified(str(refusal)), robot, readings)
-    fresh: list[Reading] = yield Walk("Verifying at fresh places", 2, fresh_stops(fit))
+    fresh: list[Reading] = yield MeasurementSequence("Verifying at fresh positions", 2, fresh_stops(fit))
     result = result_of(fit, readings, fresh).model_copy(update={"lasting": fit.lasting.record()})
     result = without_jump(result, robot, [*readings, *fresh])
     if memory is None or fit.gate is None:

@@ -1,4 +1,4 @@
-"""The closed loop on the machine: walk, residual, cause, model, fresh readings that judge it."""
+"""The closed loop on the machine: sequence, residual, cause, model, fresh readings that judge it."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from station.records import (
     CalibrationResult,
     DataSource,
     Measurements,
+    MeasurementSequence,
     Reading,
     StageAccuracy,
-    Walk,
     from_readings,
     readings_to_csv,
     residual_rows,
@@ -28,35 +28,39 @@ from station.run_kinds.kind import RunKind, register
 METHOD = "diagnosis"
 
 
-def diagnostic(robot: Robot) -> Generator[Walk, list[Reading], CalibrationResult]:
+def diagnostic(robot: Robot) -> Generator[MeasurementSequence, list[Reading], CalibrationResult]:
     """Find the cause of what the model leaves over, then judge it by fresh readings.
 
     :raises InputRefused: the readings are not enough to judge, or not of this robot.
     """
-    readings = yield Walk("Looking for the cause", 1, make_plan("diagnostic", robot).stops)
+    readings = yield MeasurementSequence("Looking for the cause", 1, make_plan("diagnostic", robot).stops)
     return (yield from judged(robot, readings))
 
 
-def judged(robot: Robot, readings: list[Reading]) -> Generator[Walk, list[Reading], CalibrationResult]:
+def judged(
+    robot: Robot, readings: list[Reading]
+) -> Generator[MeasurementSequence, list[Reading], CalibrationResult]:
     """What readings tell of the cause, judged by fresh ones at other places.
 
     :raises InputRefused: as `diagnose`.
     """
-    walk = from_readings(readings)
-    found = findings_of(diagnose(robot, walk))
+    sequence = from_readings(readings)
+    found = findings_of(diagnose(robot, sequence))
     zeros = np.radians([q.value for q in found.parameters[:2]])
-    fresh = yield Walk("Confirming at fresh places", 2, diagnostic_fresh_stops(robot, zeros, _seed(walk)))
+    fresh = yield MeasurementSequence(
+        "Confirming at fresh positions", 2, diagnostic_fresh_stops(robot, zeros, _seed(sequence))
+    )
     return result_of(diagnosed(robot, [*readings, *fresh]), readings, _described(readings))
 
 
 def diagnosed(robot: Robot, readings: list[Reading], context: Context | None = None) -> Findings:
-    """The diagnosis of a run's readings: the first walk is learned from, later ones judge.
+    """The diagnosis of a run's readings: the first sequence is learned from, later ones judge.
 
     :param context: what their file recorded; None as the readings show
     :raises InputRefused: as `diagnose`.
     """
-    learned = [r for r in readings if r.walk == 1]
-    fresh = [r for r in readings if r.walk > 1]
+    learned = [r for r in readings if r.sequence == 1]
+    fresh = [r for r in readings if r.sequence > 1]
     later = from_readings(fresh) if fresh else None
     return findings_of(diagnose(robot, from_readings(learned), later, context))
 
@@ -101,9 +105,9 @@ def _errors(stage: StageAccuracy) -> Accuracy:
     )
 
 
-def _seed(walk: Measurements) -> int:
+def _seed(sequence: Measurements) -> int:
     """From the readings themselves: new places each run, and the same again from what is stored."""
-    return zlib.crc32(np.ascontiguousarray(walk.distance).tobytes())
+    return zlib.crc32(np.ascontiguousarray(sequence.distance).tobytes())
 
 
 DIAGNOSE = register(RunKind("diagnose", lambda start: diagnostic(start.robot)))

@@ -65,7 +65,7 @@ def import_dataset(
     later: list[Reading] = []
     if fresh is not None:
         later = parse_readings(
-            fresh.content, walk=2, after=readings[-1].reading, source=fresh.name, in_order=False
+            fresh.content, sequence=2, after=readings[-1].reading, source=fresh.name, in_order=False
         )
     if len(readings) + len(later) > MOST_READINGS:
         raise InputRefused(

@@ -16,7 +16,7 @@ from station.diagnosis import Experiment, experiment
 from station.errors import InputRefused, NotApplicable
 from station.five_bar import Robot
 from station.plans import FRESH_PLACES
-from station.records import CalibrationRequest, CalibrationResult, Procedure, Reading, Walk
+from station.records import CalibrationRequest, CalibrationResult, MeasurementSequence, Procedure, Reading
 from station.run_kinds.diagnose import diagnosed, judged
 from station.run_kinds.kind import Continued, RunKind, Start, register
 from station.store import Store
@@ -73,7 +73,9 @@ def separate(start: Start) -> Procedure:
     return separating(start.store.robot_of(start.of), start.store.readings(start.of))
 
 
-def separating(robot: Robot, readings: list[Reading]) -> Generator[Walk, list[Reading], CalibrationResult]:
+def separating(
+    robot: Robot, readings: list[Reading]
+) -> Generator[MeasurementSequence, list[Reading], CalibrationResult]:
     """Read where the look-alikes differ most, and judge by fresh readings what is left of them.
 
     :param readings: all of the diagnostic run
@@ -81,13 +83,13 @@ def separating(robot: Robot, readings: list[Reading]) -> Generator[Walk, list[Re
     found = experiment(diagnosed(robot, readings))
     if found is None:
         raise InputRefused(NOTHING)
-    more = yield Walk("Distinguishing the causes", 1, found.stops)
+    more = yield MeasurementSequence("Distinguishing the causes", 1, found.stops)
     return (yield from judged(robot, [*learned(readings), *more]))
 
 
 def learned(readings: list[Reading]) -> list[Reading]:
     """Those that a run goes on from."""
-    return [r for r in readings if r.walk == 1]
+    return [r for r in readings if r.sequence == 1]
 
 
 def continued(store: Store, request: CalibrationRequest) -> Continued:

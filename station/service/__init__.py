@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from station.service.orchestrator import LiveEvent, Orchestrator, Submitted
+from station.service.procedures import follow_procedure
 from station.service.replaying import Replayed, replay
 from station.service.runtime import Runtime, holding
 
@@ -12,6 +13,7 @@ __all__ = [
     "Replayed",
     "Runtime",
     "Submitted",
+    "follow_procedure",
     "holding",
     "replay",
 ]

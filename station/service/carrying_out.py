@@ -11,8 +11,8 @@ from typing import Any
 
 from drivers.errors import DeviceError
 from station.errors import StepFailed
-from station.motion import Cancelled, Clock, Listeners, Machine, Retracting, Walker, Zeroing
-from station.records import CalibrationResult, Reading, Retract, SetZeros, State, Step, Walk
+from station.motion import Cancelled, Clock, Listeners, Machine, Positioner, Retracting, Zeroing
+from station.records import CalibrationResult, MeasurementSequence, Reading, Retract, SetZeros, State, Step
 from station.run_kinds import RunKind, Start
 from station.service.procedures import follow_procedure
 from station.service.run import Run
@@ -50,23 +50,23 @@ class CarryingOut:
         # Every run proves afresh that the right devices answer, and depends on nothing that was before it.
         self.machine.release()
         clock = self.begin_clock(elapsed_s)
-        walker = Walker(self.machine, run.robot, self.settings.joints, run.cancel, clock)
-        walker.prepare(from_outside=kind.from_outside)
-        zeroing = Zeroing(run.id, self.machine, walker, self.store)
+        positioner = Positioner(self.machine, run.robot, self.settings.joints, run.cancel, clock)
+        positioner.prepare(from_outside=kind.from_outside)
+        zeroing = Zeroing(run.id, self.machine, positioner, self.store)
         zeroing.settle()
         began_at = self.store.summary(run.id).created_at
         procedure = kind.procedure(Start(self.store, run.request, run.robot, began_at))
 
         def carry_out(step: Step) -> Any:
             match step:
-                case Walk():
-                    return self._walk(walker, step)
+                case MeasurementSequence():
+                    return self._sequence(positioner, step)
                 case SetZeros():
                     self._begin(step)
                     return zeroing.carry_out(step)
                 case Retract():
                     self._begin(step)
-                    return Retracting(self.machine, walker).carry_out()
+                    return Retracting(self.machine, positioner).carry_out()
 
         try:
             result = follow_procedure(procedure, carry_out)
@@ -86,17 +86,19 @@ class CarryingOut:
 
     def _begin(self, step: SetZeros | Retract) -> None:
         """A step without readings."""
-        self.listeners.publish("walk", self.run.begin_walk(Walk(step.title, step.number, ())))
+        self.listeners.publish(
+            "walk", self.run.begin_sequence(MeasurementSequence(step.title, step.number, ()))
+        )
         self.listeners.publish("run", self.run.brief())
 
-    def _walk(self, walker: Walker, walk: Walk) -> list[Reading]:
+    def _sequence(self, positioner: Positioner, sequence: MeasurementSequence) -> list[Reading]:
         run = self.run
-        self.listeners.publish("walk", run.begin_walk(walk))
+        self.listeners.publish("walk", run.begin_sequence(sequence))
         self._set_state(State.RUNNING)
         readings = []
-        for index, stop in enumerate(walk.stops):
+        for index, stop in enumerate(sequence.stops):
             try:
-                reading = walker.measure(stop, run.step + 1, walk.number)
+                reading = positioner.measure(stop, run.step + 1, sequence.number)
             except DeviceError as error:
                 raise StepFailed(f"At position {stop.position}: {error}") from error
             self.store.add_reading(run.id, reading, wire=self.take_wire())

@@ -1,4 +1,4 @@
-"""Runs calibrations one at a time: states, the worker that walks, abort, stop, make-safe.
+"""Runs calibrations one at a time: states, the worker that measures, abort, stop, make-safe.
 
 One worker thread does all ordinary work with the devices, so that nothing has to share them; while
 nothing runs it looks at the machine twice a second.  `stop` and `abort` work from any thread and go

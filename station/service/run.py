@@ -13,6 +13,7 @@ from station.records import (
     CalibrationRequest,
     CalibrationResult,
     Iteration,
+    MeasurementSequence,
     Reading,
     ResidualOfReading,
     RunBrief,
@@ -22,7 +23,6 @@ from station.records import (
     SequenceTitle,
     SequenceView,
     State,
-    Walk,
 )
 
 Place = tuple[float, float] | None
@@ -45,7 +45,7 @@ class Run:
     """Steps that an earlier run made."""
     steps: int = 0
     iterations: tuple[Iteration, ...] = ()
-    _walk: Walk | None = None
+    _sequence: MeasurementSequence | None = None
     _stops: list[RunStop] = field(default_factory=list)
     _readings: list[RunReading] = field(default_factory=list)
     _started: float = field(default_factory=time.monotonic)
@@ -55,22 +55,22 @@ class Run:
     @property
     def has_moved(self) -> bool:
         """Whether a motion may have been commanded."""
-        return self._walk is not None
+        return self._sequence is not None
 
     def inherit(self, steps: int) -> None:
         """Continue after the steps of an earlier run."""
         self.inherited = self.step = self.steps = steps
 
-    def begin_walk(self, walk: Walk) -> SequenceView:
+    def begin_sequence(self, sequence: MeasurementSequence) -> SequenceView:
         """Returns the `walk` event."""
         with self._lock:
-            self._walk = walk
-            self.steps += len(walk.stops)
+            self._sequence = sequence
+            self.steps += len(sequence.stops)
             self._stops = [
                 RunStop(position=stop.position, x_mm=stop.target_mm[0], y_mm=stop.target_mm[1], done=False)
-                for stop in walk.stops
+                for stop in sequence.stops
             ]
-            return SequenceView(number=walk.number, title=walk.title, stops=tuple(self._stops))
+            return SequenceView(number=sequence.number, title=sequence.title, stops=tuple(self._stops))
 
     def add_reading(self, index: int, reading: Reading, place: Place) -> RunReading:
         """Reading of the sequence's stop `index`, already stored.  Returns the `reading` event."""
@@ -84,7 +84,7 @@ class Run:
             scale_mm=reading.scale_mm,
             sd_mm=statistics.stdev(reading.samples_mm),
             t_s=reading.t_s,
-            walk=reading.walk,
+            walk=reading.sequence,
         )
         with self._lock:
             self.step += 1
@@ -118,7 +118,7 @@ class Run:
 
     def _brief(self) -> RunBrief:
         elapsed_s = time.monotonic() - self._started
-        walk, request = self._walk, self.request
+        sequence, request = self._sequence, self.request
         to_do = sum(not stop.done for stop in self._stops)
         own = self.step - self.inherited
         return RunBrief(
@@ -134,7 +134,7 @@ class Run:
             started_at=self._started_at,
             elapsed_s=round(elapsed_s, 1),
             remaining_s=round(to_do * elapsed_s / own, 1) if own else None,
-            walk=SequenceTitle(number=walk.number, title=walk.title) if walk else None,
+            walk=SequenceTitle(number=sequence.number, title=sequence.title) if sequence else None,
             step=self.step,
             steps=self.steps,
             iterations=self.iterations,

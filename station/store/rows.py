@@ -172,7 +172,7 @@ def reading_row(reading: Reading) -> tuple[object, ...]:
     samples = [round((sample - mean) / _SAMPLE_UNIT_MM) for sample in reading.samples_mm]
     return (
         reading.reading,
-        reading.walk,
+        reading.sequence,
         round(reading.t_s, 3),
         *reading.theta_deg,
         *reading.approach,
@@ -194,7 +194,7 @@ def reading_from_row(row: sqlite3.Row) -> Reading:
         approach=(row["approach1"], row["approach2"]),
         scale_mm=row["scale_mm"],
         position=row["position"],
-        walk=row["walk"],
+        sequence=row["walk"],
         samples_mm=_samples(row["scale_mm"], row["samples"]),
         temperature_c=row["temperature_c"],
         payload_kg=row["payload_kg"],

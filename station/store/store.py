@@ -51,6 +51,7 @@ from station.store.rows import (
     summary_from_row,
 )
 from station.store.times import RunTimes, now, now_ms
+from station.store.trends import Trends
 from station.store.wire_logs import WireLogs
 from station.store.zero_journal import ZeroJournal
 
@@ -60,7 +61,7 @@ S = TypeVar("S", bound=CalibrationSummary)
 _UNFINISHED = (State.QUEUED, State.RUNNING)
 
 
-class Store(Memories, ZeroJournal, WireLogs):
+class Store(Memories, ZeroJournal, WireLogs, Trends):
     """Thread safe.  Order is by number: the clock that gives the times may jump.
 
     Every method may raise `StoreUnavailable`, unless it says otherwise.

@@ -1,4 +1,4 @@
-"""The one place for walks in virtual time: a machine with known errors, measured as the station would.
+"""Measurement sequences in virtual time: a machine with known errors, measured as the station would.
 
 The machine is the emulated one with its own physics; nothing of the identification is used to make
 its readings.
@@ -122,9 +122,9 @@ class SimulatedMachine:
         return np.array([complex(*r.true_point_mm) for r in self._taken(theta_deg)])
 
     def _taken(self, theta_deg: Real, samples: int = 1) -> list[VirtualReading]:
-        return self._rig.walk([(float(a), float(b)) for a, b in theta_deg], samples=samples)
+        return self._rig.measure([(float(a), float(b)) for a, b in theta_deg], samples=samples)
 
-    def walk(self, stops: Sequence[Stop], samples: int = 1) -> Measurements:
+    def measure(self, stops: Sequence[Stop], samples: int = 1) -> Measurements:
         """The stops of a plan."""
         theta_deg = np.array([stop.theta_deg for stop in stops])
         return self.visit(theta_deg, [stop.position for stop in stops], samples)

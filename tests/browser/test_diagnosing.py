@@ -1,4 +1,4 @@
-"""The closed loop at the page: a run, its cause found by a walk, or said to be unexplained."""
+"""The closed loop at the page: a run, its cause found by a sequence, or said to be unexplained."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ from tests.station.simulated import Drawn, to_csv
 
 RIGS = ROOT / "drivers/emulated/rigs"
 FAST = 1000.0
-WALK_LIMIT_MS = 120_000
+SEQUENCE_LIMIT_MS = 120_000
 PLACES = 45
-"""Of the walk; a chart has at least a mark for each."""
+"""Of the sequence; a chart has at least a mark for each."""
 MARK = "button => button.dataset.mine = 'yes'"
 
 
 def find_cause(page: Page, station: Station, *, serial: str = "FB-D") -> None:
-    """From the result of a calibration to the walk under way."""
+    """From the result of a calibration to the sequence under way."""
     page.goto(f"{station.url}/result/{add_run(station, serial)['id']}")
     cause = page.get_by_role("region", name="Cause", exact=True)
     button = cause.get_by_role("button", name="Find the cause", exact=True)
@@ -84,7 +84,7 @@ def test_an_undeclared_effect_is_named_confirmed_and_its_removal_shown(
     stop = page.get_by_role("button", name="STOP")
     stop.evaluate(MARK)
     causes = page.get_by_role("region", name="Causes")
-    expect(causes).to_be_visible(timeout=WALK_LIMIT_MS)
+    expect(causes).to_be_visible(timeout=SEQUENCE_LIMIT_MS)
     verdict = page.locator(".summary .verdict")
     # a defect is to be repaired, whatever else was right with the run
     expect(verdict).to_contain_text("REPAIR")
@@ -161,8 +161,8 @@ def test_every_ordering_is_drawn_and_kept_in_the_address(page: Page, serve: Serv
 
 def test_an_ordering_chosen_before_the_drawing_has_come_is_drawn(page: Page, station: Station) -> None:
     """What draws comes with the first chart; until then several may have been asked for."""
-    walk = to_csv(Drawn({"kind": "backlash", "joint": 1, "width_deg": 0.02}).walk())
-    answer = station.api.post("/datasets", files={"file": ("walk.csv", walk)}).raise_for_status()
+    sequence = to_csv(Drawn({"kind": "backlash", "joint": 1, "width_deg": 0.02}).sequence())
+    answer = station.api.post("/datasets", files={"file": ("walk.csv", sequence)}).raise_for_status()
     held: list[Route] = []
     page.route("**/ordering-drawing-*.js", lambda route: held.append(route))
     page.goto(f"{station.url}/diagnosis/{answer.json()['id']}?by=travel")
@@ -192,7 +192,7 @@ def test_a_run_whose_model_fits_offers_the_walk_at_the_end(page: Page, station: 
 def test_what_no_effect_accounts_for_is_said_to_be_unexplained(page: Page, serve: Serve) -> None:
     station = serve(speed=FAST, rig=RIGS / "unexplained.toml")
     find_cause(page, station)
-    expect(page.get_by_role("region", name="Hints")).to_be_visible(timeout=WALK_LIMIT_MS)
+    expect(page.get_by_role("region", name="Hints")).to_be_visible(timeout=SEQUENCE_LIMIT_MS)
     verdict = page.locator(".summary .verdict")
     expect(verdict).to_contain_text("UNEXPLAINED Verdict: FAIL")
     expect(verdict).to_contain_text(re.compile(r"(Une|Not e)xplained: .*depends on"))

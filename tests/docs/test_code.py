@@ -71,7 +71,6 @@ def _environment(folder: Path) -> dict[str, str]:
         **os.environ,
         "PATH": f"{commands}{os.pathsep}{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}",
         "PYTHONPATH": str(source),
-        "PYTHONDONTWRITEBYTECODE": "1",
         "STATION_HOME": str(folder / "home"),
         "COLUMNS": "200",
     }

@@ -19,7 +19,7 @@ from pathlib import Path
 from unittest.mock import patch
 
 from drivers.emulated.orders import KINDS
-from station.motion import FaultOrder, Walker
+from station.motion import FaultOrder, Positioner
 from station.motion.machine import Machine
 from station.records import State
 from station.service import LiveEvent, Runtime
@@ -96,10 +96,10 @@ class Bench:
             stack.enter_context(_before(*_PLACES[step], now))
         if step == "retract":
             self._go_outside()
-            stack.enter_context(_before(Walker, "go", now))
+            stack.enter_context(_before(Positioner, "go", now))
             return self._ended(self.runtime.orchestrator.retract("ada").id)
         if step == "apply":
-            stack.enter_context(_before(Walker, "stand_at", now))
+            stack.enter_context(_before(Positioner, "stand_at", now))
             return self._ended(self.runtime.orchestrator.follow("apply", self.good, "ada").id)
         return self._run("paper")
 
@@ -163,9 +163,9 @@ class Bench:
 
 _PLACES: dict[str, tuple[type, str]] = {
     "enable": (Machine, "ready_axes"),
-    "move": (Walker, "stand_at"),
-    "settle": (Walker, "_pause"),
-    "read": (Walker, "_samples"),
+    "move": (Positioner, "stand_at"),
+    "settle": (Positioner, "_pause"),
+    "read": (Positioner, "_samples"),
 }
 
 
@@ -184,12 +184,12 @@ def _before(owner: type, name: str, then: Callable[[], None]) -> AbstractContext
 
 
 def _second_pass(then: Callable[[], None]) -> Callable[[LiveEvent], None]:
-    walks: list[object] = []
+    sequences: list[object] = []
 
     def listen(event: LiveEvent) -> None:
         if event.type == "walk":
-            walks.append(event.data)
-            if len(walks) == 2:
+            sequences.append(event.data)
+            if len(sequences) == 2:
                 then()
 
     return listen

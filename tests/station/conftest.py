@@ -13,7 +13,7 @@ from station.service.orchestrator import Orchestrator
 from station.settings import LimitSettings, Settings
 from station.store.store import Store
 from tests.station.asking import ProcedureFactory, kinds_with
-from tests.station.fakes import Rig, make_rig, two_walks
+from tests.station.fakes import Rig, make_rig, two_sequences
 
 SETTINGS = Settings(limits=LimitSettings(settle_s=0.1, samples=2))
 
@@ -49,7 +49,7 @@ def start(store: Store, rig: Rig) -> Iterator[Start]:
     """Orchestrators on the fake rig; shut down at the end, after what hangs was released."""
     with ExitStack() as opened:
 
-        def start(procedure: ProcedureFactory = two_walks, settings: Settings = SETTINGS) -> Orchestrator:
+        def start(procedure: ProcedureFactory = two_sequences, settings: Settings = SETTINGS) -> Orchestrator:
             orchestrator = Orchestrator(rig.devices, store, settings, kinds_with(procedure))
             opened.callback(orchestrator.shutdown)
             opened.callback(rig.released.set)

@@ -13,7 +13,16 @@ from drivers.protocols import AxisStatus
 from station.five_bar.kinematics import forward, inverse
 from station.five_bar.robot_file import Robot
 from station.motion.devices import Devices
-from station.records import CalibrationResult, PlanName, Procedure, Quantity, Reading, Stop, Walk, because
+from station.records import (
+    CalibrationResult,
+    MeasurementSequence,
+    PlanName,
+    Procedure,
+    Quantity,
+    Reading,
+    Stop,
+    because,
+)
 from tests.station.asking import result
 
 GEOMETRY = Robot.default().geometry
@@ -194,8 +203,8 @@ def result_of(readings: Sequence[Reading], verdict: str = "pass") -> Calibration
     )
 
 
-def two_walks(plan: PlanName, robot: Robot) -> Procedure:
+def two_sequences(plan: PlanName, robot: Robot) -> Procedure:
     """Two passes over three stops."""
-    readings = yield Walk("Measuring, pass 1", 1, STOPS)
-    readings = yield Walk("Measuring, pass 2", 2, STOPS)
+    readings = yield MeasurementSequence("Measuring, pass 1", 1, STOPS)
+    readings = yield MeasurementSequence("Measuring, pass 2", 2, STOPS)
     return result_of(readings)

@@ -12,7 +12,15 @@ import pytest
 
 from station.five_bar.kinematics import inverse
 from station.five_bar.robot_file import Robot
-from station.records import CalibrationResult, Complex, Measurements, Procedure, Reading, Real, Walk
+from station.records import (
+    CalibrationResult,
+    Complex,
+    Measurements,
+    MeasurementSequence,
+    Procedure,
+    Reading,
+    Real,
+)
 from station.studies.simulation import SimulatedMachine
 
 DATA = Path(__file__).parents[3] / "shared" / "data"
@@ -43,9 +51,11 @@ def measure(robot: Robot, truth: Real, places: Complex, seed: int, repeats: int 
     return SimulatedMachine(robot, truth, "exact", seed).visit(theta_deg, labels)
 
 
-def read(machine: SimulatedMachine, walk: Walk, before: int = 0, samples: int = 1) -> list[Reading]:
+def read(
+    machine: SimulatedMachine, sequence: MeasurementSequence, before: int = 0, samples: int = 1
+) -> list[Reading]:
     """A measurement sequence as a run records it, after so many readings."""
-    taken = machine.run(walk.stops, samples)
+    taken = machine.run(sequence.stops, samples)
     return [
         Reading(
             before + k + 1,
@@ -54,11 +64,11 @@ def read(machine: SimulatedMachine, walk: Walk, before: int = 0, samples: int = 
             (int(taken.approach[k, 0]), int(taken.approach[k, 1])),
             float(taken.distance[k]),
             stop.position,
-            walk.number,
+            sequence.number,
             # only their number counts
             (float(taken.distance[k]),) * samples if samples > 1 else (),
         )
-        for k, stop in enumerate(walk.stops)
+        for k, stop in enumerate(sequence.stops)
     ]
 
 
@@ -68,12 +78,12 @@ def carried_out(
     """A procedure that only measures, to its end."""
     readings: list[Reading] = []
     try:
-        walk = next(procedure)
+        sequence = next(procedure)
         while True:
-            assert isinstance(walk, Walk)
-            taken = read(machine, walk, before + len(readings), samples)
+            assert isinstance(sequence, MeasurementSequence)
+            taken = read(machine, sequence, before + len(readings), samples)
             readings += taken
-            walk = procedure.send(taken)
+            sequence = procedure.send(taken)
     except StopIteration as end:
         return readings, end.value
 
@@ -106,7 +116,7 @@ class Drawn:
         self.recorded_temperature = recorded_temperature
         self._count = 0
 
-    def walk(self) -> Measurements:
+    def sequence(self) -> Measurements:
         """120 readings: ten places three times over, a 9 x 5 grid there and back."""
         grid = ROBOT.workspace_grid(9, 5).reshape(9, 5)
         grid[1::2] = grid[1::2, ::-1]

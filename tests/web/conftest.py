@@ -18,7 +18,7 @@ from station.service.runtime import Runtime
 from station.store.store import Store
 from tests.station.asking import kinds_with
 from tests.station.conftest import SETTINGS
-from tests.station.fakes import Rig, make_rig, two_walks
+from tests.station.fakes import Rig, make_rig, two_sequences
 from web.app import create_app
 
 BODY = {"robot_serial": "FB-1", "plan": "paper", "operator": "ada"}
@@ -41,6 +41,7 @@ class Service:
     client: TestClient
     runtime: Runtime
     rig: Rig
+    patch: pytest.MonkeyPatch
 
     def start(self, key: str | None = None, **changes: Any) -> Any:
         headers = {"Idempotency-Key": key} if key else {}
@@ -48,9 +49,11 @@ class Service:
 
     def hold(self) -> int:
         """Start a run that goes on until it is aborted; its id."""
+        self.patch.setattr("station.motion.positioner._ARRIVAL_MARGIN_S", 600.0)
         self.rig.axes[0].stuck = True
+        before = self.rig.script.calls.count("axis 1 move_to")
         run = int(self.start().json()["id"])
-        self.wait_for("axis 1 move_to")
+        self.wait_for("axis 1 move_to", before + 1)
         return run
 
     def complete(self, **changes: Any) -> int:
@@ -64,24 +67,24 @@ class Service:
         devices: list[dict[str, Any]] = self.client.get("/api/v1/station").json()["devices"]
         return next(device for device in devices if device["name"] == name)
 
-    def wait_for(self, call: str) -> None:
-        """Until the worker has made this call to a device."""
+    def wait_for(self, call: str, times: int = 1) -> None:
+        """Until the worker has made this call to a device so many times."""
         deadline = time.monotonic() + LIMIT_S
-        while call not in self.rig.script.calls:
+        while self.rig.script.calls.count(call) < times:
             assert time.monotonic() < deadline, f"no {call}"
             time.sleep(0.005)
 
 
 @pytest.fixture
-def service(tmp_path: Path) -> Iterator[Service]:
+def service(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Service]:
     rig = make_rig()
     with ExitStack() as opened:
         store = Store(tmp_path / "station.db")
         opened.callback(store.close)
-        orchestrator = Orchestrator(rig.devices, store, SETTINGS, kinds_with(two_walks))
+        orchestrator = Orchestrator(rig.devices, store, SETTINGS, kinds_with(two_sequences))
         opened.callback(orchestrator.shutdown)
         opened.callback(rig.released.set)
         runtime = Runtime(SETTINGS, tmp_path, store, orchestrator, ExitStack())
         # a failure inside the service must come back as its answer, not as the test's exception
         client = TestClient(create_app(runtime), base_url="http://station", raise_server_exceptions=False)
-        yield Service(opened.enter_context(client), runtime, rig)
+        yield Service(opened.enter_context(client), runtime, rig, monkeypatch)

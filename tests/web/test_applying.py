@@ -25,7 +25,7 @@ ADA = {"operator": "ada"}
 
 
 @pytest.fixture
-def service(tmp_path: Path) -> Iterator[Service]:
+def service(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Service]:
     """As the usual one, with a robot that has zero offsets and the real procedures."""
     rig = make_rig()
     for axis, offset in zip(rig.axes, OFFSETS, strict=True):
@@ -38,7 +38,7 @@ def service(tmp_path: Path) -> Iterator[Service]:
         opened.callback(orchestrator.shutdown)
         runtime = Runtime(SETTINGS, tmp_path, store, orchestrator, ExitStack())
         client = TestClient(create_app(runtime), base_url="http://station", raise_server_exceptions=False)
-        yield Service(opened.enter_context(client), runtime, rig)
+        yield Service(opened.enter_context(client), runtime, rig, monkeypatch)
 
 
 def ended(service: Service, answer: Any) -> dict[str, Any]:

@@ -19,10 +19,10 @@ LIST = "/api/v1/calibrations"
 
 
 def files_of(*effects: dict[str, Any]) -> tuple[bytes, bytes]:
-    """A walk and its fresh readings as measurement files."""
+    """A sequence and its fresh readings as measurement files."""
     readings, _ = run(machine(*effects))
-    walk, fresh = (readings_to_csv(r for r in readings if r.walk == n).encode() for n in (1, 2))
-    return walk, fresh
+    sequence, fresh = (readings_to_csv(r for r in readings if r.sequence == n).encode() for n in (1, 2))
+    return sequence, fresh
 
 
 @pytest.fixture(scope="module")
@@ -31,9 +31,9 @@ def worn() -> tuple[bytes, bytes]:
 
 
 def send(
-    service: Service, walk: bytes, fresh: bytes | None = None, key: str | None = None, **data: str
+    service: Service, sequence: bytes, fresh: bytes | None = None, key: str | None = None, **data: str
 ) -> Any:
-    files = {"file": ("walk.csv", walk, "text/csv")} | (
+    files = {"file": ("walk.csv", sequence, "text/csv")} | (
         {"fresh": ("fresh.csv", fresh, "text/csv")} if fresh is not None else {}
     )
     headers = {"Idempotency-Key": key} if key else {}
@@ -69,13 +69,13 @@ def test_a_file_with_fresh_readings_becomes_a_run_with_its_cause_confirmed(
 
 
 def test_the_readings_come_back_as_they_were_sent(service: Service, worn: tuple[bytes, bytes]) -> None:
-    walk, fresh = worn
-    where = send(service, walk, fresh).headers["location"]
-    learned = parse_readings(walk)
-    later = parse_readings(fresh, walk=2, after=learned[-1].reading)
+    sequence, fresh = worn
+    where = send(service, sequence, fresh).headers["location"]
+    learned = parse_readings(sequence)
+    later = parse_readings(fresh, sequence=2, after=learned[-1].reading)
     number = int(where.rpartition("/")[2])
     assert service.runtime.store.readings(number) == [*learned, *later]
-    assert service.client.get(f"{where}/readings.csv").content.startswith(walk)
+    assert service.client.get(f"{where}/readings.csv").content.startswith(sequence)
 
 
 def test_a_plain_csv_body_is_diagnosed_but_without_fresh_readings_it_is_no_pass(
@@ -90,9 +90,9 @@ def test_a_plain_csv_body_is_diagnosed_but_without_fresh_readings_it_is_no_pass(
 
 
 def test_readings_that_miss_nothing_pass_only_when_fresh_ones_agree(service: Service) -> None:
-    walk, fresh = files_of()
-    assert send(service, walk, fresh).json()["verdict"] == "pass"
-    assert send(service, walk).json()["verdict"] == "fail"
+    sequence, fresh = files_of()
+    assert send(service, sequence, fresh).json()["verdict"] == "pass"
+    assert send(service, sequence).json()["verdict"] == "fail"
 
 
 def test_the_robot_file_that_is_kept_here_counts(service: Service, worn: tuple[bytes, bytes]) -> None:

@@ -19,10 +19,10 @@ LIST = "/api/v1/calibrations"
 WARM = {"kind": "thermal_growth", "rise_k": 8.0, "tau_s": 60.0, "links_um_per_m_per_k": 12.0}
 
 
-def imported(service: Service, walk: str, fresh: str) -> str:
+def imported(service: Service, sequence: str, fresh: str) -> str:
     """A machine's readings as a run; its address."""
     answer = service.client.post(
-        "/api/v1/datasets", files={"file": ("w.csv", walk), "fresh": ("f.csv", fresh)}
+        "/api/v1/datasets", files={"file": ("w.csv", sequence), "fresh": ("f.csv", fresh)}
     )
     assert (answer.json()["verdict"], answer.json()["outcome"]) == ("fail", "repair"), answer.text
     return str(answer.headers["location"])
@@ -31,7 +31,7 @@ def imported(service: Service, walk: str, fresh: str) -> str:
 @pytest.fixture
 def worn(service: Service) -> str:
     machine = Drawn(BACKLASH, seed=2)
-    return imported(service, to_csv(machine.walk()), to_csv(machine.fresh()))
+    return imported(service, to_csv(machine.sequence()), to_csv(machine.fresh()))
 
 
 def targets(place: Complex, approach: Real) -> list[dict[str, Any]]:
@@ -43,8 +43,8 @@ def targets(place: Complex, approach: Real) -> list[dict[str, Any]]:
 
 def test_the_true_position_error_falls(service: Service) -> None:
     machine = Drawn(BACKLASH, seed=2)
-    walk = machine.walk()
-    where = imported(service, to_csv(walk), to_csv(machine.fresh()))
+    sequence = machine.sequence()
+    where = imported(service, to_csv(sequence), to_csv(machine.fresh()))
     place = ROBOT.workspace_grid(7, 5)
     approach = np.random.default_rng(0).choice([-1.0, 1.0], (len(place), 2))
     answer = service.client.post(f"{where}/solve", json={"targets": targets(place, approach)})
@@ -53,7 +53,7 @@ def test_the_true_position_error_falls(service: Service) -> None:
     assert solution["confirmed"] is True
     assert "with backlash of joint 1" in solution["range"]
     after = np.radians([[c["theta1_deg"], c["theta2_deg"]] for c in solution["commands"]])
-    found = weighed(ROBOT, walk).found
+    found = weighed(ROBOT, sequence).found
     before = found.mixture.only(found.base).commands(place, Around(approach))
     was, now = (rms(true_error_mm(machine, place, approach, theta)) for theta in (before, after))
     assert now < 0.5 * was
@@ -90,8 +90,8 @@ def test_none_and_too_many_targets_are_refused(service: Service, worn: str) -> N
 
 def test_a_temperature_counts_where_growth_was_learned_by_it(service: Service) -> None:
     machine = Drawn(WARM, seed=3)
-    walk, fresh = (with_temperature(machine.walk()), with_temperature(machine.fresh()))
-    where = imported(service, walk, fresh)
+    sequence, fresh = (with_temperature(machine.sequence()), with_temperature(machine.fresh()))
+    where = imported(service, sequence, fresh)
 
     def command(**more: float) -> tuple[float, float]:
         body = {"targets": [{"x_mm": 100, "y_mm": -660, **more}]}

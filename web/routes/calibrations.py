@@ -121,7 +121,7 @@ def apply_calibration(
     response: Response,
     idempotency_key: IdempotencyKey = None,
 ) -> CalibrationSummary:
-    """Write the zero offsets to the drives, read them back, verify at fresh places.
+    """Write the zero offsets to the drives, read them back, verify at fresh positions.
 
     A run of its own; when its verification fails it puts the old zeros back by itself.
     """

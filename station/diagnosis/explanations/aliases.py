@@ -14,12 +14,12 @@ ALIKE = 0.9
 
 def aliases(bank: Bank, choices: Sequence[Choice], index: int) -> tuple[int, ...]:
     """Families alike to error `index` of a set, the others of the set taken as known."""
-    rest = bank.known([c for k, c in enumerate(choices) if k != index])
+    others = bank.known([c for k, c in enumerate(choices) if k != index])
     # what the others take up is seen by the square root of what they leave
-    shrink = 1.0 - np.sqrt(1.0 - rest.share)
+    shrink = 1.0 - np.sqrt(1.0 - others.share)
 
     def left(columns: np.ndarray) -> np.ndarray:
-        return np.asarray(columns - rest.directions @ (shrink[:, None] * (rest.directions.T @ columns)))
+        return np.asarray(columns - others.directions @ (shrink[:, None] * (others.directions.T @ columns)))
 
     own = bank.columns(choices[index])
     size = bank.families[choices[index].family].sizes[choices[index].node]

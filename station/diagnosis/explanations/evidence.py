@@ -186,6 +186,13 @@ class Bank:
                 best[family] = Choice(family, *divmod(int(own.argmax()), own.shape[1]))
         return Scan(total, tuple(best), at_best)
 
+    def singles(self, family: int) -> list[Choice]:
+        """Every member of a family at its best size when it is the only error."""
+        g, k = self._where[family]
+        group = self._groups[g]
+        value = self._of_group(group, slice(int(group.first[k]), int(group.first[k + 1])), self.known(()))
+        return [Choice(family, member, int(node)) for member, node in enumerate(value.argmax(axis=1))]
+
     def refine(self, choice: Choice, known: Known) -> None:
         """Move a member to where its continuous hidden parameters are best beside known errors."""
         family = self.families[choice.family]

@@ -18,7 +18,7 @@ from station.diagnosis.explanations.settle import Settled, settle
 from station.diagnosis.explanations.situation import Around, at_readings, predicted
 from station.diagnosis.explanations.statements import Statements, statements
 from station.diagnosis.explanations.validation import Validation, together, validate
-from station.diagnosis.explanations.verdict import Decision, Finding, decide, findings, loudness, told
+from station.diagnosis.explanations.verdict import Decision, Finding, decide, findings, loudness, reported
 from station.diagnosis.explanations.weighing import Weighing, weigh
 from station.five_bar import SCALE_SD_MM, FiveBar
 from station.mechanism import Reference, reference_of
@@ -119,7 +119,7 @@ class ExplanationSet:
     @cached_property
     def shown(self) -> Settled:
         """The explanation that is reported: that of the findings, else the most probable with any error."""
-        return self.weighing.settle(told(self.statements) or self.statements.cores[0][0])
+        return self.weighing.settle(reported(self.statements) or self.statements.cores[0][0])
 
     def held(self, settled: Settled, at: int) -> tuple[Held, ...]:
         """One error of an explanation by its number, part by part."""

@@ -41,8 +41,14 @@ NEARLY = 2.0
 """Log of probability below a single error that leaves noise only, within which a pair may need a third."""
 NOISY = 1.25
 """Noise over the specification that is no more than noise."""
+PAIRS = 3
+"""Pairs of waves of one joint that are settled,"""
+PROMISING = 0.3
+"""where their evidence at the steps of the search is this share of the best single error's."""
 EXCHANGES = 4
-SWEEPS = 3
+SWEEPS, SWEEPS_OF_WAVES = 3, 20
+SETTLED = 0.1
+"""Log of evidence by which one more sweep must help two waves."""
 
 Key = tuple[int, ...]
 
@@ -94,6 +100,8 @@ class Search:
             for k, single in enumerate(singles):
                 if k == 0 or not alone or single.log_posterior > singles[0].log_posterior - ALONE_WITHIN:
                     self._look(single)
+            if not alone or not self.families[singles[0].key[0]].named:
+                self._look_for_two_waves()
             for seed in seeds:
                 self._look(self._polished(Candidate(seed, 0.0, 0.0)))
             pairs = self._best(2, SECOND)
@@ -105,7 +113,7 @@ class Search:
         return sorted(self.found.values(), key=lambda c: -c.log_posterior)
 
     def _leaves_noise(self, single: Candidate) -> bool:
-        """Whether one error leaves no more than noise, so that only its rivals need a second error."""
+        """Whether one error leaves no more than noise, so that only its alternatives need a second error."""
         bank = self.bank
         return bank.noise.level(bank.square - 2.0 * bank.known(single.choices).gain) < NOISY
 
@@ -186,16 +194,38 @@ class Search:
             return added.repeats
         return not any(compete(self.families[k], added) for k in key)
 
+    def _look_for_two_waves(self) -> None:
+        """Two waves of one joint hide each other's frequency: every one is tried beside every other."""
+        for family, known in enumerate(self.families):
+            if not known.repeats or known.neighbours is None or known.parts[0].joint is None:
+                continue
+            pairs: dict[frozenset[int], tuple[float, tuple[Choice, ...]]] = {}
+            for one in self.bank.singles(family):
+                other = self.bank.scan(self.bank.known((one,)), only=family).best[family]
+                assert other is not None
+                # the size of the first was the best without the second
+                one = self.bank.scan(self.bank.known((other,)), only=family).best[family] or one
+                value = self.bank.log_evidence(self.bank.known((one, other)))
+                pairs[frozenset((one.member, other.member))] = value, (one, other)
+            for value, choices in sorted(pairs.values(), reverse=True)[:PAIRS]:
+                if value < PROMISING * self._best(1, 1)[0].log_evidence:
+                    break
+                pair = Candidate(choices, 0.0, self.log_prior((family, family)))
+                found = self._polished(pair, SWEEPS_OF_WAVES)
+                before = self.found.get(found.key)
+                if before is None or found.log_evidence > before.log_evidence:
+                    self.found[found.key] = found
+
     def _exchange(self) -> None:
         for _ in range(EXCHANGES):
             best = max(self.found.values(), key=lambda c: c.log_posterior)
             looked = len(self._looked)
             best = self._settled(best)
             for left_out in range(len(best.choices)):
-                rest = tuple(c for k, c in enumerate(best.choices) if k != left_out)
-                known = self.found.get(tuple(sorted(c.family for c in rest)))
+                others = tuple(c for k, c in enumerate(best.choices) if k != left_out)
+                known = self.found.get(tuple(sorted(c.family for c in others)))
                 if known is not None:
-                    self._look(replace(known, choices=rest) if len(rest) == 1 else known)
+                    self._look(replace(known, choices=others) if len(others) == 1 else known)
             self._look(best)
             if len(self._looked) == looked:
                 return
@@ -221,13 +251,14 @@ class Search:
         self.found[candidate.key] = self._polished(candidate)
         return self.found[candidate.key]
 
-    def _polished(self, candidate: Candidate) -> Candidate:
+    def _polished(self, candidate: Candidate, sweeps: int = SWEEPS) -> Candidate:
         choices = list(candidate.choices)
-        for _ in range(SWEEPS):
+        value, prices = -np.inf, 0.0
+        for _ in range(sweeps):
             prices, moved = 0.0, False
             for k, old in enumerate(choices):
-                rest = [c for j, c in enumerate(choices) if j != k]
-                known = self.bank.known(rest)
+                others = [c for j, c in enumerate(choices) if j != k]
+                known = self.bank.known(others)
                 scan = self.bank.scan(known, only=old.family)
                 new = scan.best[old.family]
                 if new is None:
@@ -239,10 +270,10 @@ class Search:
                     new = scan.best[old.family] or new
                 choices[k] = new
                 prices += float(scan.total[old.family] - scan.at_best[old.family])
-            if not moved:
+            before, value = value, self.bank.log_evidence(self.bank.known(choices))
+            if not moved and value < before + SETTLED:
                 break
-        value = self.bank.log_evidence(self.bank.known(choices)) + prices
-        return replace(candidate, choices=tuple(choices), log_evidence=value)
+        return replace(candidate, choices=tuple(choices), log_evidence=value + prices)
 
 
 def compete(a: Family, b: Family) -> bool:

@@ -100,10 +100,10 @@ def statements(weighing: Weighing) -> Statements:
 def _core(key: Key, evidence: dict[Key, float]) -> Key:
     """Leave out, one by one, what adds least, while it adds nothing to speak of."""
     while key:
-        smaller = [rest for k in range(len(key)) if (rest := key[:k] + key[k + 1 :]) in evidence]
+        smaller = [fewer for k in range(len(key)) if (fewer := key[:k] + key[k + 1 :]) in evidence]
         if not smaller:
             return key
-        best = max(smaller, key=lambda rest: evidence[rest])
+        best = max(smaller, key=lambda fewer: evidence[fewer])
         if evidence[key] - evidence[best] > SUPPORTED:
             return key
         key = best

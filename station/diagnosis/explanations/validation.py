@@ -127,7 +127,7 @@ def _coverage(later: FiveBar) -> tuple[float, float]:
 
 
 def together(first: Measurements, fresh: Measurements) -> Measurements:
-    """All readings as one sequence; fresh places are places of their own.
+    """All readings as one sequence; fresh positions are positions of their own.
 
     :raises InputRefused: fresh readings from a mount that was never learned.
     """

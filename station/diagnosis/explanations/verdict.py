@@ -29,7 +29,7 @@ LOUD = 2.0
 """Noise over the specification from which on it is no noise."""
 FEWEST_REPEATS = 6
 MOSTLY = 0.5
-TOLD = 0.01
+REPORTED = 0.01
 """Probability below which an explanation is not spoken of."""
 
 
@@ -111,18 +111,18 @@ def decide(statements: Statements, findings: tuple[Finding, ...], validation: Va
     return Decision("partly_explained" if partly else "unexplained", confirmed, accounted)
 
 
-def told(statements: Statements) -> Key | None:
+def reported(statements: Statements) -> Key | None:
     """The core that is reported: the most probable that holds a named effect, else any error."""
     families = statements.weighing.families
     cores = [key for key, _ in statements.cores if key]
-    named = (key for key, p in statements.cores if p >= TOLD and any(families[k].named for k in key))
+    named = (key for key, p in statements.cores if p >= REPORTED and any(families[k].named for k in key))
     return next(named, cores[0] if cores else None)
 
 
 def findings(statements: Statements) -> tuple[Finding, ...]:
     """The named effects of the most probable core that holds any."""
     weighing = statements.weighing
-    core = told(statements)
+    core = reported(statements)
     if core is None or statements.base >= MOSTLY or not any(weighing.families[k].named for k in core):
         return ()
     settled = weighing.settle(core)

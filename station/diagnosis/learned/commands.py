@@ -12,7 +12,7 @@ from station.model import NotInvertible, Situation
 from station.records import Real
 
 EDGE = 0.05
-"""Share of the learned joint range by which a command may lie outside it: the walk was commanded before
+"""Share of the learned joint range by which a command may lie outside it: the sequence was commanded before
 the zero offsets were known, and turns that far beside the workspace."""
 
 

@@ -53,8 +53,8 @@ def mixture_document(diagnosis: WeighedDiagnosis, *, stage: str) -> MixtureDocum
     """Everything that commands of the set rest on; mm and rad."""
     found = diagnosis.found
     m, mixture, weighing = found.weighing.mechanism.measurements, found.mixture, found.weighing
-    walk = diagnosis.measurements
-    low, high = walk.theta.min(axis=0), walk.theta.max(axis=0)
+    sequence = diagnosis.measurements
+    low, high = sequence.theta.min(axis=0), sequence.theta.max(axis=0)
     return MixtureDocument(
         robot=diagnosis.robot.to_json(),
         names=tuple(p.name for p in found.mechanism.parameters),
@@ -79,9 +79,9 @@ def mixture_document(diagnosis: WeighedDiagnosis, *, stage: str) -> MixtureDocum
             joints_deg=tuple(
                 (float(a), float(b)) for a, b in zip(np.degrees(low), np.degrees(high), strict=True)
             ),
-            visited_deg=tuple(tuple(visited_in_degrees(v)) for v in visited_ranges(walk.theta)),
-            travel_mm=(float(walk.distance.min()), float(walk.distance.max())),
-            time_s=(float(walk.t_s.min()), float(walk.t_s.max())),
+            visited_deg=tuple(tuple(visited_in_degrees(v)) for v in visited_ranges(sequence.theta)),
+            travel_mm=(float(sequence.distance.min()), float(sequence.distance.max())),
+            time_s=(float(sequence.t_s.min()), float(sequence.t_s.max())),
         ),
         reference=ReferenceOfReadings(
             temperature_c=weighing.reference.temperature_c,

@@ -220,15 +220,15 @@ def _are_zeros(before: np.ndarray, steps: np.ndarray, sd: np.ndarray) -> bool:
     return bool(np.all(np.abs(steps + before) < room) or np.all(np.abs(steps - before) < room))
 
 
-def moved_between(m: Measurements, fresh: Measurements, walked: Fitted, f: Fitted) -> Mistake | None:
+def moved_between(m: Measurements, fresh: Measurements, sequence_fit: Fitted, f: Fitted) -> Mistake | None:
     """One joint or both stand elsewhere in the fresh readings: homed or written in between."""
     steps = np.degrees([f.extra.get(f"slip{i + 1}", 0.0) for i in (0, 1)])
     sds = np.degrees([f.extra_sd.get(f"slip{i + 1}", 0.0) for i in (0, 1)])
     moved = [i for i in (0, 1) if abs(steps[i]) > max(SMALLEST_STEP_DEG, SURE * sds[i])]
     if not moved:
         return None
-    before = np.degrees(walked.p[:2])
-    written = len(moved) == 2 and _are_zeros(before, steps, np.degrees(walked.sd[:2]) + sds)
+    before = np.degrees(sequence_fit.p[:2])
+    written = len(moved) == 2 and _are_zeros(before, steps, np.degrees(sequence_fit.sd[:2]) + sds)
     by = " and ".join(f"joint {i + 1} is shifted by {steps[i]:+.3f} deg" for i in moved)
     why = "zeros were written to the drives" if written else "the joint was homed anew or has slipped"
     return Mistake(

@@ -24,22 +24,22 @@ CURED = 3.0
 AGREEING = 0.85
 
 
-def between(robot: Robot, m: Measurements, fresh: Measurements, walked: Fitted) -> Mistake | None:
-    """The mistake that explains why fresh readings do not agree with `walked`, the fit of the sequence."""
+def between(robot: Robot, m: Measurements, fresh: Measurements, sequence_fit: Fitted) -> Mistake | None:
+    """The mistake that explains why fresh readings do not agree with `sequence_fit`."""
     mechanism = FiveBar(robot, fresh)
     with np.errstate(invalid="ignore"):
-        residual = fresh.distance - mechanism.observe(walked.p, fresh.theta).value
-    known = posterior(robot, m, walked)
-    plain = fit(robot, fresh, prior=known, start=walked.p)
-    limit = WORSE * max(walked.rms_mm, float(np.median(walked.row_sd)) / 2.0)
+        residual = fresh.distance - mechanism.observe(sequence_fit.p, fresh.theta).value
+    known = posterior(robot, m, sequence_fit)
+    plain = fit(robot, fresh, prior=known, start=sequence_fit.p)
+    limit = WORSE * max(sequence_fit.rms_mm, float(np.median(sequence_fit.row_sd)) / 2.0)
     if plain is not None and plain.rms_mm < limit and np.isfinite(residual).all() and _rms(residual) < limit:
         return None
-    moved = _moved(robot, m, fresh, walked, plain, known)
+    moved = _moved(robot, m, fresh, sequence_fit, plain, known)
     if moved is not None:
         return moved
-    tolerance = max(AGREES_MM, 6.0 * walked.rms_mm)
+    tolerance = max(AGREES_MM, 6.0 * sequence_fit.rms_mm)
     if np.mean(np.abs(residual) < tolerance) < AGREEING:
-        return _gross(robot, fresh, walked, residual, tolerance)
+        return _gross(robot, fresh, sequence_fit, residual, tolerance)
     return None
 
 
@@ -56,7 +56,7 @@ def _rms(residual: np.ndarray) -> float:
 
 
 def _gross(
-    robot: Robot, fresh: Measurements, walked: Fitted, residual: np.ndarray, tolerance: float
+    robot: Robot, fresh: Measurements, sequence_fit: Fitted, residual: np.ndarray, tolerance: float
 ) -> Mistake | None:
     mechanism = FiveBar(robot, fresh)
     here = costs(residual)
@@ -64,7 +64,7 @@ def _gross(
     for one in corrections(robot):
         corrected, used = one.apply(fresh)
         with np.errstate(invalid="ignore"):
-            left = corrected.distance - mechanism.observe(walked.p, corrected.theta).value
+            left = corrected.distance - mechanism.observe(sequence_fit.p, corrected.theta).value
         there = np.where(used, costs(left), here)
         rows = best_run(here - there)
         if rows is None or rows.sum() < SHORTEST:
@@ -82,7 +82,7 @@ def _gross(
                 f"{one.action} in the fresh file."
             )
             best = cost, Mistake(one.kind, text, at_fault, "refused", "fresh"), rows
-    steps = zeroings(robot, fresh, Rough(walked.p, residual))
+    steps = zeroings(robot, fresh, Rough(sequence_fit.p, residual))
     if steps is not None and (best is None or steps.cost * len(fresh) < best[0]):
         rows = np.concatenate(steps.rows)
         left = residual.copy()
@@ -97,7 +97,7 @@ def _moved(
     robot: Robot,
     m: Measurements,
     fresh: Measurements,
-    walked: Fitted,
+    sequence_fit: Fitted,
     plain: Fitted | None,
     known: tuple[np.ndarray, np.ndarray],
 ) -> Mistake | None:
@@ -107,33 +107,39 @@ def _moved(
     }
     offset = (Extra("offset", 1000.0, by_reading=np.ones(len(fresh))),)
     drifted = Extra("drift", 0.2, by_reading=(fresh.t_s - fresh.t_s.mean()) / (np.ptp(fresh.t_s) or 1.0))
-    tries = {name: fit(robot, fresh, prior=known, start=walked.p, extras=e) for name, e in shifts.items()}
-    step = fit(robot, fresh, prior=known, start=walked.p, extras=offset)
+    tries = {
+        name: fit(robot, fresh, prior=known, start=sequence_fit.p, extras=e) for name, e in shifts.items()
+    }
+    step = fit(robot, fresh, prior=known, start=sequence_fit.p, extras=offset)
     soft = fit(
-        robot, fresh, prior=known, start=walked.p,
+        robot, fresh, prior=known, start=sequence_fit.p,
         extras=(drifted, Extra("offset", 0.05, by_reading=np.ones(len(fresh)))),
     )  # fmt: skip
     without = [found.deviance for found in (plain, soft) if found is not None]
     good = {name: found for name, found in tries.items() if found is not None}
     if step is not None and all(step.deviance < found.deviance - 10.0 for found in good.values()):
-        if _cures(robot, fresh, walked, step, without):
+        if _cures(robot, fresh, sequence_fit, step, without):
             return zeroed(fresh, np.arange(len(fresh)), step.extra["offset"], "fresh")
         return None
     if not good:
         return None
     best = good[min(good, key=lambda name: good[name].deviance)]
-    if not _cures(robot, fresh, walked, best, without):
+    if not _cures(robot, fresh, sequence_fit, best, without):
         return None
-    return moved_between(m, fresh, walked, best)
+    return moved_between(m, fresh, sequence_fit, best)
 
 
-def _cures(robot: Robot, fresh: Measurements, walked: Fitted, found: Fitted, without: list[float]) -> bool:
+def _cures(
+    robot: Robot, fresh: Measurements, sequence_fit: Fitted, found: Fitted, without: list[float]
+) -> bool:
     """Whether it is far more probable than anything without, and leaves no more than the sequence does."""
     frozen = float(
         np.sqrt(
-            np.nanmean((fresh.distance - FiveBar(robot, fresh).observe(walked.p, fresh.theta).value) ** 2)
+            np.nanmean(
+                (fresh.distance - FiveBar(robot, fresh).observe(sequence_fit.p, fresh.theta).value) ** 2
+            )
         )
     )
     far = not without or min(without) - found.deviance > FAR_BETTER
-    left = found.rms_mm < max(1.7 * walked.rms_mm, 1.5e-3)
+    left = found.rms_mm < max(1.7 * sequence_fit.rms_mm, 1.5e-3)
     return far and left and frozen > CURED * found.rms_mm

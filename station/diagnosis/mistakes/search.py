@@ -82,12 +82,12 @@ def find_mistake(
     angles = _angles(robot, m, fresh, base)
     if angles:
         return angles
-    found, walked = _in_readings(robot, m, base, explained)
+    found, sequence_fit = _in_readings(robot, m, base, explained)
     if found and found.severity == "refused":
         return found
     late = None
-    if fresh is not None and walked is not None and len(fresh) >= FEWEST // 2:
-        late = between(robot, m, fresh, walked)
+    if fresh is not None and sequence_fit is not None and len(fresh) >= FEWEST // 2:
+        late = between(robot, m, fresh, sequence_fit)
         if late:
             return late
     labels = position_labels(m, context) or time_column(m) or approach_columns(robot, m)

@@ -26,14 +26,14 @@ def _one(scan: Scan, effect: Effect, tests: int) -> SmallestVisible:
     variants = effect.variants(scan.fit.conditions)
     if variants is None:
         text = "these readings were not taken in a way that could show it"
-        return _told(effect, None, text)
+        return _visible(effect, None, text)
     if variants.spread is not None:
         return _of_many(scan, effect, variants, tests)
     _, share, information = scan.reductions(variants, variants.basis)
     visible = share >= INVISIBLE_SHARE
     if not visible.any():
         text = "invisible in these readings: geometry and zero offsets take up its signature"
-        return _told(effect, None, text)
+        return _visible(effect, None, text)
     size = variants.basis.shape[2]
     # variants compared differ in the values of their hidden parameters only, not in what they act on
     kind = variants.hidden[int(np.argmax(visible))].keys()
@@ -43,7 +43,7 @@ def _one(scan: Scan, effect: Effect, tests: int) -> SmallestVisible:
     amplitude[0] = np.sqrt(_noncentrality(scan, variants, size, tests) / information[typical])
     shown = effect.quantities(variants.hidden[typical], amplitude, np.zeros((size, size)))[0]
     text = "" if len(alike) == 1 else "typical of what was searched"
-    return _told(effect, shown, text)
+    return _visible(effect, shown, text)
 
 
 def _of_many(scan: Scan, effect: Effect, variants: Variants, tests: int) -> SmallestVisible:
@@ -53,7 +53,7 @@ def _of_many(scan: Scan, effect: Effect, variants: Variants, tests: int) -> Smal
     size = len(amplitudes)
     shown = effect.quantities(variants.hidden[0], amplitudes, np.zeros((size, size)))[0]
     text = "of the shape that shows best"
-    return _told(effect, shown, text)
+    return _visible(effect, shown, text)
 
 
 def _noncentrality(scan: Scan, variants: Variants, size: int, tests: int) -> float:
@@ -64,7 +64,7 @@ def _noncentrality(scan: Scan, variants: Variants, size: int, tests: int) -> flo
     return float(ncfdtrinc(size, dof, 1.0 - POWER, critical))
 
 
-def _told(effect: Effect, smallest: Quantity | None, text: str) -> SmallestVisible:
+def _visible(effect: Effect, smallest: Quantity | None, text: str) -> SmallestVisible:
     return SmallestVisible(
         effect=effect.id,
         joint=effect.joint,

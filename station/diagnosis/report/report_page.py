@@ -311,6 +311,6 @@ def _invisible(findings: Findings) -> Section:
     ]
     return Section(
         "What these readings could not have shown",
-        ("Smaller effects than these may be there: each size would be found in four of five such walks.",),
+        ("Smaller effects may be present. An effect of the size shown is detected with 80 % probability.",),
         (Table(("effect", "parameter", "smallest visible size", "remark"), rows),),
     )

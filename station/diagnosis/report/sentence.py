@@ -17,8 +17,8 @@ def verdict_reason(diagnosis: TracedDiagnosis, labels: Sequence[str]) -> Reason:
     share = 100.0 * d.explained_share
     depends_on = d.hints[0].depends_on if d.hints else display_name("dependences", "nothing")
     confirmed = d.confirmed
-    if d.rival is not None and d.verdict in ("partly_explained", "unexplained"):
-        alternative = in_words(d.rival)
+    if d.alternative is not None and d.verdict in ("partly_explained", "unexplained"):
+        alternative = in_words(d.alternative)
         return because("alternative", causes=causes, share_percent=share, alternative=alternative)
     match d.verdict:
         case "ambiguous":

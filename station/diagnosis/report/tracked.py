@@ -12,14 +12,14 @@ from station.records import Measurements, PositionError
 
 
 def true_position_errors(
-    base: Fit, last: Fit, walk: Measurements, fresh: Measurements | None
+    base: Fit, last: Fit, sequence: Measurements, fresh: Measurements | None
 ) -> tuple[PositionError, PositionError] | None:
     """Where the models say that P stood, against the tracker, before and after; None without one.
 
-    Of the fresh readings, or without tracked ones of the walk.  The tracker takes part in no fit; its
+    Of the fresh readings, or without tracked ones of the sequence.  The tracker takes part in no fit; its
     frame is the robot's.
     """
-    tracked = next((m for m in (fresh, walk) if m is not None and m.tracker is not None), None)
+    tracked = next((m for m in (fresh, sequence) if m is not None and m.tracker is not None), None)
     machines = identified(base), identified(last)
     if tracked is None or machines[0] is None or machines[1] is None:
         return None
@@ -39,10 +39,10 @@ def true_position_errors(
 
 
 def true_errors_of_set(
-    found: ExplanationSet, walk: Measurements, fresh: Measurements | None
+    found: ExplanationSet, sequence: Measurements, fresh: Measurements | None
 ) -> tuple[PositionError, PositionError] | None:
     """The same under the base model and under a set of explanations."""
-    tracked = next((m for m in (fresh, walk) if m is not None and m.tracker is not None), None)
+    tracked = next((m for m in (fresh, sequence) if m is not None and m.tracker is not None), None)
     if tracked is None or tracked.tracker is None:
         return None
     around = Around(

@@ -22,7 +22,7 @@ from station.diagnosis.report.tracked import true_errors_of_set
 from station.diagnosis.report.unnamed_curves import unnamed_curves
 from station.diagnosis.report.weighed_sentence import weighed_reason
 from station.diagnosis.search import Hint, hints
-from station.diagnosis.tests_of_fit import rest_of
+from station.diagnosis.tests_of_fit import whitened_residual
 from station.diagnosis.weighed_loop import WeighedDiagnosis
 from station.effects import five_bar_catalogue
 from station.fitting import MINIMUM_DOF, Noise, NotConvergedError, Solution, pure_error, tolerance_prior
@@ -200,7 +200,7 @@ class WeighedFindings(Findings):
         """On what the base model's residual depends, where it is not explained."""
         if self.decision.verdict in ("adequate", "explained") or self.base_fit is None:
             return ()
-        return hints(rest_of(self.base_fit))
+        return hints(whitened_residual(self.base_fit))
 
     @cached_property
     def weak_direction(self) -> WeakDirection:

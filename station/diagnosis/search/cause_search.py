@@ -24,17 +24,17 @@ WORTH = 0.03
 """Of the rest's square, what an effect must take to be worth a place in the model."""
 SIGNIFICANT = 0.01
 """Family-wise over the catalogue (Holm: the smallest p is held against the whole count)."""
-RIVALS = 40.0
+ALTERNATIVES = 40.0
 """A candidate this much worse (chi-square) in the linear scan is not worth a nonlinear fit."""
 HOPEFUL = 0.02
 """Unless it takes all but this share: a large effect is not quite linear."""
-MOST_RIVALS = 6
+MOST_ALTERNATIVES = 6
 MOST_POLISHING = 8
 HELPFUL = 0.995
 """Left-out error over that without the effect: below this, readings that it has not seen support it."""
 ODD_SHARE = 0.03
 END_SHARE = 0.12
-"""Of the walk, in which readings off to one side together look like a step and not like slips of the head."""
+"""Share of the sequence in which readings that deviate to one side look like a step, not like slips."""
 ALIAS = 11.0
 """Chi-square by which a look-alike may be worse and still be the cause (true cause kept in 99.9 %)."""
 
@@ -259,15 +259,15 @@ def _add(
 ) -> tuple[Finding, Fit] | None:
     """Refit with the best candidates, keep the best, name those that do as well."""
     current = scan.fit
-    refined = [scan.refine(c) for c in candidates[: 2 * MOST_RIVALS] if c.visible]
+    refined = [scan.refine(c) for c in candidates[: 2 * MOST_ALTERNATIVES] if c.visible]
     if not refined:
         return None
     best = max(refined, key=lambda c: c.reduction)
     unit = _noise_square(current.cost - best.reduction, current.dof - best.size)
-    worst = max(current.cost - best.reduction + RIVALS * unit, hopeful * current.cost)
-    rivals = [c for c in refined if current.cost - c.reduction < worst]
+    worst = max(current.cost - best.reduction + ALTERNATIVES * unit, hopeful * current.cost)
+    alternatives = [c for c in refined if current.cost - c.reduction < worst]
     fits: list[tuple[float, Candidate, Fit]] = []
-    for c in sorted(rivals, key=lambda c: -c.reduction)[:MOST_RIVALS]:
+    for c in sorted(alternatives, key=lambda c: -c.reduction)[:MOST_ALTERNATIVES]:
         try:
             refit = refitted(scan, c)
         except NotConvergedError:

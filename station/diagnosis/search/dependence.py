@@ -17,7 +17,7 @@ from scipy.special import fdtrc
 from station.diagnosis.search.scan import explained
 from station.diagnosis.tests_of_fit import (
     Departure,
-    Rest,
+    WhitenedResidual,
     added,
     by_approach_and_place,
     departures,
@@ -50,9 +50,9 @@ class Hint:
     text: str
 
 
-def hints(rest: Rest) -> tuple[Hint, ...]:
+def hints(residual: WhitenedResidual) -> tuple[Hint, ...]:
     """Significant dependences of what a model leaves, strongest first."""
-    found = sorted(_tests(rest), key=lambda h: h.p_value)
+    found = sorted(_tests(residual), key=lambda h: h.p_value)
     kept = []
     for k, hint in enumerate(found):
         if hint.p_value * (len(found) - k) > LEVEL:
@@ -61,29 +61,29 @@ def hints(rest: Rest) -> tuple[Hint, ...]:
     return tuple(sorted(kept, key=lambda h: -h.strength))
 
 
-def _tests(rest: Rest) -> Iterator[Hint]:
-    theta, travel = rest.of("theta"), rest.of("travel")
-    for found in departures(rest):
+def _tests(residual: WhitenedResidual) -> Iterator[Hint]:
+    theta, travel = residual.of("theta"), residual.of("travel")
+    for found in departures(residual):
         match found.on:
             case "time":
                 yield _hint(found, "The residual changes with time.")
             case "approach x place":
-                yield _by_approach(rest, found)
+                yield _by_approach(residual, found)
             case "place":
-                where = _worst_place(rest)
+                where = _worst_place(residual)
                 at = ", ".join(f"{name} = {v:.0f}" for name, v in zip("xyz", where, strict=False))
                 yield _hint(found, f"The residual belongs to a place in the workspace, most at {at} mm.")
             case "travel":
                 text = "The residual follows the measured distance"
-                period, wave = _periodic(rest, travel, 1.0 / SHORTEST_MM)
+                period, wave = _periodic(residual, travel, 1.0 / SHORTEST_MM)
                 yield _either(found, wave, text, f"about every {period:.3g} mm")
             case joint:
                 i = int(joint.removeprefix("theta")) - 1
                 text = f"The residual follows the angle of joint {i + 1}"
-                period, wave = _periodic(rest, theta[:, i], MOST_PER_TURN / (2.0 * np.pi))
+                period, wave = _periodic(residual, theta[:, i], MOST_PER_TURN / (2.0 * np.pi))
                 yield _either(found, wave, text, f"about {2.0 * np.pi / period:.3g} times a turn")
-    if rest.recorded("temperature_rise"):
-        course = added(rest, "temperature", half_waves(rest.of("temperature_rise"), 2))
+    if residual.recorded("temperature_rise"):
+        course = added(residual, "temperature", half_waves(residual.of("temperature_rise"), 2))
         yield _hint(course, "The residual follows the temperature.")
 
 
@@ -97,31 +97,33 @@ def _either(smooth: Departure, wave: Departure, text: str, period: str) -> Hint:
     return _hint(smooth, f"{text}.")
 
 
-def _by_approach(rest: Rest, found: Departure) -> Hint:
+def _by_approach(residual: WhitenedResidual, found: Departure) -> Hint:
     """Does the sense of approach matter everywhere alike, or differently from place to place?"""
-    alike = senses(rest)
-    local = added(rest, found.on, by_approach_and_place(rest), np.column_stack([alike, in_doubt(rest)]))
+    alike = senses(residual)
+    local = added(
+        residual, found.on, by_approach_and_place(residual), np.column_stack([alike, in_doubt(residual)])
+    )
     if local.p_value < LEVEL and local.share > LOCAL_SHARE * found.share:
         return _hint(
             found,
             "The residual depends on the sense of approach, differently from place to place: "
             "something drags on the platform (a cable, a hose).",
         )
-    common = added(rest, "approach", alike, in_doubt(rest))
+    common = added(residual, "approach", alike, in_doubt(residual))
     return _hint(common, "The residual depends on the sense of approach, everywhere alike.")
 
 
-def _worst_place(rest: Rest) -> Real:
+def _worst_place(residual: WhitenedResidual) -> Real:
     """(d,) mm, where the mean of the neighbourhood stands out most from noise."""
-    apart = np.linalg.norm(rest.at[:, None] - rest.at[None, :], axis=2)
+    apart = np.linalg.norm(residual.at[:, None] - residual.at[None, :], axis=2)
     near = np.exp(-0.5 * (apart / NEAR_MM) ** 2)
-    left = np.zeros((len(rest.at), int(rest.axis.max()) + 1))
-    left[rest.reading, rest.axis] = rest.left[: len(rest.reading)]
+    left = np.zeros((len(residual.at), int(residual.axis.max()) + 1))
+    left[residual.reading, residual.axis] = residual.left[: len(residual.reading)]
     mean = np.linalg.norm(near @ left, axis=1) / np.linalg.norm(near, axis=1)
-    return np.asarray(rest.at[int(np.argmax(mean))])
+    return np.asarray(residual.at[int(np.argmax(mean))])
 
 
-def _periodic(rest: Rest, along: Real, highest: float) -> tuple[float, Departure]:
+def _periodic(residual: WhitenedResidual, along: Real, highest: float) -> tuple[float, Departure]:
     """The period along something that takes most, up to `highest` periods per unit, and what it takes."""
     span = float(np.ptp(along))
     lowest, step = 2.0 / (span or 1.0), 1.0 / (span or 1.0) / OVERSAMPLING
@@ -129,16 +131,16 @@ def _periodic(rest: Rest, along: Real, highest: float) -> tuple[float, Departure
     if count < 1:
         return np.inf, Departure("period", 0.0, 1.0)
     turns = waves(along, 2.0 * np.pi * lowest, 2.0 * np.pi * step, count)
-    flat = perpendicular(rest.spread(turns.transpose(1, 0, 2).reshape(len(along), -1)), rest.taken)
+    flat = perpendicular(residual.spread(turns.transpose(1, 0, 2).reshape(len(along), -1)), residual.taken)
     # coordinate by coordinate: each has amplitudes of its own
     won = np.zeros(count)
     for own in np.split(flat, flat.shape[1] // (2 * count), axis=1):
         pairs = own.reshape(len(own), count, 2).transpose(1, 0, 2)
-        won += explained(pairs.transpose(0, 2, 1) @ pairs, (rest.left @ own).reshape(count, 2))[0]
+        won += explained(pairs.transpose(0, 2, 1) @ pairs, (residual.left @ own).reshape(count, 2))[0]
     best, size = int(np.argmax(won)), flat.shape[1] // count
-    dof = rest.dof - size
-    noise = max(rest.square - float(won[best]), 1e-12) / dof
+    dof = residual.dof - size
+    noise = max(residual.square - float(won[best]), 1e-12) / dof
     trials = 2.0 * highest * span
     p_value = min(1.0, trials * float(fdtrc(size, dof, won[best] / size / noise)))
-    share = max(float(won[best]) - size * noise, 0.0) / rest.square
+    share = max(float(won[best]) - size * noise, 0.0) / residual.square
     return 1.0 / (lowest + best * step), Departure("period", share, p_value)

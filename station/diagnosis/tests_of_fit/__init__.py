@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from station.diagnosis.tests_of_fit.adequacy import ALPHA, Adequacy, judge
+from station.diagnosis.tests_of_fit.alternatives import strongest
 from station.diagnosis.tests_of_fit.confirmation import FEWEST, Confirmation, confirm
 from station.diagnosis.tests_of_fit.cross_validation import (
     folds,
@@ -11,10 +12,9 @@ from station.diagnosis.tests_of_fit.cross_validation import (
     predicted_by_others,
     without_a_quarter,
 )
-from station.diagnosis.tests_of_fit.rivals import strongest
 from station.diagnosis.tests_of_fit.smooth_departures import (
     Departure,
-    Rest,
+    WhitenedResidual,
     added,
     by_approach_and_place,
     by_searched,
@@ -24,9 +24,9 @@ from station.diagnosis.tests_of_fit.smooth_departures import (
     in_words,
     of_fit,
     perpendicular,
-    rest_of,
     senses,
     turned,
+    whitened_residual,
 )
 
 __all__ = [
@@ -35,7 +35,7 @@ __all__ = [
     "Adequacy",
     "Confirmation",
     "Departure",
-    "Rest",
+    "WhitenedResidual",
     "added",
     "by_approach_and_place",
     "by_searched",
@@ -51,9 +51,9 @@ __all__ = [
     "of_fit",
     "perpendicular",
     "predicted_by_others",
-    "rest_of",
     "senses",
     "strongest",
     "turned",
+    "whitened_residual",
     "without_a_quarter",
 ]

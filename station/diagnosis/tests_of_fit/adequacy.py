@@ -1,7 +1,7 @@
 """Whether a fit is good enough to stop: lack of fit, order, smooth departures, repeats, tolerances.
 
 Null hypothesis of each test: the residual is noise.  The repeats' own scatter is the yardstick for
-the rest; where something changes with time it scatters too much itself, and few repeats are a poor
+the residual; where something changes with time it scatters too much itself, and few repeats are a poor
 yardstick, which is why the other tests stand beside it.
 """
 
@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.special import chdtrc, fdtrc, ndtr
 
-from station.diagnosis.tests_of_fit.smooth_departures import departures, rest_of
+from station.diagnosis.tests_of_fit.smooth_departures import departures, whitened_residual
 from station.fitting import FEWEST_REPEATS
 from station.mechanism import axis_of_row
 from station.model import Fit
@@ -95,7 +95,7 @@ def judge(fit: Fit, specified_sd: Real) -> Adequacy:
 
 
 def _departure_p(fit: Fit) -> float:
-    found = departures(rest_of(fit))
+    found = departures(whitened_residual(fit))
     return min(1.0, len(found) * min(d.p_value for d in found))
 
 

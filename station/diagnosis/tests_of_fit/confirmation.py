@@ -3,7 +3,7 @@
 Three questions are put to them.  Are they predicted as a whole (chi-square with the prediction
 covariance)?  Do old and fresh readings together show no smooth departure from the model
 (`departures`)?  And are the effects a far better account of all of them than a wandering without a
-name (`rivals`)?  The last two ask far more than the first, since they know where to look.
+name (`alternatives`)?  The last two ask far more than the first, since they know where to look.
 """
 
 from __future__ import annotations
@@ -14,16 +14,16 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.special import fdtrc
 
-from station.diagnosis.tests_of_fit.rivals import strongest
+from station.diagnosis.tests_of_fit.alternatives import strongest
 from station.diagnosis.tests_of_fit.smooth_departures import (
     Departure,
     Readings,
-    Rest,
+    WhitenedResidual,
     departures,
     in_words,
     of_fit,
     readings,
-    rest_of,
+    whitened_residual,
 )
 from station.effects import doubtful
 from station.fitting import BLIND, REFUSED_P, solved
@@ -51,20 +51,20 @@ class Confirmation:
     p_value: float
     left_out: tuple[int | str, ...]
     """Ids of few fresh readings far off a model that predicts all others; they took no part in the tests."""
-    rest: Rest
+    whitened: WhitenedResidual
     """What the model leaves of readings learned on and fresh ones together; of a long log, of the former."""
     departures: tuple[Departure, ...]
     """Of it; of a long log none are asked for beyond those that `adequacy` has found already."""
-    rival: str | None
+    alternative: str | None
     """A nameless dependence that makes all readings about as probable as the effects do."""
 
     @property
     def confirmed(self) -> bool:
-        return _predicted(self.p_value, self.departures) and self.rival is None
+        return _predicted(self.p_value, self.departures) and self.alternative is None
 
     @property
     def refusal(self) -> str:
-        """What speaks against the model, where it is not confirmed for a rival's sake."""
+        """What speaks against the model, where it is not confirmed for a alternative's sake."""
         if self.p_value < REFUSED_P or not self.departures:
             return "fresh readings refute the model"
         worst = min(self.departures, key=lambda d: d.p_value)
@@ -102,13 +102,17 @@ def confirm(base: Fit, learned: Fit, fresh: Measurements, noise_dof: int) -> Con
     few = residual[rows]
     square = float(few @ solved(covariance[np.ix_(rows, rows)], few))
     p_value = float(fdtrc(len(few), max(noise_dof, 1), square / len(few)))
-    rest = Rest((before, after.take(kept)), learned.prior, learned.x)
-    found = departures(rest)
-    rival = None
+    whitened = WhitenedResidual((before, after.take(kept)), learned.prior, learned.x)
+    found = departures(whitened)
+    alternative = None
     if learned.model.terms and _predicted(p_value, found):
-        without = Rest((of_fit(base, sd), _fresh(base, fresh, ratio).take(kept)), base.prior, base.x)
-        rival = strongest(without, rest, learned.model.terms, learned.conditions)
-    return Confirmation(residual, sd_mm, _sizes(after), p_value, _ids(fresh, ~kept), rest, found, rival)
+        without = WhitenedResidual(
+            (of_fit(base, sd), _fresh(base, fresh, ratio).take(kept)), base.prior, base.x
+        )
+        alternative = strongest(without, whitened, learned.model.terms, learned.conditions)
+    return Confirmation(
+        residual, sd_mm, _sizes(after), p_value, _ids(fresh, ~kept), whitened, found, alternative
+    )
 
 
 def _of_long_log(learned: Fit, fresh: Measurements, noise_dof: int) -> Confirmation:
@@ -125,7 +129,9 @@ def _of_long_log(learned: Fit, fresh: Measurements, noise_dof: int) -> Confirmat
     few = int(rows.sum())
     square = _chi_square(residual[rows] / after.row_sd[rows], J[rows] / after.row_sd[rows, None], C)
     p_value = float(fdtrc(few, max(noise_dof, 1), square / few))
-    return Confirmation(residual, sd_mm, _sizes(after), p_value, _ids(fresh, off), rest_of(learned), (), None)
+    return Confirmation(
+        residual, sd_mm, _sizes(after), p_value, _ids(fresh, off), whitened_residual(learned), (), None
+    )
 
 
 def _chi_square(r: Real, J: Real, C: Real) -> float:

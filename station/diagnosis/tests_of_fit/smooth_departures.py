@@ -25,7 +25,7 @@ SLOW, SMOOTH = 6, 8
 OVER = (6, 3, 3)
 """Half waves over the workspace: across, up, and in the third direction where there is one."""
 MOST = 600
-"""Readings of a long log that are looked at, evenly spread: what a rest follows is plain in those."""
+"""Readings of a long log that are looked at, evenly spread: what a residual follows is plain in those."""
 LOST = 1e-3
 """A column of which less is left after projection says nothing of its own."""
 STEP = 1e-4
@@ -43,7 +43,7 @@ class Departure:
 
 
 def in_words(on: str) -> str:
-    """What a departure or a rival is on, for people."""
+    """What a departure or a alternative is on, for people."""
     if on.startswith("theta"):
         return f"the angle of joint {on.removeprefix('theta')}"
     return {"approach x place": "approach and place", "place": "the place", "travel": "the travel"}.get(
@@ -108,7 +108,7 @@ def _value(model: Model, x: Real, c: Conditions) -> Real:
     return model.observe(x, model.bases(c)).value
 
 
-class Rest:
+class WhitenedResidual:
     """What a model leaves of readings, with everything that its unknowns could take up taken.
 
     Whitened rows: the readings of all parts, then those of the prior.
@@ -162,65 +162,65 @@ class Rest:
         return rows
 
 
-def departures(rest: Rest) -> tuple[Departure, ...]:
+def departures(residual: WhitenedResidual) -> tuple[Departure, ...]:
     """Every kind that these readings can show, in no order of importance."""
-    found = [added(rest, "time", half_waves(rest.of("t_s"), SLOW))]
-    if np.any(rest.of("approach") != 0):
-        found.append(added(rest, "approach x place", by_approach_and_place(rest), in_doubt(rest)))
-    found.append(added(rest, "place", _over_workspace(rest)))
-    theta = rest.of("theta")
-    found += [added(rest, f"theta{i + 1}", half_waves(t, SMOOTH)) for i, t in enumerate(theta.T)]
-    travel = rest.of("travel")
+    found = [added(residual, "time", half_waves(residual.of("t_s"), SLOW))]
+    if np.any(residual.of("approach") != 0):
+        found.append(added(residual, "approach x place", by_approach_and_place(residual), in_doubt(residual)))
+    found.append(added(residual, "place", _over_workspace(residual)))
+    theta = residual.of("theta")
+    found += [added(residual, f"theta{i + 1}", half_waves(t, SMOOTH)) for i, t in enumerate(theta.T)]
+    travel = residual.of("travel")
     if np.ptp(travel) > 0.0:
-        found.append(added(rest, "travel", half_waves(travel, SMOOTH)))
+        found.append(added(residual, "travel", half_waves(travel, SMOOTH)))
     return tuple(found)
 
 
-def added(rest: Rest, on: str, columns: Real, beside: Real | None = None) -> Departure:
+def added(residual: WhitenedResidual, on: str, columns: Real, beside: Real | None = None) -> Departure:
     """F test of columns (K, q) in mm, with what columns `beside` (K, m) could take up left to those."""
-    taken, left = rest.taken, rest.left
+    taken, left = residual.taken, residual.left
     if beside is not None and beside.size:
-        others = _orthonormal(perpendicular(rest.spread(beside), taken))
+        others = _orthonormal(perpendicular(residual.spread(beside), taken))
         left = perpendicular(left, others)
         taken = np.column_stack([taken, others])
-    new = rest.spread(columns)
+    new = residual.spread(columns)
     new /= np.maximum(np.linalg.norm(new, axis=0), 1e-300)
     u, s, _ = np.linalg.svd(perpendicular(new, taken), full_matrices=False)
     new = u[:, s > LOST]
     along, size = new.T @ left, new.shape[1]
     # noise is what the readings' own rows scatter by: how generous a tolerance is says nothing of it
-    rest_of_rows = (left - new @ along)[: rest.rows]
-    used = np.sum(taken[: rest.rows] ** 2) + np.sum(new[: rest.rows] ** 2)
-    dof = rest.rows - float(used)
-    noise = float(rest_of_rows @ rest_of_rows) / max(dof, 1.0)
+    left_of_rows = (left - new @ along)[: residual.rows]
+    used = np.sum(taken[: residual.rows] ** 2) + np.sum(new[: residual.rows] ** 2)
+    dof = residual.rows - float(used)
+    noise = float(left_of_rows @ left_of_rows) / max(dof, 1.0)
     if size == 0 or dof < 1.0 or noise == 0.0:
         return Departure(on, 0.0, 1.0)
     won = float(along @ along)
     p_value = float(fdtrc(size, dof, won / size / noise))
-    return Departure(on, float(max(won - size * noise, 0.0) / rest.square), p_value)
+    return Departure(on, float(max(won - size * noise, 0.0) / residual.square), p_value)
 
 
-def in_doubt(rest: Rest) -> Real:
+def in_doubt(residual: WhitenedResidual) -> Real:
     """(K, m) a column of its own for each reading of which the slider's sense cannot be said."""
-    doubtful = rest.of("slider_direction") != rest.of("slider_net")
+    doubtful = residual.of("slider_direction") != residual.of("slider_net")
     return np.eye(len(doubtful))[:, doubtful]
 
 
-def senses(rest: Rest) -> Real:
+def senses(residual: WhitenedResidual) -> Real:
     """(K, n + 1) sign of the last motion of joints and slider."""
-    return np.column_stack([rest.of("approach"), rest.of("slider_direction")])
+    return np.column_stack([residual.of("approach"), residual.of("slider_direction")])
 
 
-def by_approach_and_place(rest: Rest) -> Real:
+def by_approach_and_place(residual: WhitenedResidual) -> Real:
     """(K, 6 n) each sense of motion times a parabola over the (plane) workspace."""
-    at = [_centred(v) for v in rest.at.T]
+    at = [_centred(v) for v in residual.at.T]
     squares = [a * b for i, a in enumerate(at) for b in at[i:]]
-    smooth = np.column_stack([np.ones(len(rest.at)), *at, *squares])
-    return np.asarray((senses(rest)[:, :, None] * smooth[:, None, :]).reshape(len(smooth), -1))
+    smooth = np.column_stack([np.ones(len(residual.at)), *at, *squares])
+    return np.asarray((senses(residual)[:, :, None] * smooth[:, None, :]).reshape(len(smooth), -1))
 
 
-def _over_workspace(rest: Rest) -> Real:
-    angles = [np.pi * (_centred(v) + 1.0) / 2.0 for v in rest.at.T]
+def _over_workspace(residual: WhitenedResidual) -> Real:
+    angles = [np.pi * (_centred(v) + 1.0) / 2.0 for v in residual.at.T]
     counts = OVER[: len(angles)]
     waves = [
         np.prod([np.cos(k * angle) for k, angle in zip(number, angles, strict=True)], axis=0)
@@ -240,14 +240,14 @@ def of_fit(fit: Fit, row_sd: Real) -> Readings:
     return readings(fit.model, fit.x, fit.model.mechanism.measured, row_sd, fit.conditions)
 
 
-def rest_of(fit: Fit) -> Rest:
+def whitened_residual(fit: Fit) -> WhitenedResidual:
     """What a fit leaves of the readings it was learned on.
 
     Of a long log some readings, and what the parameters of the mechanism could take up of them: the
     amplitudes of curves have taken theirs from all.
     """
     if not is_long(fit.model.mechanism):
-        return Rest((of_fit(fit, fit.row_sd),), fit.prior, fit.x)
+        return WhitenedResidual((of_fit(fit, fit.row_sd),), fit.prior, fit.x)
     size = fit.model.base_size
     mechanism = fit.model.mechanism
     some = np.zeros(len(mechanism.measurements), dtype=bool)
@@ -262,7 +262,7 @@ def rest_of(fit: Fit) -> Rest:
     )
     root = fit.prior.root[:, :size]
     prior = Prior(fit.prior.mean[:size], root[np.any(root != 0.0, axis=1)])
-    return Rest((base.take(some),), prior, fit.x[:size])
+    return WhitenedResidual((base.take(some),), prior, fit.x[:size])
 
 
 def _orthonormal(J: Real) -> Real:

@@ -18,9 +18,9 @@ def measure(seconds: float) -> dict[str, Any]:
     """{scan_ms, diagnose_ms}: 110 readings, and 40 fresh ones for the diagnosis."""
     robot = Robot.default()
     drawn = draw(robot, ("backlash",), seed=1)
-    base = traced(robot, drawn.walk).base
+    base = traced(robot, drawn.sequence).base
     effects = [effect for effect in five_bar_catalogue() if effect.id not in SEARCHED]
     return {
         "scan_ms": time_ms(lambda: Scan(base).candidates(effects), seconds=seconds),
-        "diagnose_ms": time_ms(lambda: diagnose(robot, drawn.walk, drawn.fresh), seconds=seconds),
+        "diagnose_ms": time_ms(lambda: diagnose(robot, drawn.sequence, drawn.fresh), seconds=seconds),
     }

@@ -18,7 +18,7 @@ import uvicorn
 
 from station.plans import make_plan
 from station.published import MAX_PASSES, PublishedRun
-from station.records import Procedure, Walk
+from station.records import MeasurementSequence, Procedure
 from station.run_kinds import RUN_KINDS, Start
 from station.service import Orchestrator, Runtime
 from station.settings import LimitSettings, Settings, database_path
@@ -30,9 +30,9 @@ SETTINGS = Settings(limits=LimitSettings(settle_s=0.0))
 
 
 def six_steps(start: Start) -> Procedure:
-    """One walk over the six positions, the published iteration on its readings."""
+    """One sequence over the six positions, the published iteration on its readings."""
     run = PublishedRun(start.robot)
-    readings = yield Walk("Measuring", 1, make_plan("paper", start.robot).stops)
+    readings = yield MeasurementSequence("Measuring", 1, make_plan("paper", start.robot).stops)
     for _ in range(MAX_PASSES):
         run.absorb(readings)
         if run.converged:

@@ -65,7 +65,7 @@ def outcome(drawn_by: tuple[tuple[str, ...], int]) -> Outcome:
     robot = Robot.default()
     drawn = draw(robot, kinds, seed)
     try:
-        found = WeighedFindings(weighed(robot, drawn.walk, drawn.fresh))
+        found = WeighedFindings(weighed(robot, drawn.sequence, drawn.fresh))
     except InputRefused as refusal:
         said = f"refused: {str(refusal)[:40]}"
         return Outcome(_clear(drawn), said, False, False, False, False, False, False)

@@ -1,7 +1,7 @@
-"""Random machines with known effects, walked in virtual time.
+"""Random machines with known effects, measured in virtual time.
 
 The size of an effect is what is left of it in the readings after the kinematic parameters took their
-share: its amplitude is scaled until a noise-free walk leaves that residual.
+share: its amplitude is scaled until a noise-free sequence leaves that residual.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ LARGEST_TIMES = 4.0
 class Drawn:
     """One random machine, measured."""
 
-    walk: Measurements
+    sequence: Measurements
     fresh: Measurements
     kinds: tuple[str, ...]
     truth: frozenset[Cause]
@@ -73,8 +73,8 @@ def draw(robot: Robot, kinds: tuple[str, ...], seed: int) -> Drawn:
         truth_of |= causes(kind, made)
         sizes.append(left(make, amplitude) if amplitude == LARGEST_TIMES else size)
     machine = with_effects(tables)
-    walk, fresh = machine.diagnostic_run(robot, seed)
-    return Drawn(walk, fresh, kinds, frozenset(truth_of), tuple(sizes), machine)
+    sequence, fresh = machine.diagnostic_run(robot, seed)
+    return Drawn(sequence, fresh, kinds, frozenset(truth_of), tuple(sizes), machine)
 
 
 def _scaled(left_um: Callable[[float], float], size_um: float) -> float:
@@ -88,11 +88,11 @@ def _scaled(left_um: Callable[[float], float], size_um: float) -> float:
     return min(amplitude, LARGEST_TIMES)
 
 
-def _left_um(robot: Robot, walked: Measurements) -> float:
-    """Residual RMS of a noise-free walk under the base model."""
-    mechanism = FiveBar(robot, walked)
+def _left_um(robot: Robot, measured: Measurements) -> float:
+    """Residual RMS of a noise-free sequence under the base model."""
+    mechanism = FiveBar(robot, measured)
     try:
-        base = fit(Model(mechanism, reference_of(walked)), tolerance_prior(mechanism), mechanism.row_sd)
+        base = fit(Model(mechanism, reference_of(measured)), tolerance_prior(mechanism), mechanism.row_sd)
     except NotConvergedError:
         return LARGEST_UM * 10.0  # far too large: the next amplitude will be smaller
     residual: Real = base.residual_mm

@@ -27,7 +27,7 @@ class Files:
     """What is handed to the diagnosis."""
 
     robot: Robot
-    walk: Measurements
+    sequence: Measurements
     fresh: Measurements
     rows: Rows | None = None
     """Ids at fault, where it is some rows only."""
@@ -74,10 +74,10 @@ def measured(seed: int, *, play: bool = False, effects: tuple[dict[str, object],
     if play:
         effects = (*effects, {"kind": "backlash", "joint": int(rng.integers(1, 3)), "width_deg": 0.01})
     machine = SimulatedMachine(robot, truth, "whole pulses", seed, effects)
-    walk, fresh = (_as_written(m) for m in machine.diagnostic_run(robot, seed))
+    sequence, fresh = (_as_written(m) for m in machine.diagnostic_run(robot, seed))
     commanded = [stop.theta_deg for stop in make_plan("diagnostic", robot).stops]
     afterwards = [stop.theta_deg for stop in diagnostic_fresh_stops(robot, truth[:2], seed)]
-    return Measured(Files(robot, walk, fresh), (np.array(commanded), np.array(afterwards)))
+    return Measured(Files(robot, sequence, fresh), (np.array(commanded), np.array(afterwards)))
 
 
 def _as_written(m: Measurements) -> Measurements:
@@ -90,10 +90,10 @@ def spoiled(variant: Variant, made: Measured, seed: int) -> Files:
     rng = np.random.default_rng([seed, 77])
     files = made.files
     if variant.commanded:
-        walk, fresh = made.commanded
+        sequence, fresh = made.commanded
         files = replace(
             files,
-            walk=_angles(files.walk, np.round(walk, 5)),
+            sequence=_angles(files.sequence, np.round(sequence, 5)),
             fresh=_angles(files.fresh, np.round(fresh, 5)),
         )
         files = variant.spoil(files, rng)
@@ -103,14 +103,14 @@ def spoiled(variant: Variant, made: Measured, seed: int) -> Files:
 
 def _only_given(commanded: Files, fed_back: Files, variant: Variant) -> Files:
     if variant.name.endswith("joint 1"):
-        theta = np.column_stack([commanded.walk.theta[:, 0], fed_back.walk.theta[:, 1]])
+        theta = np.column_stack([commanded.sequence.theta[:, 0], fed_back.sequence.theta[:, 1]])
         return replace(
-            commanded, walk=replace(fed_back.walk, theta=theta, came_from=None), fresh=fed_back.fresh
+            commanded, sequence=replace(fed_back.sequence, theta=theta, came_from=None), fresh=fed_back.fresh
         )
     if variant.name.endswith("sequence"):
         return replace(commanded, fresh=fed_back.fresh)
     if variant.name.endswith("fresh"):
-        return replace(commanded, walk=fed_back.walk)
+        return replace(commanded, sequence=fed_back.sequence)
     return commanded
 
 
@@ -129,11 +129,11 @@ Change = Callable[[Measurements], Measurements]
 
 
 def in_both(change: Change) -> Callable[[Files, np.random.Generator], Files]:
-    return lambda f, rng: replace(f, walk=change(f.walk), fresh=change(f.fresh))
+    return lambda f, rng: replace(f, sequence=change(f.sequence), fresh=change(f.fresh))
 
 
 def in_sequence(change: Change) -> Callable[[Files, np.random.Generator], Files]:
-    return lambda f, rng: replace(f, walk=change(f.walk))
+    return lambda f, rng: replace(f, sequence=change(f.sequence))
 
 
 def in_fresh(change: Change) -> Callable[[Files, np.random.Generator], Files]:
@@ -144,11 +144,11 @@ def on_rows(change: Change, first: float, last: float) -> Callable[[Files, np.ra
     """On the rows from a share of the file to another one."""
 
     def spoil(f: Files, rng: np.random.Generator) -> Files:
-        m, changed = f.walk, change(f.walk)
+        m, changed = f.sequence, change(f.sequence)
         n = len(m)
         rows = np.zeros(n, dtype=bool)
         rows[int(first * n) : int(last * n)] = True
-        walk = replace(
+        sequence = replace(
             m,
             theta=np.where(rows[:, None], changed.theta, m.theta),
             distance=np.where(rows, changed.distance, m.distance),
@@ -156,7 +156,7 @@ def on_rows(change: Change, first: float, last: float) -> Callable[[Files, np.ra
             position=np.where(rows, changed.position, m.position),
             came_from=None,
         )
-        return replace(f, walk=walk, rows=tuple(m.ids[k] for k in np.flatnonzero(rows)))
+        return replace(f, sequence=sequence, rows=tuple(m.ids[k] for k in np.flatnonzero(rows)))
 
     return spoil
 
@@ -209,13 +209,15 @@ def scale_down_from(first: float) -> Callable[[Files, np.random.Generator], File
     """A cell inserted in the column of the readings; its row, which has none then, is left out."""
 
     def spoil(f: Files, rng: np.random.Generator) -> Files:
-        m, n = f.walk, len(f.walk)
+        m, n = f.sequence, len(f.sequence)
         row = int(first * n)
         source = np.arange(n)
         source[row:] -= 1
         kept = np.delete(np.arange(n), row)
-        walk = scale(m, m.distance[source]).take(kept)
-        return replace(f, walk=replace(walk, came_from=None), rows=tuple(m.ids[k] for k in range(row + 1, n)))
+        sequence = scale(m, m.distance[source]).take(kept)
+        return replace(
+            f, sequence=replace(sequence, came_from=None), rows=tuple(m.ids[k] for k in range(row + 1, n))
+        )
 
     return spoil
 
@@ -224,7 +226,7 @@ def step(steps_mm: tuple[tuple[float, float, float], ...]) -> Callable[[Files, n
     """(first share, last share, mm) of the sequence; what lasts to its end lasts in the fresh file too."""
 
     def spoil(f: Files, rng: np.random.Generator) -> Files:
-        values, n = f.walk.distance.copy(), len(f.walk)
+        values, n = f.sequence.distance.copy(), len(f.sequence)
         fresh = f.fresh
         rows: list[int] = []
         for first, last, mm in steps_mm:
@@ -233,41 +235,45 @@ def step(steps_mm: tuple[tuple[float, float, float], ...]) -> Callable[[Files, n
             rows += chosen.tolist()
             if last >= 1.0:
                 fresh = scale(fresh, fresh.distance + mm)
-        return Files(f.robot, scale(f.walk, values), fresh, tuple(f.walk.ids[k] for k in sorted(set(rows))))
+        return Files(
+            f.robot, scale(f.sequence, values), fresh, tuple(f.sequence.ids[k] for k in sorted(set(rows)))
+        )
 
     return spoil
 
 
 def stuck(count: int, runs: int = 1) -> Callable[[Files, np.random.Generator], Files]:
     def spoil(f: Files, rng: np.random.Generator) -> Files:
-        values = f.walk.distance.copy()
+        values = f.sequence.distance.copy()
         rows: list[int] = []
         for first in rng.choice(len(values) // count - 1, runs, replace=False) * count:
             values[first : first + count] = values[first]
             rows += list(range(int(first), int(first) + count))
-        return replace(f, walk=scale(f.walk, values), rows=tuple(f.walk.ids[k] for k in sorted(rows)))
+        return replace(
+            f, sequence=scale(f.sequence, values), rows=tuple(f.sequence.ids[k] for k in sorted(rows))
+        )
 
     return spoil
 
 
 def clipped(f: Files, rng: np.random.Generator) -> Files:
-    limit = float(np.quantile(f.walk.distance, 0.85))
-    rows = np.flatnonzero(f.walk.distance > limit)
-    walk = scale(f.walk, np.minimum(f.walk.distance, limit))
-    return replace(f, walk=walk, rows=tuple(f.walk.ids[k] for k in rows))
+    limit = float(np.quantile(f.sequence.distance, 0.85))
+    rows = np.flatnonzero(f.sequence.distance > limit)
+    sequence = scale(f.sequence, np.minimum(f.sequence.distance, limit))
+    return replace(f, sequence=sequence, rows=tuple(f.sequence.ids[k] for k in rows))
 
 
 def pasted(count: int, *, whole: bool = False) -> Callable[[Files, np.random.Generator], Files]:
     def spoil(f: Files, rng: np.random.Generator) -> Files:
-        n = len(f.walk)
+        n = len(f.sequence)
         first = int(rng.integers(0, n - 2 * count))
         copy = int(rng.integers(first + count, n - count + 1))
         source = np.arange(n)
         source[copy : copy + count] = np.arange(first, first + count)
-        walk = scale(f.walk, f.walk.distance[source])
+        sequence = scale(f.sequence, f.sequence.distance[source])
         if whole:
-            walk = replace(walk, theta=f.walk.theta[source], came_from=None)
-        return replace(f, walk=walk, rows=tuple(f.walk.ids[k] for k in range(copy, copy + count)))
+            sequence = replace(sequence, theta=f.sequence.theta[source], came_from=None)
+        return replace(f, sequence=sequence, rows=tuple(f.sequence.ids[k] for k in range(copy, copy + count)))
 
     return spoil
 
@@ -277,7 +283,7 @@ def robot_file(**changes: object) -> Callable[[Files, np.random.Generator], File
 
 
 def labels(change: Callable[[np.ndarray], np.ndarray]) -> Callable[[Files, np.random.Generator], Files]:
-    return lambda f, rng: replace(f, walk=replace(f.walk, position=change(f.walk.position)))
+    return lambda f, rng: replace(f, sequence=replace(f.sequence, position=change(f.sequence.position)))
 
 
 def approach(change: Callable[[np.ndarray], np.ndarray]) -> Callable[[Files, np.random.Generator], Files]:
@@ -290,9 +296,9 @@ def times(change: Callable[[Real], Real]) -> Callable[[Files, np.random.Generato
 
 def copied(share: float, *, shuffled: bool = False) -> Callable[[Files, np.random.Generator], Files]:
     def spoil(f: Files, rng: np.random.Generator) -> Files:
-        count = int(share * len(f.walk))
-        rows = rng.permutation(len(f.walk))[:count] if shuffled else np.arange(count)
-        return replace(f, fresh=replace(f.walk.take(rows), ids=tuple(range(1001, 1001 + count))))
+        count = int(share * len(f.sequence))
+        rows = rng.permutation(len(f.sequence))[:count] if shuffled else np.arange(count)
+        return replace(f, fresh=replace(f.sequence.take(rows), ids=tuple(range(1001, 1001 + count))))
 
     return spoil
 
@@ -306,33 +312,33 @@ def written(*, sign: float = -1.0, between: bool = False) -> Callable[[Files, np
     """Stands for zeros written: `by` is set from the fit, as the station would."""
 
     def spoil(f: Files, rng: np.random.Generator) -> Files:
-        found = fit_readings(f.robot, f.walk)
+        found = fit_readings(f.robot, f.sequence)
         by = sign * np.degrees(found.p[:2]) if found is not None else np.zeros(2)
         # feedback of the same pose counts from the new zero
         fresh = add((-float(by[0]), -float(by[1])))(f.fresh)
         if between:
             return replace(f, fresh=fresh)
-        row = int(rng.integers(len(f.walk) // 4, 3 * len(f.walk) // 4))
-        degrees = np.degrees(f.walk.theta)
+        row = int(rng.integers(len(f.sequence) // 4, 3 * len(f.sequence) // 4))
+        degrees = np.degrees(f.sequence.theta)
         degrees[row:] -= by
-        return Files(f.robot, _angles(f.walk, degrees), fresh, tuple(f.walk.ids[row:]))
+        return Files(f.robot, _angles(f.sequence, degrees), fresh, tuple(f.sequence.ids[row:]))
 
     return spoil
 
 
 def glitched(count: int, mm: float) -> Callable[[Files, np.random.Generator], Files]:
     def spoil(f: Files, rng: np.random.Generator) -> Files:
-        rows = np.sort(rng.choice(len(f.walk), count, replace=False))
-        values = f.walk.distance.copy()
+        rows = np.sort(rng.choice(len(f.sequence), count, replace=False))
+        values = f.sequence.distance.copy()
         values[rows] += rng.choice([-1.0, 1.0], count) * mm * rng.uniform(0.5, 2.0, count)
-        return replace(f, walk=scale(f.walk, values), rows=tuple(f.walk.ids[k] for k in rows))
+        return replace(f, sequence=scale(f.sequence, values), rows=tuple(f.sequence.ids[k] for k in rows))
 
     return spoil
 
 
 def digit_exchanged(f: Files, rng: np.random.Generator) -> Files:
     """Two neighbouring digits of one reading."""
-    row = int(rng.integers(len(f.walk)))
-    values = f.walk.distance.copy()
+    row = int(rng.integers(len(f.sequence)))
+    values = f.sequence.distance.copy()
     values[row] += 9.0 if values[row] < 50.0 else -9.0
-    return replace(f, walk=scale(f.walk, values), rows=(f.walk.ids[row],))
+    return replace(f, sequence=scale(f.sequence, values), rows=(f.sequence.ids[row],))

@@ -70,10 +70,10 @@ def bounds(conditions: Conditions) -> dict[str, float]:
     """Largest position error by method, mm."""
     rng = np.random.default_rng(conditions.group)
     machine, samples = conditions.machine(0), conditions.samples
-    rapid = _Linear.of(conditions, machine.walk(stops_of(conditions, "rapid"), samples), conditions.truth)
-    full = _Linear.of(conditions, machine.walk(stops_of(conditions, "full"), samples), conditions.truth)
+    rapid = _Linear.of(conditions, machine.measure(stops_of(conditions, "rapid"), samples), conditions.truth)
+    full = _Linear.of(conditions, machine.measure(stops_of(conditions, "full"), samples), conditions.truth)
     careful = _Linear.of(
-        conditions, machine.walk(stops_of(conditions, "full", True), samples), conditions.truth
+        conditions, machine.measure(stops_of(conditions, "full", True), samples), conditions.truth
     )
     out = {method: run.largest(_alone(run, rng)) for method, run in ((FULL, full), (RAPID, rapid))}
     out[RAPID_MEMORY] = rapid.largest(_remembering(conditions, rapid, rng))
@@ -97,7 +97,7 @@ def _mechanism_known(run: _Linear, rng: np.random.Generator) -> Real:
 def _remembering(conditions: Conditions, run: _Linear, rng: np.random.Generator) -> Real:
     """The full run before both zero offsets changed, then six readings with what it left."""
     truth = conditions.earlier_truth
-    readings = conditions.machine(1, truth).walk(stops_of(conditions, "full"), conditions.samples)
+    readings = conditions.machine(1, truth).measure(stops_of(conditions, "full"), conditions.samples)
     earlier = _Linear.of(conditions, readings, truth)
     errors, covariance = earlier.errors(tolerance_prior(earlier.mechanism), earlier.prior_error(), rng)
     parameters = earlier.mechanism.parameters

@@ -61,15 +61,15 @@ def coverage_of(seed: int) -> Coverage:
     rng = np.random.default_rng([seed, 1])
     robot, full, rapid = CONDITIONS.robot, stops_of(CONDITIONS, "full"), stops_of(CONDITIONS, "rapid")
     truth = drawn_machine(rng)
-    first = identify(robot, CONDITIONS.machine(3 * seed, truth).walk(full))
+    first = identify(robot, CONDITIONS.machine(3 * seed, truth).measure(full))
     later, moved = truth.copy(), truth.copy()
     later[:2], moved[:2] = _zero_offsets(rng), _zero_offsets(rng)
     turn = rng.uniform(0.0, 2.0 * np.pi)
     moved[10:] += MOUNTED_OFF_MM * np.cos(turn), MOUNTED_OFF_MM * np.sin(turn)
-    readings = CONDITIONS.machine(3 * seed + 1, later).walk(rapid)
+    readings = CONDITIONS.machine(3 * seed + 1, later).measure(rapid)
     memory = first.lasting
     remembering = identify(robot, readings, memory)
-    misled = identify(robot, CONDITIONS.machine(3 * seed + 2, moved).walk(rapid), memory)
+    misled = identify(robot, CONDITIONS.machine(3 * seed + 2, moved).measure(rapid), memory)
     assert remembering.gate is not None and misled.gate is not None
     fits = dict(
         zip(CASES, ((first, truth), (identify(robot, readings), later), (remembering, later)), strict=True)

@@ -145,15 +145,15 @@ def fits_of(conditions: Conditions, seed: int) -> dict[str, Identification[FiveB
     robot, samples = conditions.robot, conditions.samples
     full, rapid = stops_of(conditions, "full"), stops_of(conditions, "rapid")
     machine = conditions.machine(seed)
-    six_readings = machine.walk(rapid, samples)
+    six_readings = machine.measure(rapid, samples)
     earlier = conditions.machine(-1 - seed, conditions.earlier_truth)
-    memory = identify(robot, earlier.walk(full, samples)).lasting
+    memory = identify(robot, earlier.measure(full, samples)).lasting
     careful = with_known_mechanism(robot, conditions.truth, seed)
     return {
-        FULL: identify(robot, machine.walk(full, samples)),
+        FULL: identify(robot, machine.measure(full, samples)),
         RAPID: identify(robot, six_readings),
         RAPID_MEMORY: identify(robot, six_readings, memory),
-        FULL_DRM: identify(careful, machine.walk(stops_of(conditions, "full", True), samples)),
+        FULL_DRM: identify(careful, machine.measure(stops_of(conditions, "full", True), samples)),
         RAPID_DRM: identify(careful, six_readings),
     }
 

@@ -28,11 +28,11 @@ def quiet(*present: AnyEffect, **given: object) -> MachineSpec:
 
 
 def read(spec: MachineSpec, *stops_deg: tuple[float, float]) -> list[VirtualReading]:
-    return VirtualRig(spec).walk(stops_deg)
+    return VirtualRig(spec).measure(stops_deg)
 
 
 def change_mm(effect: AnyEffect, *stops_deg: tuple[float, float]) -> list[float]:
-    """What an effect adds to the readings of a walk."""
+    """What an effect adds to the readings of a sequence."""
     with_it, without = read(quiet(effect), *stops_deg), read(quiet(), *stops_deg)
     return [a.scale_mm - b.scale_mm for a, b in zip(with_it, without, strict=True)]
 
@@ -151,14 +151,14 @@ def test_servo_scatter_has_the_papers_size_and_feedback_sees_it() -> None:
 @pytest.mark.parametrize("whole", [True, False])
 def test_servos_rest_on_a_pulse_or_between_two(whole: bool) -> None:
     rig = VirtualRig(MachineSpec(whole_pulses=whole))
-    rig.walk([(10.0, 175.0), (0.0, 180.0)])
+    rig.measure([(10.0, 175.0), (0.0, 180.0)])
     assert all((axis.shaft_pulses == round(axis.shaft_pulses)) is whole for axis in rig.machine.axes)
 
 
 def test_same_seed_same_walk() -> None:
     stops = [(5.0, 175.0), (0.0, 180.0)]
-    first, again = VirtualRig(MachineSpec()).walk(stops), VirtualRig(MachineSpec()).walk(stops)
-    other = VirtualRig(MachineSpec(), seed=2).walk(stops)
+    first, again = VirtualRig(MachineSpec()).measure(stops), VirtualRig(MachineSpec()).measure(stops)
+    other = VirtualRig(MachineSpec(), seed=2).measure(stops)
     assert first == again != other
 
 
@@ -235,8 +235,8 @@ def test_left_machine_is_found_where_it_was() -> None:
 
 def test_a_walk_in_virtual_time_does_not_wait() -> None:
     started = time.monotonic()
-    walk = read(MachineSpec(), *[(10.0 * (k % 3), 180.0 - 7.0 * (k % 5)) for k in range(120)])
-    assert walk[-1].t_s > 60.0 > time.monotonic() - started
+    sequence = read(MachineSpec(), *[(10.0 * (k % 3), 180.0 - 7.0 * (k % 5)) for k in range(120)])
+    assert sequence[-1].t_s > 60.0 > time.monotonic() - started
 
 
 # -- effects, each where it acts -----------------------------------------------------------------

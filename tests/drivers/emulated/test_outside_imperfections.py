@@ -57,7 +57,7 @@ OF_THE_MOMENT = (
     imperfections.MountingCreep,
     imperfections.RoomCycle,
 )
-"""Depend on the time of a reading, which no two walks share to the last digit."""
+"""Depend on the time of a reading, which no two sequences share to the last digit."""
 
 
 def quiet(*present: AnyEffect, **given: object) -> MachineSpec:
@@ -68,11 +68,11 @@ def quiet(*present: AnyEffect, **given: object) -> MachineSpec:
 
 
 def read(spec: MachineSpec, *stops_deg: tuple[float, float]) -> list[VirtualReading]:
-    return VirtualRig(spec).walk(stops_deg)
+    return VirtualRig(spec).measure(stops_deg)
 
 
 def change_mm(effect: AnyEffect, *stops_deg: tuple[float, float], **given: object) -> list[float]:
-    """What an effect adds to the readings of a walk."""
+    """What an effect adds to the readings of a sequence."""
     with_it, without = read(quiet(effect, **given), *stops_deg), read(quiet(**given), *stops_deg)
     return [a.scale_mm - b.scale_mm for a, b in zip(with_it, without, strict=True)]
 

@@ -69,8 +69,8 @@ EFFECTS: list[tuple[str, dict[str, Any], str, dict[str, float]]] = [
 ]
 
 
-def diagnosed(walk: Measurements, fresh: Measurements | None = None) -> WeighedFindings:
-    return WeighedFindings(weighed(ROBOT, walk, fresh))
+def diagnosed(sequence: Measurements, fresh: Measurements | None = None) -> WeighedFindings:
+    return WeighedFindings(weighed(ROBOT, sequence, fresh))
 
 
 @pytest.mark.parametrize(
@@ -80,7 +80,7 @@ def test_physics_is_named_and_its_size_recovered(
     kind: str, known: dict[str, Any], label: str, sizes: dict[str, float]
 ) -> None:
     machine = Drawn({"kind": kind, **known}, seed=1)
-    found = diagnosed(machine.walk(), machine.fresh())
+    found = diagnosed(machine.sequence(), machine.fresh())
     # a link 1 mm off is nearly as probable as an unnamed error: then it comes first in the set
     likely = [("explained", True), ("ambiguous", False)] if kind == "link_length" else [("explained", True)]
     assert (found.decision.verdict, found.decision.confirmed) in likely
@@ -96,7 +96,7 @@ def test_physics_is_named_and_its_size_recovered(
 @pytest.mark.parametrize("seed", [1, 2])
 def test_drift_is_in_its_alias_set(seed: int) -> None:
     machine = Drawn({"kind": "drift", "mm_per_hour": 0.4}, seed=seed)
-    found = diagnosed(machine.walk(), machine.fresh())
+    found = diagnosed(machine.sequence(), machine.fresh())
     assert found.decision.passed
     (effect,) = found.effects
     assert "drift" in [n.effect for n in (effect.name, *effect.aliases)]
@@ -108,7 +108,7 @@ def test_two_effects_at_once() -> None:
         {"kind": "scale_cyclic", "amplitude_mm": 0.006, "period_mm": 2},
         seed=3,
     )
-    found = diagnosed(machine.walk(), machine.fresh())
+    found = diagnosed(machine.sequence(), machine.fresh())
     assert found.decision.passed
     assert [e.label for e in found.effects] == ["backlash of joint 1", "scale_cyclic"]
     assert found.effects[0].share > found.effects[1].share
@@ -130,7 +130,7 @@ def test_two_effects_at_once() -> None:
 @pytest.mark.parametrize("seed", [1, 2])
 def test_outside_the_catalogue_nothing_is_blamed(effect: dict[str, Any], hint: str, seed: int) -> None:
     machine = Drawn(effect, seed=seed)
-    found = diagnosed(machine.walk(), machine.fresh())
+    found = diagnosed(machine.sequence(), machine.fresh())
     assert not found.decision.passed
     assert found.decision.confirmed is False
     assert found.hints[0].depends_on == hint
@@ -139,7 +139,7 @@ def test_outside_the_catalogue_nothing_is_blamed(effect: dict[str, Any], hint: s
 @pytest.mark.parametrize("seed", [4, 5, 6])
 def test_clean_machine_is_adequate(seed: int) -> None:
     machine = Drawn(seed=seed)
-    found = diagnosed(machine.walk(), machine.fresh())
+    found = diagnosed(machine.sequence(), machine.fresh())
     assert (found.decision.verdict, found.decision.confirmed) == ("adequate", True)
     assert found.effects == ()
     assert found.decision.sd_factor == 1.0
@@ -147,9 +147,9 @@ def test_clean_machine_is_adequate(seed: int) -> None:
 
 def test_dirty_readings_are_named_and_left_out() -> None:
     machine = Drawn(seed=7)
-    walk = machine.walk()
-    walk.distance[[20, 77]] += [0.05, -0.08]
-    found = diagnosed(walk, machine.fresh())
+    sequence = machine.sequence()
+    sequence.distance[[20, 77]] += [0.05, -0.08]
+    found = diagnosed(sequence, machine.fresh())
     assert {o.reading for o in found.outliers} == {21, 78}
     assert found.mistake is not None and (found.mistake.kind, found.mistake.rows) == ("glitches", (21, 78))
     # two of 120: any device gives a disturbed reading now and then
@@ -158,9 +158,9 @@ def test_dirty_readings_are_named_and_left_out() -> None:
 
 def test_repeats_that_disagree_grossly_are_never_adequate() -> None:
     """Twelve readings off by 5 mm are named, and nothing is confirmed."""
-    walk = Drawn(seed=3).walk()
-    walk.distance[::10] += 5.0
-    found = diagnosed(walk)
+    sequence = Drawn(seed=3).sequence()
+    sequence.distance[::10] += 5.0
+    found = diagnosed(sequence)
     assert not found.decision.passed
     assert found.mistake is not None and found.mistake.kind == "glitches"
     assert found.mistake.rows == tuple(range(1, 121, 10))

@@ -15,7 +15,7 @@ from station.diagnosis.closed_loop import diagnose
 from tests.station.simulated import ROBOT, Drawn, to_csv
 
 MACHINE = Drawn(seed=9, recorded_temperature=False)
-GOOD = to_csv(MACHINE.walk())
+GOOD = to_csv(MACHINE.sequence())
 LINES = GOOD.splitlines()
 FRESH = to_csv(MACHINE.fresh())
 
@@ -137,8 +137,8 @@ def test_time_that_runs_backwards_is_left_out(tmp_path: Path) -> None:
 def test_fresh_readings_need_what_the_effect_needs() -> None:
     warming = {"kind": "thermal_growth", "rise_k": 8, "tau_s": 100, "links_um_per_m_per_k": 12}
     machine = Drawn(warming, seed=1)
-    walk = machine.walk()
+    sequence = machine.sequence()
     machine.recorded_temperature = False
-    found = diagnose(ROBOT, walk, machine.fresh())
+    found = diagnose(ROBOT, sequence, machine.fresh())
     # without the temperature of the fresh readings its growth cannot be seen in either
     assert not found.decision.passed or found.decision.confirmed

@@ -114,7 +114,7 @@ def test_a_result_without_finite_uncertainty_fails() -> None:
 # What a result states ----------------------------------------------------------------------------
 
 
-def as_readings(measured: Measurements, first: int, walk: int) -> list[Reading]:
+def as_readings(measured: Measurements, first: int, sequence: int) -> list[Reading]:
     theta = np.degrees(measured.theta)
     return [
         Reading(
@@ -124,7 +124,7 @@ def as_readings(measured: Measurements, first: int, walk: int) -> list[Reading]:
             (0, 0),
             float(measured.distance[k]),
             f"P{measured.position[k]}",
-            walk,
+            sequence,
         )
         for k in range(len(measured))
     ]

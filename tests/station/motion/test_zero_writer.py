@@ -9,7 +9,7 @@ import pytest
 from drivers.errors import DeviceFault
 from station.errors import StepFailed
 from station.five_bar.robot_file import Robot
-from station.motion import Cancelled, Listeners, Machine, Walker
+from station.motion import Cancelled, Listeners, Machine, Positioner
 from station.motion.zero_writer import Zeroing, shift_of
 from station.records import SetZeros, ZeroWrite
 from station.store.store import Store
@@ -30,9 +30,9 @@ class Bench:
         self.of = store.create(asked("R1", "rapid"), ROBOT)
         self.run = store.create(asked("R1", "apply", of=self.of), ROBOT)
         machine = Machine(rig.devices, SETTINGS.limits, Listeners())
-        self.walker = Walker(machine, ROBOT, SETTINGS.joints, self.cancel)
+        self.positioner = Positioner(machine, ROBOT, SETTINGS.joints, self.cancel)
         machine.connect_missing()
-        self.zeroing = Zeroing(self.run, machine, self.walker, store)
+        self.zeroing = Zeroing(self.run, machine, self.positioner, store)
         for axis, offset in zip(rig.axes, OFFSETS, strict=True):
             axis.offset_deg = offset
 

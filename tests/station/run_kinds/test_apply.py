@@ -21,7 +21,7 @@ from station.service.orchestrator import Orchestrator
 from station.store.store import Store
 from tests.station.asking import asked, start_procedure
 from tests.station.conftest import SETTINGS, Start
-from tests.station.fakes import HOME_DEG, Rig, result_of, two_walks
+from tests.station.fakes import HOME_DEG, Rig, result_of, two_sequences
 
 LIMIT_S = 20.0
 OFFSETS = (0.8, -0.6)
@@ -83,7 +83,7 @@ def test_applied_offsets_are_gone_and_come_back(
     assert (outcome.reason or "").startswith("Verified: fresh readings agree within")
     assert (outcome.state, outcome.verdict, outcome.plan) == ("succeeded", "pass", "apply")
     assert outcome.of == calibration
-    assert [r.walk for r in store.readings(run)] == [1] * 4 + [3] * 8
+    assert [r.sequence for r in store.readings(run)] == [1] * 4 + [3] * 8
     assert (known(store, calibration).state, known(store, calibration).verified) == ("applied", True)
     assert offsets(rig) == pytest.approx([0.0, 0.0], abs=0.05)
     after = store.calibration(calibrate(station, plan))
@@ -362,7 +362,7 @@ def test_memory_outlives_an_application(station: Orchestrator, store: Store) -> 
 
 def test_a_robot_that_never_passed_the_model_still_walks(start: Start, store: Store) -> None:
     def fake(plan: PlanName, robot: Robot) -> Procedure:
-        return two_walks(plan, robot)
+        return two_sequences(plan, robot)
 
     orchestrator = start(fake, SETTINGS)
     calibration = calibrate(orchestrator, "paper")

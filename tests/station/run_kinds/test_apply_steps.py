@@ -18,13 +18,13 @@ from station.records import (
     LIMIT_SDS,
     Accuracy,
     CalibrationResult,
+    MeasurementSequence,
     Procedure,
     Reading,
     Retract,
     SetZeros,
     State,
     Step,
-    Walk,
     from_readings,
 )
 from station.run_kinds.apply import Source, apply, roll_back, source_of, start_apply, start_roll_back
@@ -52,7 +52,7 @@ class Drives:
     """A machine whose drives take the zeros they are given."""
 
     offsets_deg: tuple[float, float] = OFFSETS_DEG
-    steps: list[Walk | SetZeros] = field(default_factory=list)
+    steps: list[MeasurementSequence | SetZeros] = field(default_factory=list)
     readings: list[Reading] = field(default_factory=list)
     refuses: list[Exception] = field(default_factory=list)
     """Of the next zeros to be set, one each."""
@@ -64,7 +64,7 @@ class Drives:
             while True:
                 assert not isinstance(step, Retract)
                 self.steps.append(step)
-                if isinstance(step, Walk):
+                if isinstance(step, MeasurementSequence):
                     step = procedure.send(self._read(step))
                 elif self.refuses:
                     step = procedure.throw(self.refuses.pop(0))
@@ -74,14 +74,14 @@ class Drives:
             result: CalibrationResult = end.value
             return result
 
-    def _read(self, walk: Walk) -> list[Reading]:
+    def _read(self, sequence: MeasurementSequence) -> list[Reading]:
         truth = TRUTH.copy()
         truth[:2] = np.radians(self.offsets_deg)
         machine = SimulatedMachine(ROBOT, truth, "exact", 1 + len(self.steps))
         # the readout was switched off in between
         self.readings = [
             self.disturb(replace(reading, scale_mm=reading.scale_mm + 200.0))
-            for reading in read(machine, walk, before=40)
+            for reading in read(machine, sequence, before=40)
         ]
         return self.readings
 
@@ -93,14 +93,14 @@ class Drives:
 
 
 def stated(step: Step) -> tuple[str, int, tuple[str, ...] | tuple[int, tuple[float, float]]]:
-    if isinstance(step, Walk):
+    if isinstance(step, MeasurementSequence):
         return step.title, step.number, tuple(stop.position for stop in step.stops)
     assert isinstance(step, SetZeros)
     return step.title, step.number, (step.of, step.offsets_deg)
 
 
 CHECK = ("Checking the machine", 1, ("C1", "C2", "C3", "C4"))
-VERIFY = ("Verifying at fresh places", 3, tuple(f"V{k}" for k in range(1, 9)))
+VERIFY = ("Verifying at fresh positions", 3, tuple(f"V{k}" for k in range(1, 9)))
 BACK = ("Rolling back", 2, (7, (0.0, 0.0)))
 WAY_BACK = ("Rolling back", 4, (7, (0.0, 0.0)))
 
@@ -140,7 +140,7 @@ def test_an_apply_checks_writes_and_verifies_at_other_places() -> None:
     result = drives.carry_out(apply(source()))
     assert [stated(step) for step in drives.steps] == [CHECK, written(), VERIFY]
     check, _, verification = drives.steps
-    assert isinstance(check, Walk) and isinstance(verification, Walk)
+    assert isinstance(check, MeasurementSequence) and isinstance(verification, MeasurementSequence)
     assert not {s.target_mm for s in check.stops} & {s.target_mm for s in verification.stops}
     assert (result.verdict, result.outcome, result.reason.code) == ("pass", "good", "verified")
     shift = (-source().offsets_deg[0], -source().offsets_deg[1])
@@ -259,7 +259,7 @@ def test_the_source_is_the_stored_run_fitted_again_without_its_verification(stor
     assert [q.sd for q in found.fit.quantities()[:2]] == pytest.approx(
         [zero.sd_deg for zero in stored.zero_offsets], rel=1e-5
     )
-    first = [r for r in store.readings(run) if r.walk == 1]
+    first = [r for r in store.readings(run) if r.sequence == 1]
     assert set(found.fit.measurements.ids) <= {r.reading for r in first}
 
 
@@ -268,7 +268,7 @@ def test_positions_of_two_passes_are_no_repeats_of_each_other(store: Store) -> N
     fit = source_of(store, run).fit
     readings = [r for r in store.readings(run) if not r.position.startswith("V")]
     assert len(fit.measurements) + len(fit.outliers) == len(readings)
-    places = {(r.position, r.walk) for r in readings}
+    places = {(r.position, r.sequence) for r in readings}
     assert len(set(fit.measurements.position.tolist())) >= len(places) - len(fit.outliers)
 
 
@@ -348,7 +348,7 @@ def test_a_rollback_checks_the_drives_under_the_zeros_of_the_journal(store: Stor
     applied(store, run, "pass", (-zeros[0], -zeros[1]))
     verified = start_roll_back(start_of(store, "rollback", run))
     sequence = next(verified)
-    assert isinstance(sequence, Walk)
+    assert isinstance(sequence, MeasurementSequence)
     assert stated(sequence) == CHECK
     drives = Drives(offsets_deg=(OFFSETS_DEG[0] - zeros[0], OFFSETS_DEG[1] - zeros[1]))
     step = verified.send(drives._read(sequence))

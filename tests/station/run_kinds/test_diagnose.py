@@ -15,7 +15,7 @@ from station.errors import InputRefused, NotApplicable, NotFound
 from station.five_bar.robot_file import Robot
 from station.plans import make_plan
 from station.plans.diagnostic_sequence import FRESH_PLACES, diagnostic_fresh_stops
-from station.records import CalibrationResult, PlanName, Reading, State, Walk
+from station.records import CalibrationResult, MeasurementSequence, PlanName, Reading, State
 from station.run_kinds.zero_state import application, check_apply
 from station.store.store import Store
 from station.studies.simulation import SimulatedMachine
@@ -44,8 +44,8 @@ def test_the_walk_reads_most_places_from_both_sides_and_ten_three_times() -> Non
     counted = [sum(s.position == p for s in plan.stops) for p in {s.position for s in plan.stops}]
     assert sorted(counted) == [2] * 35 + [5] * 10
     readings, _ = run(machine())
-    sides = {(r.position, r.approach) for r in readings if r.walk == 1}
-    both = [p for p in {r.position for r in readings if r.walk == 1} if sum(s[0] == p for s in sides) > 1]
+    sides = {(r.position, r.approach) for r in readings if r.sequence == 1}
+    both = [p for p in {r.position for r in readings if r.sequence == 1} if sum(s[0] == p for s in sides) > 1]
     assert len(both) >= 40
 
 
@@ -61,7 +61,7 @@ def test_a_clean_machine_lacks_nothing() -> None:
     assert (result.verdict, result.outcome) == ("pass", "good")
     assert (result.method, result.findings) == ("diagnosis", ())
     assert result.reason.code == "adequate_confirmed"
-    assert [r.walk for r in readings] == [1] * 120 + [2] * 40
+    assert [r.sequence for r in readings] == [1] * 120 + [2] * 40
     for zero, truth in zip(result.zero_offsets, (0.8, -0.6), strict=True):
         assert abs(zero.value - truth) < 4 * zero.sd
 
@@ -127,7 +127,7 @@ def test_an_effect_too_large_for_any_fit_is_a_lack_of_fit_too(tmp_path: Path, pl
 def test_readings_of_another_robot_are_refused() -> None:
     procedure = start_procedure("diagnostic", ROBOT)
     sequence = next(procedure)
-    assert isinstance(sequence, Walk)
+    assert isinstance(sequence, MeasurementSequence)
     readings = read(machine(), sequence)
     with pytest.raises(InputRefused, match="Not enough data to judge"):
         procedure.send(readings[:20])

@@ -38,9 +38,9 @@ def test_the_set_is_smaller_afterwards_and_holds_the_truth() -> None:
     assert separated.verdict == "fail"
     assert separated.outcome in ("repair", "ambiguous")
     assert more[0].reading == 121
-    assert sum(r.walk == 1 for r in more) in COUNTS
-    # fresh places are judged by, never learned from
-    assert len(separated.residuals) == 120 + sum(r.walk == 1 for r in more)
+    assert sum(r.sequence == 1 for r in more) in COUNTS
+    # fresh positions are judged by, never learned from
+    assert len(separated.residuals) == 120 + sum(r.sequence == 1 for r in more)
 
 
 def test_no_longer_a_walk_than_needed_is_planned_and_only_within_the_workspace() -> None:

@@ -76,7 +76,7 @@ def test_both_logs_show_the_same_curve_where_both_have_been() -> None:
 
 
 def test_learned_on_one_log_holds_unchanged_on_another() -> None:
-    learned = traced(robot(), read_readings(robot(), LOGS / "series_a.csv"))
+    learned = found("series_a", "position").diagnosis
     part = model_document(learned, learned.last, 1.0, stage="last", confirmed=None)
     result = transfer(part, robot(), read_readings(robot(), LOGS / "series_b.csv"), "a")
     assert result.applied.rms_mm <= 0.21

@@ -13,20 +13,20 @@ from station.five_bar.robot_file import Robot
 from station.motion.events import LiveEvent
 from station.records import (
     CalibrationSummary,
+    MeasurementSequence,
     PlanName,
     Procedure,
     RunBrief,
     SequenceView,
     SetZeros,
     State,
-    Walk,
 )
 from station.run_kinds import RUN_KINDS, RunKind
 from station.service.orchestrator import Orchestrator
 from station.store.store import Store
 from tests.station.asking import asked
 from tests.station.conftest import SETTINGS, Start
-from tests.station.fakes import STOPS, Rig, result_of, two_walks
+from tests.station.fakes import STOPS, Rig, result_of, two_sequences
 
 LIMIT_S = 10.0
 ROBOT = replace(Robot.default("R7"), workspace_x=(-200.0, 210.0))
@@ -41,7 +41,7 @@ def already(store: Store, of: int) -> int | None:
 @pytest.fixture
 def following(store: Store, rig: Rig) -> Iterator[Orchestrator]:
     """With a kind of run that is done once for each earlier run."""
-    again = RunKind("again", lambda start: two_walks("paper", start.robot), done_by=already)
+    again = RunKind("again", lambda start: two_sequences("paper", start.robot), done_by=already)
     orchestrator = Orchestrator(rig.devices, store, SETTINGS, {**RUN_KINDS, "again": again})
     yield orchestrator
     rig.released.set()
@@ -83,7 +83,7 @@ def test_zeros_that_are_set_are_a_step_that_is_seen(start: Start, store: Store) 
 
     def nothing_to_move(plan: PlanName, robot: Robot) -> Procedure:
         answers.append((yield SetZeros("Writing the zero offsets", 2, 1, (0.0, 0.0))))
-        readings = yield Walk("Verifying", 3, STOPS)
+        readings = yield MeasurementSequence("Verifying", 3, STOPS)
         return result_of(readings)
 
     events: list[LiveEvent] = []
@@ -138,7 +138,7 @@ def test_a_run_that_cannot_be_read_back_is_shown_from_memory(
         raise StoreUnavailable("station.db: disk I/O error")
 
     def cut_off(plan: PlanName, robot: Robot) -> Procedure:
-        yield Walk("Measuring", 1, STOPS)
+        yield MeasurementSequence("Measuring", 1, STOPS)
         monkeypatch.setattr(store, "summary", unreadable)
         orchestrator.stop("ada")
         return result_of([])

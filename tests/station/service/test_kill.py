@@ -20,7 +20,7 @@ from station.records import CalibrationRequest
 from station.store import Store
 from tests.station.asking import asked, kinds_with
 from tests.station.conftest import SETTINGS
-from tests.station.fakes import make_rig, two_walks
+from tests.station.fakes import make_rig, two_sequences
 
 moment, rig = sys.argv[2], make_rig()
 
@@ -32,7 +32,7 @@ call, at = moment.split(":")
 rig.script.do(call, wait, at=int(at))
 store = Store(Path(sys.argv[1]))
 store.interrupt_unfinished()
-orchestrator = Orchestrator(rig.devices, store, SETTINGS, kinds_with(two_walks))
+orchestrator = Orchestrator(rig.devices, store, SETTINGS, kinds_with(two_sequences))
 orchestrator.submit(asked("R1", "paper"), idempotency_key="k")
 sys.stdin.read()
 """

@@ -18,12 +18,12 @@ from station.motion.events import LiveEvent
 from station.records import (
     Accuracy,
     CalibrationRequest,
+    MeasurementSequence,
     PlanName,
     Procedure,
     SequenceTitle,
     State,
     StationView,
-    Walk,
 )
 from station.service.orchestrator import Orchestrator
 from station.settings import LimitSettings, Settings
@@ -84,7 +84,7 @@ def test_a_run_walks_reads_stores_and_succeeds(start: Start, store: Store, rig: 
         "Converged in 2 passes; the compensation accuracy is 0.0100°.",
     )
     readings = store.readings(run)
-    assert [(r.reading, r.walk, r.position) for r in readings] == [
+    assert [(r.reading, r.sequence, r.position) for r in readings] == [
         (1, 1, "p1"),
         (2, 1, "p2"),
         (3, 1, "p3"),
@@ -120,7 +120,7 @@ def test_a_reading_is_stored_before_the_next_move(start: Start, store: Store, ri
 def test_a_wanted_approach_gets_a_run_up(start: Start, store: Store) -> None:
     def both_sides(plan: PlanName, robot: Robot) -> Procedure:
         up, down = stop_at("p", 0, -700, (1, 1)), stop_at("p", 0, -700, (-1, -1))
-        readings = yield Walk("Both sides", 1, (up, down, up, down))
+        readings = yield MeasurementSequence("Both sides", 1, (up, down, up, down))
         return result_of(readings)
 
     run = run_to_end(start(both_sides))
@@ -129,7 +129,7 @@ def test_a_wanted_approach_gets_a_run_up(start: Start, store: Store) -> None:
 
 def test_a_failed_verdict_is_a_run_that_succeeded(start: Start, store: Store) -> None:
     def fails(plan: PlanName, robot: Robot) -> Procedure:
-        readings = yield Walk("Measuring", 1, STOPS)
+        readings = yield MeasurementSequence("Measuring", 1, STOPS)
         return result_of(readings, "fail")
 
     assert outcome(store, run_to_end(start(fails))) == (
@@ -141,7 +141,7 @@ def test_a_failed_verdict_is_a_run_that_succeeded(start: Start, store: Store) ->
 
 def test_a_pass_over_nan_fails_closed(start: Start, store: Store) -> None:
     def nan(plan: PlanName, robot: Robot) -> Procedure:
-        readings = yield Walk("Measuring", 1, STOPS)
+        readings = yield MeasurementSequence("Measuring", 1, STOPS)
         return result_of(readings).model_copy(update={"after": Accuracy(reading_rms_mm=float("nan"))})
 
     state, verdict, reason = outcome(store, run_to_end(start(nan)))
@@ -236,7 +236,7 @@ def test_a_store_that_takes_nothing_more_fails_the_run_and_stops_the_machine(
 
 def test_a_mistake_in_a_procedure_is_a_failed_run(start: Start, store: Store, rig: Rig) -> None:
     def broken(plan: PlanName, robot: Robot) -> Procedure:
-        yield Walk("Measuring", 1, STOPS)
+        yield MeasurementSequence("Measuring", 1, STOPS)
         raise ZeroDivisionError("singular")
 
     state, _, reason = outcome(store, run_to_end(start(broken)))
@@ -297,7 +297,7 @@ def test_a_drive_that_loses_its_power_on_the_way_fails_the_run(start: Start, sto
 
 def one(stop: Any) -> Any:
     def procedure(plan: PlanName, robot: Robot) -> Procedure:
-        readings = yield Walk("One", 1, (stop,))
+        readings = yield MeasurementSequence("One", 1, (stop,))
         return result_of(readings)
 
     return procedure
@@ -331,7 +331,7 @@ def test_an_arm_far_outside_its_workspace_does_not_start(start: Start, store: St
 def test_a_joint_that_does_not_arrive_is_named(
     start: Start, store: Store, rig: Rig, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("station.motion.walker._ARRIVAL_MARGIN_S", 0.05)
+    monkeypatch.setattr("station.motion.positioner._ARRIVAL_MARGIN_S", 0.05)
     rig.axes[1].stuck = True
     settings = Settings(limits=LimitSettings(speed_deg_s=180, settle_s=0, samples=2))
     state, _, reason = outcome(store, run_to_end(start(settings=settings)))
@@ -342,7 +342,7 @@ def test_a_joint_that_does_not_arrive_is_named(
 def test_a_joint_that_leaves_its_way_is_stopped(
     start: Start, store: Store, rig: Rig, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("station.motion.walker._LOOK_S", 0.0)
+    monkeypatch.setattr("station.motion.positioner._LOOK_S", 0.0)
 
     def runaway() -> None:
         rig.axes[0].theta_deg += 5.0
@@ -439,7 +439,7 @@ def test_an_abort_during_the_last_computation_wins_over_the_result(
     started: list[Orchestrator] = []
 
     def slow(plan: PlanName, robot: Robot) -> Procedure:
-        readings = yield Walk("Measuring", 1, STOPS)
+        readings = yield MeasurementSequence("Measuring", 1, STOPS)
         started[0].stop("ada")
         return result_of(readings)
 
@@ -519,7 +519,7 @@ def test_a_success_that_does_not_come_to_rest_is_a_failure(
     monkeypatch.setattr("station.motion.machine.STANDSTILL_LIMIT_S", 0.1)
 
     def creeping(plan: PlanName, robot: Robot) -> Procedure:
-        readings = yield Walk("Measuring", 1, STOPS)
+        readings = yield MeasurementSequence("Measuring", 1, STOPS)
         rig.axes[1].moving = True
         return result_of(readings)
 

@@ -14,7 +14,7 @@ from drivers.errors import LinkLost
 from station.errors import StoreUnavailable
 from station.five_bar.robot_file import Robot
 from station.motion.events import LiveEvent
-from station.records import PlanName, Procedure, State, Walk
+from station.records import MeasurementSequence, PlanName, Procedure, State
 from station.store.connections import Readers
 from station.store.store import Store
 from tests.station.asking import asked
@@ -89,7 +89,7 @@ def then(what: Callable[[], None], verdict: str = "pass") -> Callable[[PlanName,
     """A run in which something happens between its last reading and its end."""
 
     def procedure(plan: PlanName, robot: Robot) -> Procedure:
-        readings = yield Walk("Measuring", 1, STOPS)
+        readings = yield MeasurementSequence("Measuring", 1, STOPS)
         what()
         return result_of(readings, verdict)
 
@@ -151,7 +151,7 @@ def test_a_disk_that_fills_stops_the_run_with_what_it_has(start: Start, store: S
 
     def long(plan: PlanName, robot: Robot) -> Procedure:
         for number in range(1, 200):
-            readings = yield Walk("Measuring", number, STOPS)
+            readings = yield MeasurementSequence("Measuring", number, STOPS)
         return result_of(readings)
 
     orchestrator = start(long)

@@ -22,7 +22,7 @@ ROBOT = Robot.default()
 def test_a_cause_found_makes_readings_and_true_positions_better(kind: str) -> None:
     # of a size at which the cause, not the tolerances, decides where the platform stands
     drawn = next(d for d in (draw(ROBOT, (kind,), seed) for seed in range(12, 40)) if d.size_um[0] > 5.0)
-    found = WeighedFindings(weighed(ROBOT, drawn.walk, drawn.fresh))
+    found = WeighedFindings(weighed(ROBOT, drawn.sequence, drawn.fresh))
     errors = before_and_after(ROBOT, drawn, found)
     assert judge(drawn, found).right
     assert errors.reading_um[1] < 1.4 < errors.reading_um[0]
@@ -32,7 +32,7 @@ def test_a_cause_found_makes_readings_and_true_positions_better(kind: str) -> No
 def test_a_machine_with_another_cause_is_not_right() -> None:
     drawn = draw(ROBOT, ("backlash",), 12)
     other = draw(ROBOT, ("scale_gain",), 12)
-    found = WeighedFindings(weighed(ROBOT, other.walk, other.fresh))
+    found = WeighedFindings(weighed(ROBOT, other.sequence, other.fresh))
     assert not judge(drawn, found).right
 
 

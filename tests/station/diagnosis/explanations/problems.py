@@ -1,4 +1,4 @@
-"""A small walk of the emulated machine, and families made for one column each."""
+"""A small sequence of the emulated machine, and families made for one column each."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ TRUTH = np.array([0.02, -0.012, 0.01, -0.02, 0.02, 0.01, 0.01, -0.01, 0.02, -0.0
 
 
 @cache
-def walked(seed: int, *effects: tuple[tuple[str, Any], ...]) -> tuple[Measurements, Measurements]:
+def measured(seed: int, *effects: tuple[tuple[str, Any], ...]) -> tuple[Measurements, Measurements]:
     """The diagnostic sequence and fresh readings of a machine with these effects."""
     machine = SimulatedMachine(ROBOT, TRUTH, "whole pulses", seed, [dict(e) for e in effects])
     return machine.diagnostic_run(ROBOT, seed)
@@ -37,8 +37,8 @@ def effect(**table: Any) -> tuple[tuple[str, Any], ...]:
 
 
 def linearised(seed: int = 1) -> tuple[Frame, NoiseLevel, Reference]:
-    """A clean walk about its fit."""
-    mechanism = FiveBar(ROBOT, walked(seed)[0])
+    """A clean sequence about its fit."""
+    mechanism = FiveBar(ROBOT, measured(seed)[0])
     reference = reference_of(mechanism.measurements)
     p, residual = start(mechanism, reference)
     at = frame(mechanism, p, reference, specified(mechanism, residual))

@@ -26,7 +26,7 @@ class KnownNoise:
 
 
 def narrow() -> Frame:
-    """A clean walk with priors so narrow that the dense covariance is good in double precision."""
+    """A clean sequence with priors so narrow that the dense covariance is good in double precision."""
     at, _, _ = linearised()
     noise = np.random.default_rng(3).standard_normal(len(at.row_sd))
     return replace(at, prior_sd=np.full(len(at.prior_sd), 2e-3), observed=noise)

@@ -8,12 +8,12 @@ import pytest
 from station.diagnosis.explanations import ExplanationSet, explain
 from station.diagnosis.explanations.validation import together
 from station.five_bar.mechanism import FiveBar
-from tests.station.diagnosis.explanations.problems import ROBOT, TRUTH, effect, walked
+from tests.station.diagnosis.explanations.problems import ROBOT, TRUTH, effect, measured
 
 
 def explained(seed: int, *effects: tuple[tuple[str, object], ...]) -> ExplanationSet:
-    walk, fresh = walked(seed, *effects)
-    return explain(FiveBar(ROBOT, walk), fresh)
+    sequence, fresh = measured(seed, *effects)
+    return explain(FiveBar(ROBOT, sequence), fresh)
 
 
 def within(found: ExplanationSet, sds: float) -> bool:
@@ -85,16 +85,16 @@ def test_wandering_keeps_its_zero_offsets_wide() -> None:
 
 
 def test_readings_that_were_learned_on_confirm_nothing() -> None:
-    walk, _ = walked(1)
-    found = explain(FiveBar(ROBOT, walk), walk)
+    sequence, _ = measured(1)
+    found = explain(FiveBar(ROBOT, sequence), sequence)
     assert found.validation is not None
     assert not found.validation.new
     assert found.decision.confirmed is False
 
 
 def test_fresh_readings_of_one_corner_confirm_nothing() -> None:
-    walk, fresh = walked(1)
-    mechanism = FiveBar(ROBOT, walk)
+    sequence, fresh = measured(1)
+    mechanism = FiveBar(ROBOT, sequence)
     corner = mechanism.of(fresh).places(mechanism.start)[:, 0] < -60.0
     found = explain(mechanism, fresh.take(corner))
     assert found.validation is not None
@@ -103,10 +103,10 @@ def test_fresh_readings_of_one_corner_confirm_nothing() -> None:
 
 
 def test_a_joint_homed_anew_before_the_fresh_readings_is_seen() -> None:
-    walk, fresh = walked(1)
+    sequence, fresh = measured(1)
     shifted = fresh.theta + np.array([0.005, 0.0])
     moved = type(fresh)(**{**{f: getattr(fresh, f) for f in fresh.__dataclass_fields__}, "theta": shifted})
-    found = explain(FiveBar(ROBOT, walk), moved)
+    found = explain(FiveBar(ROBOT, sequence), moved)
     assert found.validation is not None
     assert not found.validation.agrees
     assert found.decision.confirmed is False
@@ -114,21 +114,23 @@ def test_a_joint_homed_anew_before_the_fresh_readings_is_seen() -> None:
 
 
 def test_glitches_are_left_out_by_name() -> None:
-    walk, fresh = walked(1)
-    distance = walk.distance.copy()
+    sequence, fresh = measured(1)
+    distance = sequence.distance.copy()
     distance[[10, 40, 77]] += [0.3, -0.2, 0.4]
-    spoiled = type(walk)(**{**{f: getattr(walk, f) for f in walk.__dataclass_fields__}, "distance": distance})
+    spoiled = type(sequence)(
+        **{**{f: getattr(sequence, f) for f in sequence.__dataclass_fields__}, "distance": distance}
+    )
     found = explain(FiveBar(ROBOT, spoiled), fresh)
-    assert set(found.outliers) == {walk.ids[k] for k in (10, 40, 77)}
+    assert set(found.outliers) == {sequence.ids[k] for k in (10, 40, 77)}
     assert found.decision.verdict == "adequate"
 
 
 def test_together_keeps_fresh_places_apart() -> None:
-    walk, fresh = walked(1)
-    both = together(walk, fresh)
-    assert len(both) == len(walk) + len(fresh)
-    assert not set(both.position[: len(walk)]) & set(both.position[len(walk) :])
-    assert both.t_s[len(walk) :].min() > both.t_s[: len(walk)].max()
+    sequence, fresh = measured(1)
+    both = together(sequence, fresh)
+    assert len(both) == len(sequence) + len(fresh)
+    assert not set(both.position[: len(sequence)]) & set(both.position[len(sequence) :])
+    assert both.t_s[len(sequence) :].min() > both.t_s[: len(sequence)].max()
 
 
 def test_commands_bring_the_platform_where_the_set_says() -> None:

@@ -40,7 +40,7 @@ def machine_of(fit: Fit, sd_factor: float = 1.0) -> IdentifiedMachine:
 def learned(tmp_path: Path, effect: dict[str, Any]) -> tuple[Drawn, WeighedDiagnosis, Path]:
     """A machine with an effect, its diagnosis, and the model as a file."""
     machine = Drawn(effect, seed=2)
-    diagnosis = weighed(ROBOT, machine.walk(), machine.fresh())
+    diagnosis = weighed(ROBOT, machine.sequence(), machine.fresh())
     file = tmp_path / "model.json"
     data = DataSource(file="walk.csv", readings=120, sha256="0" * 64)
     file.write_text(WeighedFindings(diagnosis).document(data).model_dump_json(by_alias=True))
@@ -98,7 +98,7 @@ def test_true_position_error_falls(tmp_path: Path, effect: dict[str, Any]) -> No
 def old_model(tmp_path: Path, effect: dict[str, Any]) -> IdentifiedMachine:
     """One model as earlier versions found it."""
     machine = Drawn(effect, seed=2)
-    return machine_of(traced(ROBOT, machine.walk(), machine.fresh()).last)
+    return machine_of(traced(ROBOT, machine.sequence(), machine.fresh()).last)
 
 
 def model_of(tmp_path: Path, effect: dict[str, Any]) -> LearnedModel:
@@ -125,7 +125,7 @@ def test_model_survives_its_file(tmp_path: Path) -> None:
 
 def test_an_old_model_file_is_still_read(tmp_path: Path) -> None:
     machine = Drawn(RIPPLE, seed=2)
-    diagnosis = traced(ROBOT, machine.walk(), machine.fresh())
+    diagnosis = traced(ROBOT, machine.sequence(), machine.fresh())
     file = tmp_path / "old.json"
     data = DataSource(file="walk.csv", readings=120, sha256="0" * 64)
     file.write_text(TracedFindings(diagnosis).document(data).model_dump_json(by_alias=True))

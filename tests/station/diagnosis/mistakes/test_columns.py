@@ -17,48 +17,48 @@ from station.studies.confusion.spoiling import measured
 
 ROBOT = Robot.default()
 FILES = measured(98).files
-WALK, FRESH = FILES.walk, FILES.fresh
+SEQUENCE, FRESH = FILES.sequence, FILES.fresh
 
 
 def test_an_honest_file_has_none_of_these() -> None:
-    context = Context.of(WALK)
-    assert same_readings(WALK, FRESH) is None
-    for file in (WALK, FRESH):
+    context = Context.of(SEQUENCE)
+    assert same_readings(SEQUENCE, FRESH) is None
+    for file in (SEQUENCE, FRESH):
         assert pasted_block(ROBOT, file) is None and readout_stuck(ROBOT, file) is None
-    assert position_labels(WALK, context) is None
-    assert time_column(WALK) is None
-    assert approach_columns(ROBOT, WALK) is None
+    assert position_labels(SEQUENCE, context) is None
+    assert time_column(SEQUENCE) is None
+    assert approach_columns(ROBOT, SEQUENCE) is None
 
 
 def test_rows_of_a_paste_and_of_a_standing_readout() -> None:
-    distance = WALK.distance.copy()
+    distance = SEQUENCE.distance.copy()
     distance[60:70] = distance[10:20]
-    found = pasted_block(ROBOT, replace(WALK, distance=distance))
-    assert found is not None and found.rows == WALK.ids[60:70]
-    distance = WALK.distance.copy()
+    found = pasted_block(ROBOT, replace(SEQUENCE, distance=distance))
+    assert found is not None and found.rows == SEQUENCE.ids[60:70]
+    distance = SEQUENCE.distance.copy()
     distance[30:36] = distance[30]
-    found = readout_stuck(ROBOT, replace(WALK, distance=distance))
-    assert found is not None and found.rows == WALK.ids[30:36]
+    found = readout_stuck(ROBOT, replace(SEQUENCE, distance=distance))
+    assert found is not None and found.rows == SEQUENCE.ids[30:36]
 
 
 def test_time_that_runs_backwards_names_its_row() -> None:
-    t_s = WALK.t_s.copy()
+    t_s = SEQUENCE.t_s.copy()
     t_s[40:] -= 20.0
-    found = time_column(replace(WALK, t_s=t_s))
-    assert found is not None and found.severity == "label" and found.rows == (WALK.ids[40],)
+    found = time_column(replace(SEQUENCE, t_s=t_s))
+    assert found is not None and found.severity == "label" and found.rows == (SEQUENCE.ids[40],)
 
 
 @pytest.mark.parametrize("by", [1, -1])
 def test_approaches_a_row_off(by: int) -> None:
-    found = approach_columns(ROBOT, replace(WALK, approach=np.roll(WALK.approach, by, axis=0)))
+    found = approach_columns(ROBOT, replace(SEQUENCE, approach=np.roll(SEQUENCE.approach, by, axis=0)))
     assert found is None or found.kind == "approach_sign"
 
 
 def test_one_wrong_label() -> None:
-    position = WALK.position.copy()
+    position = SEQUENCE.position.copy()
     position[17] = position[40]
-    found = position_labels(replace(WALK, position=position), Context.of(WALK))
-    assert found is not None and WALK.ids[17] in found.rows
+    found = position_labels(replace(SEQUENCE, position=position), Context.of(SEQUENCE))
+    assert found is not None and SEQUENCE.ids[17] in found.rows
 
 
 def test_best_run_and_its_neighbours() -> None:

@@ -13,36 +13,38 @@ from station.five_bar.robot_file import Robot
 from station.studies.confusion.spoiling import measured
 
 ROBOT = Robot.default()
-WALK = measured(99).files.walk
+SEQUENCE = measured(99).files.sequence
 
 
 def test_base_fit_leaves_the_heads_noise() -> None:
-    found = fit(ROBOT, WALK)
+    found = fit(ROBOT, SEQUENCE)
     assert found is not None
     assert 0.7e-3 < found.rms_mm < 2e-3
 
 
 def test_a_column_that_is_there_is_found_with_its_size_and_pays_its_price() -> None:
-    stepped = replace(WALK, distance=WALK.distance + np.where(np.arange(len(WALK)) >= 50, 3.0, 0.0))
-    column = Extra("step", 100.0, by_reading=(np.arange(len(WALK)) >= 50).astype(float))
-    found, without = fit(ROBOT, stepped, extras=(column,)), fit(ROBOT, WALK)
+    stepped = replace(
+        SEQUENCE, distance=SEQUENCE.distance + np.where(np.arange(len(SEQUENCE)) >= 50, 3.0, 0.0)
+    )
+    column = Extra("step", 100.0, by_reading=(np.arange(len(SEQUENCE)) >= 50).astype(float))
+    found, without = fit(ROBOT, stepped, extras=(column,)), fit(ROBOT, SEQUENCE)
     assert found is not None and without is not None
     assert found.extra["step"] == pytest.approx(3.0, abs=6 * found.extra_sd["step"] + 1e-3)
-    needless = fit(ROBOT, WALK, extras=(column,))
+    needless = fit(ROBOT, SEQUENCE, extras=(column,))
     assert needless is not None and needless.deviance > without.deviance
 
 
 def test_a_ratio_is_found() -> None:
-    theta = WALK.theta - 0.01 * drive_angle(ROBOT, WALK.theta)
-    found = fit(ROBOT, replace(WALK, theta=theta), extras=(both_gains(ROBOT, WALK, 0.2),))
+    theta = SEQUENCE.theta - 0.01 * drive_angle(ROBOT, SEQUENCE.theta)
+    found = fit(ROBOT, replace(SEQUENCE, theta=theta), extras=(both_gains(ROBOT, SEQUENCE, 0.2),))
     assert found is not None
     assert found.extra["gain"] == pytest.approx(0.01, rel=0.03)
 
 
 def test_rough_fit_goes_with_the_majority() -> None:
-    spoiled = WALK.distance.copy()
+    spoiled = SEQUENCE.distance.copy()
     spoiled[:40] += np.linspace(-80.0, 80.0, 40)
-    found = rough(ROBOT, replace(WALK, distance=spoiled))
+    found = rough(ROBOT, replace(SEQUENCE, distance=spoiled))
     assert np.abs(found.residual_mm[40:]).max() < 0.2
 
 
@@ -52,9 +54,9 @@ def test_costs_of_nothing_and_of_no_residual() -> None:
 
 
 def test_posterior_holds_other_readings_to_it() -> None:
-    walked = fit(ROBOT, WALK)
-    assert walked is not None
-    mean, root = posterior(ROBOT, WALK, walked)
+    sequence_fit = fit(ROBOT, SEQUENCE)
+    assert sequence_fit is not None
+    mean, root = posterior(ROBOT, SEQUENCE, sequence_fit)
     sd = np.sqrt(np.diag(np.linalg.inv(root.T @ root)))
-    assert mean == pytest.approx(walked.p)
-    assert sd == pytest.approx(walked.sd, rel=0.3)
+    assert mean == pytest.approx(sequence_fit.p)
+    assert sd == pytest.approx(sequence_fit.sd, rel=0.3)

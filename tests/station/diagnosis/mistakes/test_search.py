@@ -44,7 +44,7 @@ def test_there_are_77_variants_and_some_held_back() -> None:
 @pytest.mark.parametrize("variant", [v for v in VARIANTS if v.name in QUICK], ids=lambda v: v.name)
 def test_a_mistake_is_named(variant: Variant) -> None:
     files = spoiled(variant, machine(variant.play), SEED)
-    found = find_mistake(files.robot, files.walk, files.fresh)
+    found = find_mistake(files.robot, files.sequence, files.fresh)
     assert found is not None and found.kind in variant.kinds
     assert found.text.endswith(".") and "\n" not in found.text
     if files.rows is not None:
@@ -58,7 +58,7 @@ def test_a_mistake_is_named(variant: Variant) -> None:
 def test_what_a_defect_does_too_is_left_to_the_diagnosis(name: str, severity: str) -> None:
     variant = next(v for v in VARIANTS if v.name == name)
     files = spoiled(variant, machine(False), SEED)
-    found = find_mistake(files.robot, files.walk, files.fresh)
+    found = find_mistake(files.robot, files.sequence, files.fresh)
     assert found is not None and found.severity == severity
 
 
@@ -68,16 +68,16 @@ def test_what_a_defect_does_too_is_left_to_the_diagnosis(name: str, severity: st
 )
 def test_machines_without_a_mistake(kinds: tuple[str, ...]) -> None:
     made = draw(Robot.default(), kinds, SEED)
-    found = find_mistake(Robot.default(), made.walk, made.fresh)
+    found = find_mistake(Robot.default(), made.sequence, made.fresh)
     assert found is None or found.severity == "as_effect"
 
 
 def test_a_zero_within_the_tolerance_is_an_offset() -> None:
     """Both joints 2.5 deg beside what they were, of a tolerance of 3 deg, and a machine nearly at zero."""
     files = machine(False).files
-    found = find_mistake(files.robot, files.walk)
+    found = find_mistake(files.robot, files.sequence)
     assert found is None
-    offsets = np.degrees(files.walk.theta).mean(axis=0)
+    offsets = np.degrees(files.sequence.theta).mean(axis=0)
     assert np.all(np.isfinite(offsets))
 
 
@@ -85,10 +85,10 @@ def test_what_is_explained_is_not_searched_for_small_entries() -> None:
     variant = next(v for v in VARIANTS if v.name == "scale_factor: 1.01")
     made = spoiled(variant, machine(False), SEED)
     gross = next(v for v in VARIANTS if v.name == "scale_sign: both files")
-    assert find_mistake(made.robot, made.walk, explained=True) is None
-    assert find_mistake(made.robot, spoiled(gross, machine(False), SEED).walk, explained=True) is not None
+    assert find_mistake(made.robot, made.sequence, explained=True) is None
+    assert find_mistake(made.robot, spoiled(gross, machine(False), SEED).sequence, explained=True) is not None
 
 
 def test_few_readings_are_not_judged() -> None:
     files = machine(False).files
-    assert find_mistake(files.robot, files.walk.take(np.arange(6))) is None
+    assert find_mistake(files.robot, files.sequence.take(np.arange(6))) is None

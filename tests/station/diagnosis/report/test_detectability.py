@@ -23,7 +23,7 @@ CHECKED_NOISE_MM = 4e-3
 
 @pytest.fixture(scope="module")
 def clean() -> Fit:
-    return traced(ROBOT, Drawn(seed=8).walk()).last
+    return traced(ROBOT, Drawn(seed=8).sequence()).last
 
 
 def test_sizes_agree_with_the_checked_ones(clean: Fit) -> None:
@@ -54,7 +54,7 @@ def test_sizes_agree_with_the_checked_ones(clean: Fit) -> None:
 
 
 def test_power_is_what_it_says(clean: Fit) -> None:
-    """Backlash of the smallest visible size, in 200 walks: found in four of five."""
+    """Backlash of the smallest visible size, in 200 sequences: found in four of five."""
     effect = Backlash(1)
     entry = next(d for d in detectable(clean, five_bar_catalogue()) if (d.effect, d.joint) == ("backlash", 1))
     assert entry.minimum_detectable is not None
@@ -88,16 +88,16 @@ def test_more_noise_hides_more(clean: Fit) -> None:
 
 
 def test_what_was_found_is_not_listed() -> None:
-    walk = Drawn({"kind": "backlash", "joint": 1, "width_deg": 0.01}, seed=1).walk()
-    listed = [(d.effect, d.joint) for d in detectable(traced(ROBOT, walk).last, five_bar_catalogue())]
+    sequence = Drawn({"kind": "backlash", "joint": 1, "width_deg": 0.01}, seed=1).sequence()
+    listed = [(d.effect, d.joint) for d in detectable(traced(ROBOT, sequence).last, five_bar_catalogue())]
     assert ("backlash", 1) not in listed
     assert ("backlash", 2) in listed
 
 
 def test_without_approach_backlash_cannot_be_shown() -> None:
-    walk = Drawn(seed=8).walk()
-    walk.approach[:] = 0
-    for entry in detectable(traced(ROBOT, walk).last, five_bar_catalogue()):
+    sequence = Drawn(seed=8).sequence()
+    sequence.approach[:] = 0
+    for entry in detectable(traced(ROBOT, sequence).last, five_bar_catalogue()):
         if entry.effect == "backlash":
             assert entry.minimum_detectable is None
             assert "not taken in a way" in entry.text

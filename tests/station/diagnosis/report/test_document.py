@@ -148,7 +148,7 @@ class Run:
     def __init__(self, folder: Path, effect: dict[str, Any] | None, *, confirm: bool = True) -> None:
         machine = Drawn(*([effect] if effect else []), seed=1, recorded_temperature=False)
         self.data = folder / "walk.csv"
-        self.data.write_text(to_csv(machine.walk()))
+        self.data.write_text(to_csv(machine.sequence()))
         fresh = folder / "fresh.csv"
         fresh.write_text(to_csv(machine.fresh()))
         self.page = folder / "page.html"

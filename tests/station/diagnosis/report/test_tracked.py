@@ -20,7 +20,7 @@ BACKLASH = {"kind": "backlash", "joint": 1, "width_deg": 0.05}
 @pytest.fixture(scope="module")
 def tracked() -> WeighedFindings:
     machine = Drawn(BACKLASH, seed=2, tracked=True)
-    return WeighedFindings(weighed(ROBOT, machine.walk(), machine.fresh()))
+    return WeighedFindings(weighed(ROBOT, machine.sequence(), machine.fresh()))
 
 
 def test_the_true_position_error_falls(tracked: WeighedFindings) -> None:
@@ -46,6 +46,6 @@ def test_the_tracker_takes_part_in_no_fit(tracked: WeighedFindings) -> None:
 
 def test_without_a_tracker_nothing_is_said_of_it() -> None:
     machine = Drawn(BACKLASH, seed=2)
-    findings = WeighedFindings(weighed(ROBOT, machine.walk(), machine.fresh()))
+    findings = WeighedFindings(weighed(ROBOT, machine.sequence(), machine.fresh()))
     assert findings.true_position_errors is None
     assert findings.document(SOURCE).before.true_position_error_mm is None

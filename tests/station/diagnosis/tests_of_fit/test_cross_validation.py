@@ -30,8 +30,8 @@ def refitted(whole: Fit, left_out: Mask) -> Real:
 
 @pytest.mark.parametrize("stage", [0, 1], ids=["base", "with the effect"])
 def test_hat_matrix_gives_what_refits_give(stage: int) -> None:
-    walk = Drawn({"kind": "backlash", "joint": 1, "width_deg": 0.01}, seed=1).walk()
-    whole = traced(ROBOT, walk).trace.stages[stage].fit
+    sequence = Drawn({"kind": "backlash", "joint": 1, "width_deg": 0.01}, seed=1).sequence()
+    whole = traced(ROBOT, sequence).trace.stages[stage].fit
     position = whole.model.mechanism.measurements.position
     by_identity = held_out(whole.solution, position) * whole.row_sd
     plain = whole.residual_mm

@@ -1,4 +1,4 @@
-"""Directed tests and nameless rivals: silent on noise, loud on what they are made for."""
+"""Directed tests and nameless alternatives: silent on noise, loud on what they are made for."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ import pytest
 from scipy import stats
 
 from station.diagnosis.search.dependence import hints
-from station.diagnosis.tests_of_fit.rivals import rivals
-from station.diagnosis.tests_of_fit.smooth_departures import Rest, departures, of_fit
+from station.diagnosis.tests_of_fit.alternatives import alternatives
+from station.diagnosis.tests_of_fit.smooth_departures import WhitenedResidual, departures, of_fit
 from station.diagnosis.traced_loop import TracedDiagnosis, traced
 from station.effects.backlash import Backlash
 from station.model.model import Fit
@@ -26,14 +26,14 @@ TIMES = 200
 
 @cache
 def clean() -> Fit:
-    return traced(ROBOT, Drawn(seed=8).walk()).last
+    return traced(ROBOT, Drawn(seed=8).sequence()).last
 
 
-def with_residual(mm: np.ndarray) -> Rest:
+def with_residual(mm: np.ndarray) -> WhitenedResidual:
     """The clean walk's fit as if it had left this residual (K,), mm."""
     fit = clean()
     part = replace(of_fit(fit, fit.row_sd), residual_mm=mm)
-    return Rest((part,), fit.prior, fit.prior.mean)
+    return WhitenedResidual((part,), fit.prior, fit.prior.mean)
 
 
 def test_p_values_of_noise_are_uniform() -> None:
@@ -78,13 +78,13 @@ def test_temperature_is_named_where_it_is_recorded() -> None:
         residual_mm=1e-3 * rise,
         conditions=replace(fit.conditions, temperature_rise=rise),
     )
-    strongest = hints(Rest((part,), fit.prior, fit.prior.mean))[0]
+    strongest = hints(WhitenedResidual((part,), fit.prior, fit.prior.mean))[0]
     assert strongest.depends_on == "temperature"
 
 
 def outside(kind: str, seed: int) -> TracedDiagnosis:
     drawn = draw(ROBOT, (kind,), seed)
-    return traced(ROBOT, drawn.walk, drawn.fresh)
+    return traced(ROBOT, drawn.sequence, drawn.fresh)
 
 
 @pytest.mark.parametrize(
@@ -106,24 +106,24 @@ def test_outside_the_catalogue_of_any_size(kind: str) -> None:
         ({"kind": "cable_drag", "joint": 2, "deg_at_end": 0.01}, "approach x place"),
     ],
 )
-def test_the_best_rival_is_the_kind_that_is_there(effect: dict[str, Any], on: str) -> None:
+def test_the_best_alternative_is_the_kind_that_is_there(effect: dict[str, Any], on: str) -> None:
     machine = Drawn(effect, seed=5)
-    base = traced(ROBOT, machine.walk(), machine.fresh()).confirmations[0]
-    assert min(rivals(base.rest), key=lambda r: r.score).on == on
+    base = traced(ROBOT, machine.sequence(), machine.fresh()).confirmations[0]
+    assert min(alternatives(base.whitened), key=lambda r: r.score).on == on
 
 
 def test_three_slips_are_no_better_than_a_wandering() -> None:
-    """A confirmed model must beat every rival: a small random walk is never confirmed as slips or drift."""
+    """A confirmed model must beat every alternative: no small random walk is confirmed as slips or drift."""
     for seed in range(20):
         machine = Drawn({"kind": "random_walk", "mm_per_stop": 0.0006}, seed=seed)
-        found = traced(ROBOT, machine.walk(), machine.fresh())
+        found = traced(ROBOT, machine.sequence(), machine.fresh())
         assert not (found.verdict == "explained" and found.confirmed)
 
 
 def test_small_true_play_is_confirmed() -> None:
-    """A rival may not take away what a true cause of three times the noise explains."""
+    """A alternative may not take away what a true cause of three times the noise explains."""
     machine = Drawn({"kind": "backlash", "joint": 1, "width_deg": 0.002}, seed=6)
-    found = traced(ROBOT, machine.walk(), machine.fresh())
+    found = traced(ROBOT, machine.sequence(), machine.fresh())
     assert (found.verdict, found.confirmed) == ("explained", True)
     assert isinstance(found.trace.findings[0].term.effect, Backlash)
-    assert found.confirmations[-1].rival is None
+    assert found.confirmations[-1].alternative is None

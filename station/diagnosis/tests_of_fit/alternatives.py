@@ -1,6 +1,6 @@
-"""Nameless rivals of a cause: the residual simply wanders in time, with the place, the angle, the travel.
+"""Unnamed alternatives to a cause: the residual wanders with time, position, angle or travel.
 
-Each rival is a Gaussian process added to the noise (Rasmussen and Williams, Gaussian Processes for
+Each alternative is a Gaussian process added to the noise (Rasmussen and Williams, Gaussian Processes for
 Machine Learning, 2006, chapter 5), its size found by restricted maximum likelihood (Patterson and
 Thompson, Biometrika 58, 1971).  A cause with its few parameters must make the readings far more
 probable than any of them: whatever is flexible enough imitates a wandering, three ripples a bump.
@@ -13,7 +13,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from station.diagnosis.tests_of_fit.smooth_departures import Rest, by_approach_and_place, perpendicular
+from station.diagnosis.tests_of_fit.smooth_departures import (
+    WhitenedResidual,
+    by_approach_and_place,
+    perpendicular,
+)
 from station.mechanism import Conditions
 from station.model import Term
 from station.records import Real
@@ -23,11 +27,11 @@ REACH = 0.1
 FAR_BETTER = 10.0
 """Of minus twice the log likelihood: 150 times more probable ("very strong", Kass and Raftery 1995)."""
 SIZES = np.geomspace(1e-3, 1e6, 40)
-"""Variance of the rival over that of the noise."""
+"""Variance of the alternative over that of the noise."""
 
 
 @dataclass(frozen=True)
-class Rival:
+class Alternative:
     """One kind of wandering, as large as suits the readings best."""
 
     on: str
@@ -37,13 +41,15 @@ class Rival:
     """Of the residual's square that it takes, 0 to 1."""
 
 
-def rivals(rest: Rest) -> tuple[Rival, ...]:
-    """Every kind, in the place of all effects; `rest` is what the model without them leaves."""
-    return tuple(_fitted(rest, on, covariance) for on, covariance in _kinds(rest))
+def alternatives(residual: WhitenedResidual) -> tuple[Alternative, ...]:
+    """Every kind, in the place of all effects; `residual` is what the model without them leaves."""
+    return tuple(_fitted(residual, on, covariance) for on, covariance in _kinds(residual))
 
 
-def strongest(without: Rest, explained: Rest, terms: Sequence[Term], conditions: Conditions) -> str | None:
-    """The rival that the terms do not beat by `FAR_BETTER`, None where they beat all.
+def strongest(
+    without: WhitenedResidual, explained: WhitenedResidual, terms: Sequence[Term], conditions: Conditions
+) -> str | None:
+    """The alternative that the terms do not beat by `FAR_BETTER`, None where they beat all.
 
     Terms pay for their amplitudes (BIC: Schwarz, Annals of Statistics 6, 1978) and for the ways in
     which they were searched.
@@ -53,22 +59,22 @@ def strongest(without: Rest, explained: Rest, terms: Sequence[Term], conditions:
         variants = term.effect.variants(conditions)
         price += term.size * np.log(without.dof) + (2.0 * np.log(variants.trials) if variants else 0.0)
     ours = without.dof * float(np.log(explained.square)) + price
-    best = min(rivals(without), key=lambda r: r.score)
+    best = min(alternatives(without), key=lambda r: r.score)
     return best.on if best.score - ours < FAR_BETTER else None
 
 
-def _kinds(rest: Rest) -> Iterator[tuple[str, Real]]:
+def _kinds(residual: WhitenedResidual) -> Iterator[tuple[str, Real]]:
     """(K, K) covariance in mm^2, of any size."""
-    order = np.argsort(np.argsort(rest.of("t_s"), kind="stable"), kind="stable") + 1.0
+    order = np.argsort(np.argsort(residual.of("t_s"), kind="stable"), kind="stable") + 1.0
     # Brownian: every stop adds to the one before
     yield "time", np.minimum(order[:, None], order[None, :]) / len(order)
-    if np.any(rest.of("approach") != 0):
-        columns = by_approach_and_place(rest)
+    if np.any(residual.of("approach") != 0):
+        columns = by_approach_and_place(residual)
         yield "approach x place", columns @ columns.T
-    yield "place", _alike(rest.at, float(np.ptp(rest.at[:, 0])))
-    for i, theta in enumerate(rest.of("theta").T):
+    yield "place", _alike(residual.at, float(np.ptp(residual.at[:, 0])))
+    for i, theta in enumerate(residual.of("theta").T):
         yield f"theta{i + 1}", _alike(theta[:, None], float(np.ptp(theta)))
-    travel = rest.of("travel")
+    travel = residual.of("travel")
     if np.ptp(travel) > 0.0:
         yield "travel", _alike(travel[:, None], float(np.ptp(travel)))
 
@@ -79,17 +85,17 @@ def _alike(along: Real, span: float) -> Real:
     return np.asarray(np.exp(-0.5 * apart**2))
 
 
-def _fitted(rest: Rest, on: str, covariance: Real) -> Rival:
-    sd = rest.row_sd
-    whitened = np.zeros((len(rest.left), len(rest.left)))
-    own = covariance[np.ix_(rest.reading, rest.reading)] * (rest.axis[:, None] == rest.axis)
+def _fitted(residual: WhitenedResidual, on: str, covariance: Real) -> Alternative:
+    sd = residual.row_sd
+    whitened = np.zeros((len(residual.left), len(residual.left)))
+    own = covariance[np.ix_(residual.reading, residual.reading)] * (residual.axis[:, None] == residual.axis)
     whitened[: len(sd), : len(sd)] = own * np.mean(sd**2) / np.outer(sd, sd)
-    inside = perpendicular(perpendicular(whitened, rest.taken).T, rest.taken)
+    inside = perpendicular(perpendicular(whitened, residual.taken).T, residual.taken)
     values, vectors = np.linalg.eigh((inside + inside.T) / 2.0)
     stretch = 1.0 + SIZES[:, None] * np.maximum(values, 0.0)
-    along = (vectors.T @ rest.left) ** 2
+    along = (vectors.T @ residual.left) ** 2
     left = np.sum(along / stretch, axis=1)
-    scores = rest.dof * np.log(left) + np.sum(np.log(stretch), axis=1)
+    scores = residual.dof * np.log(left) + np.sum(np.log(stretch), axis=1)
     best = int(np.argmin(scores))
-    share = 1.0 - float(np.sum(along / stretch[best] ** 2)) / rest.square
-    return Rival(on, float(scores[best]) + float(np.log(rest.dof)), share)
+    share = 1.0 - float(np.sum(along / stretch[best] ** 2)) / residual.square
+    return Alternative(on, float(scores[best]) + float(np.log(residual.dof)), share)

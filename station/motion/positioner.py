@@ -37,7 +37,7 @@ class Cancelled(Exception):
 
 
 @dataclass
-class Walker:
+class Positioner:
     """Measures stops, one after another, until told to cancel."""
 
     machine: Machine
@@ -82,7 +82,7 @@ class Walker:
         self._theta = self.machine.look().theta_deg
         self._origin = self._before = None
 
-    def measure(self, stop: Stop, number: int, walk: int) -> Reading:
+    def measure(self, stop: Stop, number: int, sequence: int) -> Reading:
         """Go there and read.
 
         :raises Cancelled: stop was pressed.
@@ -96,7 +96,7 @@ class Walker:
         self._check_travel(stop, number, samples, theta)
         t_s = round(self.clock.now() * self.machine.devices.speed, 3)
         self.machine.moved(theta, scale_mm)
-        return Reading(number, t_s, theta, self._direction, scale_mm, stop.position, walk, tuple(samples))
+        return Reading(number, t_s, theta, self._direction, scale_mm, stop.position, sequence, tuple(samples))
 
     def stand_at(self, stop: Stop) -> None:
         """Go there and come to rest.  :raises: as `measure`."""

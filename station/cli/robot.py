@@ -1,0 +1,26 @@
+"""`station robot`: a robot file from the description that other software has of an arm."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from station.errors import InputRefused
+from station.records import sections_to_toml
+from station.serial_arm import arm_from_urdf
+
+
+@click.command("robot")
+@click.option("--urdf", required=True, type=click.Path(path_type=Path), help="The robot description.")
+@click.option("--base", required=True, help="Link that stands still.")
+@click.option("--tool", required=True, help="Link whose origin is measured.")
+@click.option("--serial", help="Serial number of the robot; the name of the file without it.")
+def robot_command(urdf: Path, base: str, tool: str, serial: str | None) -> None:
+    """Write the robot file of an arm from its URDF description: `station robot ... > robot.toml`."""
+    try:
+        content = urdf.read_bytes()
+    except OSError as error:
+        raise InputRefused(f"{urdf} cannot be read: {error.strerror}.") from error
+    arm = arm_from_urdf(content, str(urdf), base, tool, serial or urdf.stem)
+    click.echo(sections_to_toml(arm.to_json()), nl=False)

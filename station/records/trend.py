@@ -1,0 +1,30 @@
+"""One run as a point of a trend."""
+
+from __future__ import annotations
+
+from datetime import datetime
+
+from station.records.record import Record
+from station.records.result import Outcome, Verdict
+from station.records.run import State
+
+
+class TrendPoint(Record):
+    """What a finished run found, and how it ended."""
+
+    id: int
+    uid: str
+    robot_serial: str
+    kind: str
+    plan: str
+    state: State
+    verdict: Verdict | None = None
+    outcome: Outcome | None = None
+    reason_code: str | None = None
+    ended_at: datetime | None = None
+    dtheta1_deg: float | None = None
+    dtheta1_sd_deg: float | None = None
+    dtheta2_deg: float | None = None
+    dtheta2_sd_deg: float | None = None
+    position_error_mm: float | None = None
+    """95 % bound of the largest position error, of runs that fresh readings verified; null for others."""

@@ -1,0 +1,124 @@
+"""Run rules, charts and capability: textbook run lengths and published examples."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+import pytest
+
+from station.quality.capability import Index, Limits, cpk, ppk, with_confidence
+from station.quality.control_chart import RULE_TEXTS, Rule, ewma, ewma_limits, run_rules
+from station.quality.process import quality, trend
+from station.records import Real, State, TrendPoint
+
+QUIET = [0.5, -0.5, 0.6, 0.4, -0.6, -0.4, 0.3, 0.5, -0.2, -0.6, 0.2, 0.6]
+PATTERNS: dict[Rule, tuple[list[float], int]] = {
+    "nelson_1": ([3.1], 0),
+    "nelson_2": ([0.2, 0.3, 0.1, 0.4, 0.2, 0.3, 0.1, 0.5, 0.2], 8),
+    "nelson_3": ([-0.9, -0.5, -0.1, 0.2, 0.6, 0.9], 5),
+    "nelson_4": ([0.2, -0.2] * 7, 13),
+    "nelson_5": ([2.2, 0.1, 2.3], 2),
+    "nelson_6": ([1.2, 1.3, 0.1, 1.1, 1.4], 4),
+    "nelson_7": ([0.1, -0.2, -0.3, 0.4, 0.3] * 3, 14),
+    "nelson_8": ([1.2, -1.3, -1.4, 1.1, -1.2, 1.5, 1.3, -1.1], 7),
+}
+
+
+def first_broken(values: Real, *rules: Rule) -> int:
+    """Number of values up to the first alarm."""
+    broken = run_rules(values, 0.0, 1.0)
+    alarm = np.logical_or.reduce([broken[rule] for rule in rules])
+    return int(np.argmax(alarm)) + 1 if alarm.any() else len(values)
+
+
+@pytest.mark.parametrize("rule", PATTERNS)
+def test_each_rule_by_hand(rule: Rule) -> None:
+    values, at = PATTERNS[rule]
+    broken = run_rules(np.array(values), 0.0, 1.0)[rule]
+    assert list(np.flatnonzero(broken)) == [at]
+    # mirrored it is the same rule, one value short it is none
+    assert list(np.flatnonzero(run_rules(-np.array(values), 0.0, 1.0)[rule])) == [at]
+    assert not run_rules(np.array(values[:-1]), 0.0, 1.0)[rule].any()
+    assert not run_rules(np.array(QUIET), 0.0, 1.0)[rule].any()
+    assert rule in RULE_TEXTS
+
+
+@pytest.mark.parametrize(
+    ("rules", "textbook"),
+    [
+        (("nelson_1",), 370.4),
+        # Champ and Woodall 1987, with two of three, and with four of five
+        (("nelson_1", "nelson_5"), 225.44),
+        (("nelson_1", "nelson_6"), 166.05),
+    ],
+)
+def test_run_length_without_a_change(rules: tuple[Rule, ...], textbook: float) -> None:
+    rng = np.random.default_rng(11)
+    lengths = [first_broken(rng.normal(size=4000), *rules) for _ in range(3000)]
+    assert np.mean(lengths) == pytest.approx(textbook, rel=0.06)
+
+
+def test_run_length_of_the_ewma() -> None:
+    """Lucas and Saccucci 1990: 500 without a change."""
+    rng = np.random.default_rng(12)
+    low, high = ewma_limits(6000, 0.0, 1.0)
+    outside = [(lambda e: (e < low) | (e > high))(ewma(rng.normal(size=6000), 0.0)) for _ in range(1500)]
+    lengths = [int(np.argmax(o)) + 1 if o.any() else 6000 for o in outside]
+    assert np.mean(lengths) == pytest.approx(500.0, rel=0.09)
+
+
+def test_confidence_limits_by_hand() -> None:
+    """Montgomery, chapter 8, equation of the approximate interval: 20 values, index 1.33."""
+    found = with_confidence(1.33, 20, 19)
+    assert (round(found.low, 2), round(found.high, 2)) == (0.88, 1.78)
+
+
+@pytest.mark.parametrize("of", [cpk, ppk])
+def test_confidence_limits_hold_the_truth(of: Callable[[Real, Limits], Index | None]) -> None:
+    limits = Limits(-10.0, 4.0)
+    rng = np.random.default_rng(5)
+    found = [of(rng.normal(size=30), limits) for _ in range(1500)]
+    held = np.mean([index is not None and index.low <= 4.0 / 3.0 <= index.high for index in found])
+    assert 0.93 <= held <= 0.97
+
+
+def point(run: int, first: float | None, error: float | None = 0.2, **changes: Any) -> TrendPoint:
+    known = {"kind": "calibrate", "plan": "rapid", "state": State.SUCCEEDED, "outcome": "good"}
+    measured = {"dtheta1_deg": first, "dtheta2_deg": 0.1, "position_error_mm": error}
+    return TrendPoint.model_validate(
+        {"id": run, "uid": f"u{run}", "robot_serial": "R1", **measured, **known, **changes}
+    )
+
+
+def test_figures_and_pareto_of_runs() -> None:
+    rng = np.random.default_rng(3)
+    values = rng.normal(0.1, 0.02, 40)
+    values[25] = 0.4
+    points = [point(k + 1, float(v)) for k, v in enumerate(values)]
+    points.append(point(41, None, None, state=State.FAILED, outcome="failed", reason_code="device"))
+    found = quality(points, zero_offset_deg=0.5, position_error_mm=0.5)
+    assert found.runs == 41 and found.dtheta1.n == 40
+    assert found.dtheta1.cpk is not None and found.dtheta1.ppk is not None
+    assert found.dtheta1.ppk < found.dtheta1.cpk
+    assert ("nelson_1", 26) in {(rule.name, rule.at) for rule in found.dtheta1.rules}
+    # a quantity that never changes has no index, and none is invented
+    assert found.position_error.n == 40 and found.position_error.cpk is None
+    assert [(row.outcome, row.count) for row in found.pareto] == [("good", 40), ("failed", 1)]
+
+
+def test_no_runs_make_no_figures() -> None:
+    found = quality([], zero_offset_deg=0.5, position_error_mm=0.5)
+    assert (found.runs, found.dtheta1.n, found.dtheta1.mean, found.pareto) == (0, 0, None, ())
+    assert trend("R1", []).dtheta1.centre is None
+
+
+def test_a_trend_charts_calibrations_and_shows_what_was_applied() -> None:
+    points = [point(k, 0.1 + 0.01 * (k % 3)) for k in range(1, 10)]
+    points.insert(5, point(20, 0.1, kind="apply"))
+    found = trend("R1", points)
+    assert len(found.items) == 10 and found.dtheta1.at == tuple(range(1, 10))
+    assert found.dtheta1.low is not None and found.dtheta1.high is not None
+    assert found.dtheta1.low < 0.1 < found.dtheta1.high
+    assert len(found.dtheta1.ewma) == len(found.dtheta1.ewma_low) == 9

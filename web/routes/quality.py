@@ -1,0 +1,44 @@
+"""`/quality` and `/robots/{serial}/trend`: is the process capable, and where does it move?"""
+
+from __future__ import annotations
+
+from datetime import datetime
+from typing import Annotated
+
+from fastapi import APIRouter, Query
+
+from station.quality import Quality, Trend, quality, trend
+from web.bodies import Serial
+from web.problems import documented
+from web.routes.parts import TheRuntime
+
+router = APIRouter(tags=["quality"])
+IN_TREND = ("calibrate", "apply", "rollback")
+
+
+@router.get("/quality", response_model=Quality)
+def read_quality(
+    runtime: TheRuntime,
+    robot_serial: Serial | None = None,
+    since: Annotated[datetime | None, Query(description="ended then or later")] = None,
+) -> Quality:
+    """Capability, run rules and a Pareto of outcomes over the newest finished calibrations.
+
+    The limits and the number of runs are `[quality]` of the station file.
+    """
+    wanted = runtime.settings.quality
+    points = runtime.store.trend(limit=wanted.runs, robot_serial=robot_serial, since=since)
+    return quality(points, zero_offset_deg=wanted.zero_offset_deg, position_error_mm=wanted.position_error_mm)
+
+
+@router.get("/robots/{serial:path}/trend", response_model=Trend, responses=documented(404))
+def read_trend(
+    serial: Serial,
+    runtime: TheRuntime,
+    since: Annotated[datetime | None, Query(description="ended then or later")] = None,
+    limit: Annotated[int, Query(ge=1, le=5000)] = 200,
+) -> Trend:
+    """The newest finished runs of one robot, oldest first, with control charts."""
+    runtime.store.robot(serial)
+    points = runtime.store.trend(limit=limit, robot_serial=serial, since=since, kinds=IN_TREND)
+    return trend(serial, points)
