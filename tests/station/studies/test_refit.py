@@ -41,7 +41,7 @@ def history(tmp_path: Path) -> Iterator[Path]:
     path = tmp_path / "station.db"
     with closing(Store(path)) as store:
         for seed, plan in enumerate(("full", "rapid", "paper")):
-            keep(store, plan, seed)  # type: ignore[arg-type]
+            keep(store, plan, seed)
     yield path
 
 
