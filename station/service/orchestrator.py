@@ -11,7 +11,6 @@ import logging
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
-from datetime import UTC, datetime
 from queue import Empty, Queue
 from threading import Lock, Thread
 
@@ -42,7 +41,6 @@ from station.records import (
     CalibrationHolds,
     CalibrationRequest,
     CalibrationResult,
-    CalibrationSummary,
     Prompt,
     Reason,
     State,
@@ -361,7 +359,7 @@ class Orchestrator:
             summary = self._store.summary(run.id)
         except StoreUnavailable as error:
             log.exception("The end of run %d cannot be read back", run.id)
-            summary = self._unread(run, because("store_failed", text=str(error)))
+            summary = run.unread(because("store_failed", text=str(error)))
         with self._lock:
             self._last, self._run, self._holds = summary, None, self._calibration_holds()
         run.ended.set()
@@ -383,30 +381,6 @@ class Orchestrator:
             self._store.add_wire(run.id, recording.end())
         except StoreUnavailable:
             log.exception("The end of the wire log of run %d cannot be stored", run.id)
-
-    def _unread(self, run: Run, reason: Reason) -> CalibrationSummary:
-        """How a run ended that the store does not give back."""
-        brief = run.brief()
-        return CalibrationSummary(
-            id=run.id,
-            uid=run.uid,
-            robot_serial=brief.robot_serial,
-            kind=brief.kind,
-            plan=brief.plan,
-            of=brief.of,
-            operator=brief.operator,
-            work_order=brief.work_order,
-            state=run.state,
-            verdict=None,
-            outcome="failed" if run.state is State.FAILED else None,
-            step=brief.step,
-            steps=brief.steps,
-            started_at=brief.started_at,
-            reason=reason.text,
-            reason_code=reason.code,
-            reason_params=reason.params,
-            created_at=brief.started_at or datetime.now(UTC),
-        )
 
     def _perform(self, run: Run, recording: Recording) -> _Ending:
         kind = self._kinds[run.request.kind]

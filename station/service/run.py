@@ -14,10 +14,12 @@ from station.records import (
     Ask,
     CalibrationRequest,
     CalibrationResult,
+    CalibrationSummary,
     Iteration,
     MeasurementSequence,
     Prompt,
     Reading,
+    Reason,
     ResidualOfReading,
     RunBrief,
     RunReading,
@@ -177,4 +179,28 @@ class Run:
             steps=self.steps,
             iterations=self.iterations,
             prompt=self.prompt,
+        )
+
+    def unread(self, reason: Reason) -> CalibrationSummary:
+        """How it ended, where the store does not give it back."""
+        brief = self.brief()
+        return CalibrationSummary(
+            id=self.id,
+            uid=self.uid,
+            robot_serial=brief.robot_serial,
+            kind=brief.kind,
+            plan=brief.plan,
+            of=brief.of,
+            operator=brief.operator,
+            work_order=brief.work_order,
+            state=self.state,
+            verdict=None,
+            outcome="failed" if self.state is State.FAILED else None,
+            step=brief.step,
+            steps=brief.steps,
+            started_at=brief.started_at,
+            reason=reason.text,
+            reason_code=reason.code,
+            reason_params=reason.params,
+            created_at=brief.started_at or datetime.now(UTC),
         )

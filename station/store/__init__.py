@@ -7,8 +7,10 @@ from station.store.opening import restore
 from station.store.rewinding import found, rewind
 from station.store.rows import Page, compact, request_hash
 from station.store.store import Store
+from station.store.tables import Columns
 
 __all__ = [
+    "Columns",
     "Page",
     "Store",
     "compact",

@@ -47,6 +47,7 @@ from station.store.rows import (
     row_id,
     summary_from_row,
 )
+from station.store.tables import Tables
 from station.store.times import RunTimes, now, now_ms
 from station.store.trends import Trends
 from station.store.wire_logs import WireLogs
@@ -58,7 +59,7 @@ S = TypeVar("S", bound=CalibrationSummary)
 _UNFINISHED = (State.QUEUED, State.RUNNING, State.WAITING)
 
 
-class Store(Events, Memories, ZeroJournal, WireLogs, Trends):
+class Store(Events, Memories, ZeroJournal, WireLogs, Trends, Tables):
     """Thread safe.  Order is by number: the clock that gives the times may jump.
 
     Every method may raise `StoreUnavailable`, unless it says otherwise.
