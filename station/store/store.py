@@ -28,7 +28,7 @@ from station.records import (
 )
 from station.store.chain import Verified, append, verify
 from station.store.ends import End, UnstoredEnds, end_of
-from station.store.events import Events
+from station.store.stored_events import StoredEvents
 from station.store.robots import Memories
 from station.store.rows import (
     LIST_COLUMNS,
@@ -59,7 +59,7 @@ S = TypeVar("S", bound=CalibrationSummary)
 _UNFINISHED = (State.QUEUED, State.RUNNING, State.WAITING)
 
 
-class Store(Events, Memories, ZeroJournal, WireLogs, Trends, Tables):
+class Store(StoredEvents, Memories, ZeroJournal, WireLogs, Trends, Tables):
     """Thread safe.  Order is by number: the clock that gives the times may jump.
 
     Every method may raise `StoreUnavailable`, unless it says otherwise.

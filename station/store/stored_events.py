@@ -13,7 +13,7 @@ from station.store.rows import compact, moment
 from station.store.times import now_ms
 
 
-class Events(KeptFile):
+class StoredEvents(KeptFile):
     """Rows that are only ever added."""
 
     def add_event(
