@@ -16,6 +16,7 @@ from station.run_kinds.import_file import Upload, import_dataset
 from station.run_kinds.kind import RUN_KINDS, Continued, RunKind, Start, kind_of_plan
 from station.run_kinds.lock import calibration_holds, check_not_locked, clear_failed_check
 from station.run_kinds.separate import planned
+from station.run_kinds.translate import change_of, translated
 from station.run_kinds.zero_state import application
 
 __all__ = [
@@ -26,10 +27,12 @@ __all__ = [
     "Upload",
     "application",
     "calibration_holds",
+    "change_of",
     "check_not_locked",
     "clear_failed_check",
     "diagnosed",
     "import_dataset",
     "kind_of_plan",
     "planned",
+    "translated",
 ]
