@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from station.records.accuracy import AccuracyReached, PositionError, Remedy, WeakDirection
+from station.records.accuracy import AccuracyReached, Advice, PositionError, Remedy, WeakDirection
 from station.records.backup import BackupMade
 from station.records.calibration import (
     Application,
@@ -142,6 +142,7 @@ __all__ = [
     "TIME",
     "Accuracy",
     "AccuracyReached",
+    "Advice",
     "Angles",
     "AnyModelDocument",
     "AnyReference",
