@@ -15,11 +15,11 @@ from station.studies.plans.rows import CASES, Checked, Kept, Struck, calibrated,
 TOLERANCES_MM = (0.03, 0.003)
 ABOUT = """# What the plans reach
 Machines drawn from the tolerances of the robot file (zero offsets uniform within 3 degrees, geometry and
-mounting normal), five samples a reading, servos with the scatter of eq. 35 on whole pulses, scale with the noise
-of eq. 34.  Positions are those of the emulated machine's own geometry, over a grid of 13 x 9.
+mounting normal), five samples a reading, servos with the scatter of eq. 35 on whole pulses, scale with the
+noise of eq. 34.  Positions are those of the emulated machine's own geometry, over a grid of 13 x 9.
 
-- *largest*: the largest position error over the workspace with the zeros in the drives only, a median with its
-  standard error.
+- *largest*: the largest position error over the workspace with the zeros in the drives only, a median with
+  its standard error.
 - *kept*: the share of machines below their 95 % bound, with the zeros only and with commands of the model.
 
 `python -m station.studies.plans` makes this page again."""
