@@ -17,6 +17,7 @@ from pydantic import (
 from station.five_bar import Robot as RobotFile
 from station.plans import PLANS
 from station.records import (
+    LARGEST_ID,
     AnyReference,
     CalibrationSummary,
     MemorySummary,
@@ -24,6 +25,8 @@ from station.records import (
     Reading,
     Record,
     Sections,
+    TaughtPosition,
+    TranslatedPosition,
 )
 
 Serial = Annotated[
@@ -91,6 +94,24 @@ class AnswerBody(BaseModel):
 
     prompt: str = Field(description="`id` of the prompt")
     value: float | None = Field(default=None, description="where a number is asked for")
+
+
+class TranslateBody(BaseModel):
+    """Positions that were taught under other zeros."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    positions: list[TaughtPosition] = Field(min_length=1, max_length=10_000)
+    taught_under: int | None = Field(
+        default=None, ge=1, le=LARGEST_ID, description="the run after whose application they were taught"
+    )
+
+
+class TranslatedList(Record):
+    """In their order."""
+
+    items: list[TranslatedPosition]
+    next: None = None
 
 
 class ClearBody(BaseModel):

@@ -42,6 +42,7 @@ _COMMANDS = {
     "solve": ("diagnosis", "Joint commands for target positions under the identified model."),
     "verify": ("archive", "Whether every finished run is as it ended."),
     "wire": ("wire", "Every request and answer of one run, with its time, in plain words."),
+    "translate": ("translate", "Taught joint positions under the zeros that the drives have now."),
     "transfer": ("diagnosis", "Apply the effects learned on one log, unchanged, to another log."),
 }
 """Module and purpose of each command; imported when it is asked for, since the numerics take long to load."""

@@ -27,7 +27,12 @@ from station.five_bar.robot_file import (
     Tolerances,
     read_sections,
 )
-from station.five_bar.weak_direction import describe_weak_direction
+from station.five_bar.weak_direction import (
+    KNOWN_DRM_SD_MM,
+    SECOND_MOUNT_MM,
+    describe_weak_direction,
+    with_second_mount,
+)
 
 __all__ = [
     "FIVE_BAR_MODEL",
@@ -36,9 +41,11 @@ __all__ = [
     "HOME",
     "INSET_MM",
     "KEPT",
+    "KNOWN_DRM_SD_MM",
     "MOST_ZERO_OFFSET",
     "NAMES",
     "SCALE_SD_MM",
+    "SECOND_MOUNT_MM",
     "SIZE",
     "FiveBar",
     "Geometry",
@@ -65,4 +72,5 @@ __all__ = [
     "pull",
     "read_sections",
     "with_references",
+    "with_second_mount",
 ]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from station.identification.advice import advice_of
 from station.identification.bound import PLAN_ENDED, accuracy_of, bounds_mm, with_accuracy
 from station.identification.document import gate_record, identification_document, position_error_map
 from station.identification.estimate import Gate, Identification, identify
@@ -29,6 +30,7 @@ __all__ = [
     "Memory",
     "Verification",
     "accuracy_of",
+    "advice_of",
     "bounds_mm",
     "fresh_stops",
     "fresh_stops_of",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from station.records.accuracy import AccuracyReached, PositionError, Remedy, WeakDirection
+from station.records.accuracy import AccuracyReached, Advice, PositionError, Remedy, WeakDirection
 from station.records.backup import BackupMade
 from station.records.calibration import (
     Application,
@@ -126,6 +126,7 @@ from station.records.run import (
     ZeroWrite,
 )
 from station.records.sections import Finite, Positive, Section, Sections, refusal, sections_to_toml
+from station.records.taught import TaughtPosition, TranslatedPosition, read_taught, translated_to_csv
 from station.records.trend import TrendPoint
 from station.records.types import LARGEST_ID, Angles, Complex, Flags, Index, Real
 from station.records.uid import uid7
@@ -142,6 +143,7 @@ __all__ = [
     "TIME",
     "Accuracy",
     "AccuracyReached",
+    "Advice",
     "Angles",
     "AnyModelDocument",
     "AnyReference",
@@ -250,8 +252,10 @@ __all__ = [
     "StoredEvent",
     "Submitted",
     "Table",
+    "TaughtPosition",
     "TemperatureReference",
     "TermOfModel",
+    "TranslatedPosition",
     "TrendPoint",
     "Verdict",
     "WeakDirection",
@@ -271,12 +275,14 @@ __all__ = [
     "read_foreign",
     "read_measurements",
     "read_table",
+    "read_taught",
     "readings_to_csv",
     "recorded_columns",
     "refusal",
     "residual_rows",
     "sections_to_toml",
     "translated",
+    "translated_to_csv",
     "uid7",
     "visited_in_degrees",
     "visited_ranges",

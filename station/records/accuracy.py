@@ -48,6 +48,17 @@ class AccuracyReached(Record):
         )
 
 
+class Advice(Record):
+    """What would make a calibration better."""
+
+    kind: str
+    """`repeat`, `joint_angle`, `drm_x` or `second_mount`."""
+    text: str
+    gain_mm: float
+    """By how much the bound on the largest position error would fall, with the zeros in the drives only."""
+    minutes: float
+
+
 class Remedy(Record):
     """What would determine a weak direction, and the standard uncertainty of the zero offsets with it."""
 

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from station.records.accuracy import AccuracyReached, PositionError, WeakDirection
+from station.records.accuracy import AccuracyReached, Advice, PositionError, WeakDirection
 from station.records.diagnosis_document import DiagnosisDocument, Finding
 from station.records.quantity import Quantity
 from station.records.reason import Reason
@@ -122,6 +122,8 @@ class ResultParts(Record):
     """With the identified offsets applied."""
     accuracy: AccuracyReached | None = None
     """What is promised of positions, beside what was wanted; null where no offsets were identified."""
+    advice: tuple[Advice, ...] = ()
+    """What would help most, by gain per minute; only what helps."""
     check: CheckFound | None = None
     """Of a check."""
     iterations: tuple[Iteration, ...] = ()

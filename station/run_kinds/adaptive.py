@@ -20,6 +20,7 @@ from station.identification import (
     Identification,
     Known,
     accuracy_of,
+    advice_of,
     bounds_mm,
     not_identified,
     predicted_result,
@@ -275,7 +276,9 @@ def _result(known: Known, wanted_mm: float | None, stopped: Stopped, last: Situa
     found, readings = known.found, list(known.readings)
     if impossible := found.mechanism.implausible(found.p):
         return without_jump(not_identified(f"Impossible result: {impossible}."), known.robot, readings)
-    result = predicted_result(found, readings).model_copy(update={"lasting": found.lasting.record()})
+    result = predicted_result(found, readings).model_copy(
+        update={"lasting": found.lasting.record(), "advice": advice_of(found)}
+    )
     result = without_jump(result, known.robot, readings)
     accuracy = accuracy_of(found, wanted_mm, stopped=stopped)
     return with_accuracy(result, accuracy, possible_mm=min(last.best_mm, last.bound_mm))

@@ -6,6 +6,7 @@ from station.errors import InputRefused
 from station.five_bar import Robot
 from station.identification import (
     accuracy_of,
+    advice_of,
     fresh_stops,
     not_identified,
     result_of,
@@ -35,7 +36,9 @@ def identified_and_verified(
     fresh: list[Reading] = yield MeasurementSequence(
         "Verifying at fresh positions", 2, fresh_stops(fit), mount=mount
     )
-    result = result_of(fit, readings, fresh).model_copy(update={"lasting": fit.lasting.record()})
+    result = result_of(fit, readings, fresh).model_copy(
+        update={"lasting": fit.lasting.record(), "advice": advice_of(fit)}
+    )
     result = without_jump(result, robot, [*readings, *fresh])
     result = with_accuracy(result, accuracy_of(fit, wanted_mm))
     return with_memory_use(result, fit.gate, memory, age_days)

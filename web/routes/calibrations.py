@@ -16,10 +16,17 @@ from station.records import (
     State,
     Submitted,
 )
-from station.run_kinds import application, kind_of_plan
+from station.run_kinds import application, change_of, kind_of_plan, translated
 from station.service import Runtime
 from web.aside import aside
-from web.bodies import AnswerBody, ApplyBody, CalibrationBody, CalibrationList
+from web.bodies import (
+    AnswerBody,
+    ApplyBody,
+    CalibrationBody,
+    CalibrationList,
+    TranslateBody,
+    TranslatedList,
+)
 from web.problems import documented
 from web.routes.parts import LOCATION, CalibrationId, CallerName, IdempotencyKey, TheRuntime
 
@@ -120,6 +127,13 @@ def answer_prompt(
     """Answer what a run in state `waiting` asks.  After a value that cannot be it goes on waiting."""
     runtime.orchestrator.answer(calibration_id, body.prompt, body.value, operator or "REST")
     return runtime.store.summary(calibration_id)
+
+
+@router.post("/{calibration_id}/translate", response_model=TranslatedList, responses=documented(404, 409))
+def translate(calibration_id: CalibrationId, body: TranslateBody, runtime: TheRuntime) -> TranslatedList:
+    """Taught joint positions as the same physical positions under the zeros of this run."""
+    change = change_of(runtime.store, calibration_id, body.taught_under)
+    return TranslatedList(items=list(translated(change, body.positions, runtime.settings.joints)))
 
 
 @router.post(

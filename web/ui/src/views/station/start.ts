@@ -5,7 +5,7 @@ import { t } from "../../messages";
 import { keepOperator, operator } from "../../operator";
 import type { Plan } from "../../types";
 import { dismissOutcome } from "./outcome";
-import { said } from "./wishes";
+import { forgetWishes, said } from "./wishes";
 
 export type StartField = "robot_serial" | "operator";
 
@@ -52,6 +52,7 @@ export async function confirm(): Promise<boolean> {
     };
     await start(body, key);
     keepOperator();
+    forgetWishes();
     trouble.value = null;
     disarm();
     dismissOutcome();

@@ -16,6 +16,11 @@ export type Wish = keyof typeof wishes;
 
 type Said = Pick<CalibrationBody, "until_mm" | "references">;
 
+/** References hold for one run of one robot. */
+export function forgetWishes(): void {
+  for (const [name, field] of Object.entries(wishes)) field.value = name === "joint" ? "1" : "";
+}
+
 /** Names the fields that are half filled in or no numbers; null when the rest makes sense. */
 export function said(): { body: Said; wrong: Wish | null } {
   const body: Said = {};
