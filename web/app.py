@@ -10,7 +10,7 @@ from fastapi import Depends, FastAPI
 
 from station import __version__
 from station.service import Runtime
-from web import headers, pages, problems
+from web import headers, methods, pages, problems
 from web.known_query import known_query
 from web.live import LiveFeed
 from web.routes import (
@@ -67,4 +67,5 @@ def create_app(runtime: Runtime, *, static: Path = pages.STATIC) -> FastAPI:
     problems.add_schema(app.openapi())
     app.add_middleware(headers.SameOrigin)
     app.add_middleware(headers.SecurityHeaders)
+    app.add_middleware(methods.HeadAsGet)
     return app
