@@ -10,7 +10,7 @@ from fastapi import Depends, FastAPI
 
 from station import __version__
 from station.service import Runtime
-from web import headers, methods, pages, problems
+from web import etags, headers, methods, pages, problems
 from web.known_query import known_query
 from web.live import LiveFeed
 from web.routes import (
@@ -65,6 +65,7 @@ def create_app(runtime: Runtime, *, static: Path = pages.STATIC) -> FastAPI:
     pages.add(app, static)
     problems.add(app)
     problems.add_schema(app.openapi())
+    app.add_middleware(etags.ETags, prefix=f"{API}/calibrations/")
     app.add_middleware(headers.SameOrigin)
     app.add_middleware(headers.SecurityHeaders)
     app.add_middleware(methods.HeadAsGet)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Annotated, Literal
 
 from pydantic import (
@@ -14,14 +15,40 @@ from pydantic import (
     WithJsonSchema,
 )
 
+from station.errors import InputRefused
 from station.five_bar import Robot as RobotFile
 from station.plans import PLANS
-from station.records import CalibrationSummary, MemorySummary, Reading, Record, Sections
+from station.records import (
+    CalibrationSummary,
+    MemorySummary,
+    Reading,
+    Record,
+    Sections,
+    checked_name,
+    checked_serial,
+)
+
+
+def _as_value(check: Callable[[str], str]) -> AfterValidator:
+    """A check of `station.records` as pydantic wants it."""
+
+    def validate(text: str) -> str:
+        try:
+            return check(text)
+        except InputRefused as refused:
+            raise ValueError(str(refused)) from refused
+
+    return AfterValidator(validate)
+
 
 Serial = Annotated[
-    str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64, pattern=r"^[\w.\-/]+$")
+    str,
+    StringConstraints(strip_whitespace=True, min_length=1, max_length=64, pattern=r"^[\w.\-/]+$"),
+    _as_value(checked_serial),
 ]
-Name = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64)]
+Name = Annotated[
+    str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64), _as_value(checked_name)
+]
 
 
 def _known_plan(name: str) -> str:

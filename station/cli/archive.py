@@ -17,7 +17,8 @@ from station.records import readings_to_csv
 def export_command(home: Path, calibration_id: int, config: Path | None) -> None:
     """One run's readings as a measurement file on standard output."""
     with kept(home, config) as store:
-        click.echo(readings_to_csv(store.readings(calibration_id)), nl=False)
+        uid = store.summary(calibration_id).uid
+        click.echo(readings_to_csv(store.readings(calibration_id), run_uid=uid), nl=False)
 
 
 @click.command("verify")

@@ -11,7 +11,7 @@ from station.cli.machine_options import machine_options, read_settings
 from station.cli.one_run import one_run
 from station.five_bar import Robot
 from station.plans import PLANS
-from station.records import CalibrationRequest, PlanName
+from station.records import CalibrationRequest, PlanName, checked_name, checked_serial
 from station.run_kinds import kind_of_plan
 from station.service import Runtime, Submitted
 
@@ -43,12 +43,15 @@ def calibrate_command(
             f"--serial {serial} is not the robot of {robot_file}, which is {robot.serial}."
         )
 
+    named, who = checked_serial(serial or robot.serial), checked_name(operator or getpass.getuser())
+    if work_order is not None:
+        checked_name(work_order)
+
     def submit(runtime: Runtime) -> Submitted:
         if robot_file:
             runtime.store.save_robot(robot)
-        who = operator or getpass.getuser()
         return runtime.orchestrator.submit(
-            CalibrationRequest(serial or robot.serial, kind_of_plan(plan), who, plan, work_order)
+            CalibrationRequest(named, kind_of_plan(plan), who, plan, work_order)
         )
 
     one_run(home, settings, emulate, submit)

@@ -24,7 +24,7 @@ from pydantic import Field, ValidationError
 from drivers.scaling import JointScaling
 from station.errors import InputRefused
 from station.five_bar.kinematics import Geometry, Unreachable, inverse
-from station.records import Complex, Finite, Positive, Section, Sections, refusal
+from station.records import Complex, Finite, Positive, Section, Sections, checked_serial, refusal
 
 Pair = tuple[float, float]
 FIVE_BAR_MODEL = "five-bar"
@@ -81,7 +81,9 @@ class Robot:
 
         :raises InputRefused: missing, not TOML, or a value out of place, with the section and key.
         """
-        return cls.from_dict(read_sections(path), source=str(path))
+        robot = cls.from_dict(read_sections(path), source=str(path))
+        checked_serial(robot.serial)
+        return robot
 
     @classmethod
     def from_dict(cls, data: Sections, *, source: str = "robot") -> Robot:
