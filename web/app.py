@@ -28,6 +28,7 @@ from web.routes import (
     station,
     stop,
 )
+from web.slow_bodies import SlowBodies
 
 API = "/api/v1"
 DESCRIPTION = """Zero-offset calibration of a 2-DOF five-bar robot, for the operator's page and the MES alike.
@@ -65,6 +66,7 @@ def create_app(runtime: Runtime, *, static: Path = pages.STATIC) -> FastAPI:
     pages.add(app, static)
     problems.add(app)
     problems.add_schema(app.openapi())
+    app.add_middleware(SlowBodies)
     app.add_middleware(etags.ETags, prefix=f"{API}/calibrations/")
     app.add_middleware(headers.SameOrigin)
     app.add_middleware(headers.SecurityHeaders)
