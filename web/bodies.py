@@ -47,7 +47,11 @@ Serial = Annotated[
     _as_value(checked_serial),
 ]
 Name = Annotated[
-    str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64), _as_value(checked_name)
+    str,
+    StringConstraints(strip_whitespace=True, min_length=1, max_length=64),
+    _as_value(checked_name),
+    # for those who read the schema; a person gets the sentence of the check
+    Field(json_schema_extra={"pattern": r"^[^\u0000-\u001f\u007f-\u009f\u2028\u2029]*$"}),
 ]
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from datetime import datetime
 from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Query, Response
@@ -21,7 +20,7 @@ from station.service import Runtime
 from web.aside import aside
 from web.bodies import ApplyBody, CalibrationBody, CalibrationList
 from web.problems import documented
-from web.routes.parts import LOCATION, CalibrationId, IdempotencyKey, TheRuntime
+from web.routes.parts import LOCATION, CalibrationId, IdempotencyKey, Moment, TheRuntime
 
 ABORT_TIMEOUT_S = 5.0
 
@@ -56,9 +55,9 @@ def list_calibrations(
     verdict: Literal["pass", "fail"] | None = None,
     plan: Annotated[str | None, Query(description="as in the run, also `apply` or `dataset`")] = None,
     work_order: str | None = None,
-    since: Annotated[datetime | None, Query(description="created at or after")] = None,
-    until: Annotated[datetime | None, Query(description="created before")] = None,
-    ended_since: Annotated[datetime | None, Query(description="ended at or after")] = None,
+    since: Annotated[Moment | None, Query(description="created at or after")] = None,
+    until: Annotated[Moment | None, Query(description="created before")] = None,
+    ended_since: Annotated[Moment | None, Query(description="ended at or after")] = None,
 ) -> CalibrationList:
     """Newest first, page by page."""
     page = runtime.store.calibrations(
