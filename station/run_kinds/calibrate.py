@@ -45,7 +45,9 @@ def calibrate(start: Start) -> Procedure:
     """
     if start.plan == "paper":  # the published method has no use for what earlier runs know
         return published(start.robot)
-    return measured_and_verified(start.plan, start.robot, start.store.memory(start.robot.serial))
+    return measured_and_verified(
+        start.plan, start.robot, start.store.memory(start.robot.serial, start.began_at)
+    )
 
 
 def published(robot: Robot) -> Procedure:

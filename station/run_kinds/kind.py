@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from datetime import datetime
 from types import MappingProxyType
 
 from station.five_bar import Robot
@@ -23,6 +24,8 @@ class Start:
     store: Store
     request: CalibrationRequest
     robot: Robot
+    began_at: datetime | None = None
+    """The station's clock when the run was created; None is now."""
 
     @property
     def of(self) -> int:

@@ -8,13 +8,11 @@ to the drives directly, past the worker and past every queue.
 from __future__ import annotations
 
 import logging
-import time
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
 from datetime import UTC, datetime
 from queue import Empty, Queue
 from threading import Lock, Thread
-from typing import Any
 
 from drivers.errors import DeviceError
 from station.errors import Busy, InputRefused, KeyReused, NotFound, StepFailed, StoreUnavailable
@@ -27,32 +25,25 @@ from station.motion import (
     Listeners,
     LiveEvent,
     Machine,
-    Positioner,
-    Retracting,
-    Zeroing,
 )
 from station.plans import PLANS
 from station.records import (
     CalibrationRequest,
     CalibrationResult,
     CalibrationSummary,
-    MeasurementSequence,
-    Reading,
     Reason,
-    Retract,
-    SetZeros,
     State,
     StationInfo,
     StationView,
-    Step,
     Submitted,
     Workspace,
     because,
     uid7,
 )
-from station.run_kinds import RUN_KINDS, RunKind, Start
+from station.run_kinds import RUN_KINDS, RunKind
+from station.service.carrying_out import CarryingOut
 from station.service.clock_watch import ClockWatch
-from station.service.procedures import follow_procedure
+from station.service.recording import Recording
 from station.service.run import Run
 from station.settings import Settings
 from station.store import Store, request_hash, too_full
@@ -301,8 +292,10 @@ class Orchestrator:
         self._clock.look()
 
     def _execute(self, run: Run) -> None:
-        ending = self._perform(run)
+        recording = Recording(self._machine.devices, self._settings)
+        ending = self._perform(run, recording)
         ending = self._bring_to_rest(run, ending)
+        self._keep_wire(run, recording)
         judged = self._kinds[run.request.kind].judged
         run.state = self._store.finish(run.id, ending.state, ending.result, ending.reason, judged=judged)
         try:
@@ -314,6 +307,12 @@ class Orchestrator:
             self._last, self._run = summary, None
         run.ended.set()
         self._listeners.publish("ended", summary)
+
+    def _keep_wire(self, run: Run, recording: Recording) -> None:
+        try:
+            self._store.add_wire(run.id, recording.end())
+        except StoreUnavailable:
+            log.exception("The end of the wire log of run %d cannot be stored", run.id)
 
     def _unread(self, run: Run, reason: Reason) -> CalibrationSummary:
         """How a run ended that the store does not give back."""
@@ -339,9 +338,19 @@ class Orchestrator:
             created_at=brief.started_at or datetime.now(UTC),
         )
 
-    def _perform(self, run: Run) -> _Ending:
+    def _perform(self, run: Run, recording: Recording) -> _Ending:
+        kind = self._kinds[run.request.kind]
         try:
-            result = self._calibrate(run)
+            result = CarryingOut(
+                run,
+                kind,
+                self._machine,
+                self._store,
+                self._settings,
+                self._listeners,
+                recording.begin,
+                recording.take,
+            ).result()
         except Cancelled:
             return _Ending(State.ABORTED)
         except (DeviceError, StepFailed, InputRefused) as error:
@@ -352,7 +361,7 @@ class Orchestrator:
         except Exception as error:  # the worker must outlive any mistake in a procedure
             log.exception("Run %d failed unexpectedly", run.id)
             return _Ending(State.FAILED, because("unexpected", type=type(error).__name__, text=str(error)))
-        if not self._kinds[run.request.kind].judged:
+        if not kind.judged:
             return _Ending(State.SUCCEEDED, result.reason)
         return _Ending(State.SUCCEEDED, result.reason, result)
 
@@ -371,74 +380,6 @@ class Orchestrator:
         if run.cancel.is_set():
             ending = _Ending(State.ABORTED, because("stopped", by=run.stopped_by or "somebody"))
         return _Ending(ending.state, _with_doubt(ending.reason, doubt))
-
-    def _calibrate(self, run: Run) -> CalibrationResult:
-        if run.cancel.is_set():
-            raise Cancelled
-        self._set_state(run, State.RUNNING)
-        kind = self._kinds[run.request.kind]
-        assert kind.procedure is not None
-        elapsed_s = self._continue(run, kind)
-        positioner = Positioner(
-            self._machine, run.robot, self._settings.joints, run.cancel, time.monotonic() - elapsed_s
-        )
-        positioner.prepare(from_outside=kind.from_outside)
-        zeroing = Zeroing(run.id, self._machine, positioner, self._store)
-        zeroing.settle()
-        procedure = kind.procedure(Start(self._store, run.request, run.robot))
-
-        def carry_out(step: Step) -> Any:
-            match step:
-                case MeasurementSequence():
-                    return self._sequence(run, positioner, step)
-                case SetZeros():
-                    self._begin(run, step)
-                    return zeroing.carry_out(step)
-                case Retract():
-                    self._begin(run, step)
-                    return Retracting(self._machine, positioner).carry_out()
-
-        try:
-            result = follow_procedure(procedure, carry_out)
-        finally:
-            procedure.close()
-        self._listeners.publish("residuals", run.add_result(result))
-        return result
-
-    def _continue(self, run: Run, kind: RunKind) -> float:
-        """Take over the readings of an earlier run; real time since it started, 0 where there is none."""
-        if kind.continues is None:
-            return 0.0
-        earlier = kind.continues(self._store, run.request)
-        self._store.add_readings(run.id, earlier.readings)
-        run.inherit(len(earlier.readings))
-        return max(earlier.elapsed_s, earlier.readings[-1].t_s / self._machine.devices.speed)
-
-    def _begin(self, run: Run, step: SetZeros | Retract) -> None:
-        """A step without readings."""
-        self._listeners.publish("walk", run.begin_sequence(MeasurementSequence(step.title, step.number, ())))
-        self._listeners.publish("run", run.brief())
-
-    def _sequence(self, run: Run, positioner: Positioner, sequence: MeasurementSequence) -> list[Reading]:
-        self._listeners.publish("walk", run.begin_sequence(sequence))
-        self._set_state(run, State.RUNNING)
-        readings = []
-        for index, stop in enumerate(sequence.stops):
-            try:
-                reading = positioner.measure(stop, run.step + 1, sequence.number)
-            except DeviceError as error:
-                raise StepFailed(f"At position {stop.position}: {error}") from error
-            self._store.add_reading(run.id, reading)
-            readings.append(reading)
-            row = run.add_reading(index, reading, self._machine.shown_place(reading.theta_deg))
-            self._listeners.publish("reading", row)
-            self._listeners.publish("run", run.brief())
-        return readings
-
-    def _set_state(self, run: Run, state: State) -> None:
-        self._store.set_state(run.id, state, steps=run.steps)
-        run.state = state
-        self._listeners.publish("run", run.brief())
 
 
 def _with_doubt(reason: Reason | None, doubt: str | None) -> Reason | None:
