@@ -28,7 +28,6 @@ from station.records import (
 )
 from station.store.chain import Verified, append, verify
 from station.store.ends import End, UnstoredEnds, end_of
-from station.store.stored_events import StoredEvents
 from station.store.robots import Memories
 from station.store.rows import (
     LIST_COLUMNS,
@@ -47,6 +46,7 @@ from station.store.rows import (
     row_id,
     summary_from_row,
 )
+from station.store.stored_events import StoredEvents
 from station.store.tables import Tables
 from station.store.times import RunTimes, now, now_ms
 from station.store.trends import Trends
