@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Self
 
-from pydantic import BaseModel, ConfigDict, Field, SerializeAsAny, ValidationError, model_validator
+from pydantic import BaseModel, ConfigDict, Field, JsonValue, SerializeAsAny, ValidationError, model_validator
 from pydantic_core import ErrorDetails
 
 from drivers.driver import DriverSettings
@@ -35,6 +35,10 @@ class ScaleSettings(_Section):
         from drivers.scales import SCALES
 
         return _with_options(data, "protocol", {name: driver.settings for name, driver in SCALES.items()})
+
+    def flat(self) -> dict[str, JsonValue]:
+        """As the station file gives it, with every option."""
+        return {"protocol": self.protocol, **self.options.model_dump(mode="json")}
 
 
 class JointSettings(_Section):
@@ -82,6 +86,11 @@ class ServoSettings(_Section):
 
         known = {name: driver.settings for name, driver in SERVOS.items()}
         return _with_options(data, "profile", known, own=("joint",))
+
+    def flat(self) -> dict[str, JsonValue]:
+        """As the station file gives it, with every option."""
+        joints = [joint.model_dump(mode="json") for joint in self.joint]
+        return {"profile": self.profile, "joint": joints, **self.options.model_dump(mode="json")}
 
     @model_validator(mode="after")
     def _drives_differ(self) -> Self:
@@ -172,12 +181,15 @@ class RetentionSettings(_Section):
     samples_days: Annotated[float, Field(ge=1)] | None = None
     """Days after the end of a run after which the single samples of its readings are dropped; their mean and
     number stay.  An event says so.  Without it they are kept."""
+    wire_days: Annotated[float, Field(ge=1)] | None = None
+    """Days after the end of a run after which what crossed the wires during it is dropped.  An event says so.
+    Without it they are kept."""
 
 
 class QualitySettings(_Section):
     """`[quality]`: what process control compares finished runs with."""
 
-    zero_offset_deg: Annotated[float, Field(gt=0, le=90)] = 1.0
+    zero_offset_deg: Annotated[float, Field(gt=0, le=90)] = 3.0
     """Largest zero offset, to either side, that counts as within the process limits."""
     position_error_mm: Annotated[float, Field(gt=0, le=1000)] = 0.5
     """Largest position error, 95 % bound over the workspace, that counts as within the process limits."""

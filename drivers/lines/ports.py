@@ -8,6 +8,7 @@ import select
 import socket
 import termios
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Protocol
 
@@ -38,7 +39,11 @@ class Port(Protocol):
         ...
 
 
-def open_port(address: SerialAddress | NetAddress, *, xonxoff: bool) -> Port:
+Opener = Callable[[SerialAddress | NetAddress, bool], Port]
+"""As `open_port`."""
+
+
+def open_port(address: SerialAddress | NetAddress, xonxoff: bool) -> Port:
     """Open it for this process alone.
 
     :raises LinkLost: the port is missing, busy or unreachable

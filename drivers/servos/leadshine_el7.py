@@ -7,7 +7,6 @@ word first.  A move is one frame: the path-0 block 6200h..6207h, whose last word
 
 from __future__ import annotations
 
-import logging
 import time
 from collections.abc import Sequence
 from contextlib import suppress
@@ -15,12 +14,11 @@ from enum import IntFlag
 
 from drivers.driver import Drive, DriverSettings, Seconds, ServoDriver
 from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
-from drivers.lines import ModbusBus, UnansweredWrite
+from drivers.lines import ModbusBus, OnLine, UnansweredWrite
 from drivers.protocols import AxisStatus
 from drivers.scaling import JointScaling
 from drivers.servos.joint_commands import JointCommands
-
-log = logging.getLogger(__name__)
+from drivers.servos.registers import values_of, words_of
 
 CONTROL_MODE = 0x0003
 ALARM_RESET = 0x0033
@@ -69,10 +67,11 @@ class LeadshineSettings(DriverSettings):
     """The longest time that a drive on this line takes to reply."""
 
 
-class LeadshineEL7:
+class LeadshineEL7(OnLine):
     """One drive as a `ServoAxis`; may be called from any thread."""
 
     def __init__(self, bus: ModbusBus, unit: int, scaling: JointScaling, *, name: str) -> None:
+        super().__init__(bus.line)
         self._bus = bus
         self._unit = unit
         self._scaling = scaling
@@ -91,6 +90,7 @@ class LeadshineEL7:
 
         :raises DeviceError: with what is wrong and what to check
         """
+        self._target_pulses = None
         self._bus.open(self)
         try:
             mode = self._read(CONTROL_MODE)
@@ -154,7 +154,7 @@ class LeadshineEL7:
             raise DeviceFault(f"{self._commands.title} is not switched on.")
         block = [
             MOVE_ABSOLUTE,
-            *_words(target),
+            *words_of(target),
             rpm,
             _RAMP_MS_PER_1000_RPM,
             _RAMP_MS_PER_1000_RPM,
@@ -244,7 +244,7 @@ class LeadshineEL7:
         return self._bus.read(self._unit, address, 1)[0]
 
     def _feedback_pulses(self) -> int:
-        return _signed(self._bus.read(self._unit, FEEDBACK, 2))
+        return values_of(self._bus.read(self._unit, FEEDBACK, 2))[0]
 
     def _is_at_target(self) -> bool:
         """The complete bit alone may still be that of the previous move."""
@@ -253,28 +253,30 @@ class LeadshineEL7:
 
     def _holds_target(self, target: int) -> bool:
         """After a lost reply: whether the drive got the move."""
-        return _signed(self._bus.read(self._unit, PATH_0 + 1, 2)) == target
+        return values_of(self._bus.read(self._unit, PATH_0 + 1, 2)) == [target]
 
     def _runs_or_stands_at(self, target: int) -> bool:
         running = MotionStatus(self._read(MOTION_STATUS)) & MotionStatus.RUNNING
         return bool(running) or abs(self._feedback_pulses() - target) <= _IN_POSITION_PULSES
 
 
-def _words(value: int) -> tuple[int, int]:
-    """A signed 32-bit value as two registers, high word first."""
-    return (value >> 16) & 0xFFFF, value & 0xFFFF
-
-
-def _signed(words: list[int]) -> int:
-    value = words[0] << 16 | words[1]
-    return value - (1 << 32) if value & (1 << 31) else value
-
-
 def _make(settings: LeadshineSettings, drives: Sequence[Drive]) -> tuple[LeadshineEL7, ...]:
     bus = ModbusBus(settings.url, timeout_s=settings.timeout_s)
-    if bus.notice:
-        log.warning("%s", bus.notice)
     return tuple(LeadshineEL7(bus, drive.unit, drive.scaling, name=drive.name) for drive in drives)
 
 
-DRIVER = ServoDriver(LeadshineSettings, _make)
+REGISTERS = {
+    CONTROL_MODE: "control mode",
+    ALARM_RESET: "alarm reset",
+    DIGITAL_INPUT_1: "function of input 1",
+    **{address: f"function of output {n}" for n, address in enumerate(DIGITAL_OUTPUTS, start=1)},
+    ALARM: "alarm",
+    MOTION_STATUS: "motion status",
+    TRIGGER: "trigger",
+    OUTPUT_STATUS: "outputs",
+    FEEDBACK: "position, pulses",
+    PATH_0: "path 0: mode, target, speed, ramps, pause, trigger",
+    PATH_0 + 1: "target of path 0, pulses",
+}
+
+DRIVER = ServoDriver(LeadshineSettings, _make, REGISTERS)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import statistics
-import time
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from threading import Event
 
@@ -14,6 +14,7 @@ import numpy as np
 from drivers.protocols import ServoAxis
 from station.errors import StepFailed, sentence
 from station.five_bar import Robot, forward, inverse
+from station.motion.clock import Clock, RunClock
 from station.motion.limits import check_way
 from station.motion.machine import Machine, NotReady
 from station.records import Angles, Reading, Stop
@@ -47,7 +48,7 @@ class Positioner:
     robot: Robot
     joints: tuple[JointSettings, JointSettings]
     cancel: Event
-    started: float = field(default_factory=time.monotonic)
+    clock: Clock = field(default_factory=RunClock)
     mount: str | None = None
     """Where the mechanism is mounted; None: at the robot file's `c`."""
     _theta: Angles = (math.nan, math.nan)
@@ -73,6 +74,8 @@ class Positioner:
         self.check_cancel()
         self.machine.ready_axes()
         if from_outside:
+            with suppress(NotReady):  # outside the workspace its head may be off the scale
+                self.machine.connect_missing()
             self._theta = self._feedback()
             return
         self.look()
@@ -97,7 +100,7 @@ class Positioner:
         scale_mm = round(statistics.fmean(samples), _DIGITS)
         self._check_stands(stop, theta)
         self._check_travel(stop, number, samples, theta)
-        t_s = round((time.monotonic() - self.started) * self.machine.devices.speed, 3)
+        t_s = round(self.clock.now() * self.machine.devices.speed, 3)
         self.machine.moved(theta, scale_mm)
         return Reading(number, t_s, theta, self._direction, scale_mm, stop.position, sequence, tuple(samples))
 
@@ -169,22 +172,23 @@ class Positioner:
     def _wait_in_position(
         self, stop: Stop, start: Angles, target: Angles, limit_s: float, scale: bool
     ) -> None:
-        deadline = time.monotonic() + limit_s
-        next_look = time.monotonic() + _LOOK_S
+        now = self.clock.now()
+        deadline, next_look = now + limit_s, now + _LOOK_S
         while True:
             self.check_cancel()
             # Both, each time: one that has arrived may still raise an alarm while the other moves.
             waiting = [axis for axis in self.machine.devices.axes if not self._arrived(stop, axis)]
             if not waiting:
                 return
-            if time.monotonic() > deadline:
+            now = self.clock.now()
+            if now > deadline:
                 names = " and ".join(axis.name for axis in waiting)
                 raise StepFailed(
                     f"{sentence(names)} did not reach position {stop.position} within {limit_s:.1f} s."
                 )
-            if time.monotonic() > next_look:
+            if now > next_look:
                 self._check_corridor(stop, start, target, scale)
-                next_look = time.monotonic() + _LOOK_S
+                next_look = now + _LOOK_S
             self._wait(_POLL_S)
 
     def _arrived(self, stop: Stop, axis: ServoAxis) -> bool:
@@ -218,10 +222,10 @@ class Positioner:
         No wait is longer than a fixed pause was: what is still moving then is judged as before.
         """
         limits = self.machine.limits
-        until = time.monotonic() + limits.settle_s / self.machine.devices.speed
+        until = self.clock.now() + limits.settle_s / self.machine.devices.speed
         scale: list[float] = []
         angles: list[Angles] = []
-        while len(scale) < limits.samples or time.monotonic() < until:
+        while len(scale) < limits.samples or self.clock.now() < until:
             self._sample(scale, angles)
             last = scale[-limits.samples :]
             if not math.isfinite(scale[-1]):
@@ -305,7 +309,7 @@ class Positioner:
         self._wait(machine_s / self.machine.devices.speed)
 
     def _wait(self, seconds: float) -> None:
-        if self.cancel.wait(seconds):
+        if self.clock.wait(self.cancel, seconds):
             raise Cancelled
 
     def check_cancel(self) -> None:

@@ -131,6 +131,7 @@ from station.records.trend import TrendPoint
 from station.records.types import LARGEST_ID, Angles, Complex, Flags, Index, Real
 from station.records.uid import uid7
 from station.records.visited import inside_visited, visited_in_degrees, visited_ranges
+from station.records.wire import WireHeader
 
 __all__ = [
     "DIAGNOSIS_SCHEMA",
@@ -257,6 +258,7 @@ __all__ = [
     "TrendPoint",
     "Verdict",
     "WeakDirection",
+    "WireHeader",
     "Workspace",
     "ZeroOffset",
     "ZeroWrite",

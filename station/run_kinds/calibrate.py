@@ -44,7 +44,7 @@ def calibrate(start: Start) -> Procedure:
     """
     if start.plan == "paper":  # the published method has no use for what earlier runs know
         return published(start.robot, start.wanted_mm)
-    memory = start.store.memory(start.robot.serial)
+    memory = start.store.memory(start.robot.serial, start.began_at)
     if guided := GUIDED.get(start.plan):
         return guided(start, memory)
     if start.plan == "adaptive":

@@ -8,11 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from datetime import datetime
 from types import MappingProxyType
+
+from pydantic import TypeAdapter
 
 from station.five_bar import Robot
 from station.plans import PLANS, Pace
-from station.records import Calibration, CalibrationRequest, PlanName, Procedure, Reading
+from station.records import AnyReference, Calibration, CalibrationRequest, PlanName, Procedure, Reading
 from station.settings import LimitSettings
 from station.store import Store
 
@@ -26,6 +29,8 @@ class Start:
     robot: Robot
     limits: LimitSettings = field(default_factory=LimitSettings)
     """Of this station."""
+    began_at: datetime | None = None
+    """The station's clock when the run was created; None is now."""
 
     @property
     def pace(self) -> Pace:
@@ -93,6 +98,17 @@ class RunKind:
     def plans(self) -> tuple[PlanName, ...]:
         """Plans that this kind measures by; a start request that names one of them is of this kind."""
         return tuple(plan.name for plan in PLANS.values() if plan.run_kind == self.name)
+
+
+def own_references(store: Store, calibration: Calibration) -> tuple[AnyReference, ...]:
+    """Those that an ended run was started with, beside those of its robot's file.
+
+    What somebody read during the run is not among them.
+    """
+    asked = [
+        event.data.get("references", []) for event in store.events(calibration.id) if event.kind == "asked"
+    ]
+    return tuple(TypeAdapter(tuple[AnyReference, ...]).validate_python(asked[0])) if asked else ()
 
 
 def robot_as_measured(store: Store, calibration: Calibration) -> Robot:

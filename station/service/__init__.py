@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from station.service.orchestrator import LiveEvent, Orchestrator, Submitted
+from station.service.procedures import follow_procedure
+from station.service.replaying import Replayed, replay
 from station.service.runtime import Runtime, holding
 
 __all__ = [
     "LiveEvent",
     "Orchestrator",
+    "Replayed",
     "Runtime",
     "Submitted",
+    "follow_procedure",
     "holding",
+    "replay",
 ]

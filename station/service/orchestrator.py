@@ -51,8 +51,9 @@ from station.records import (
     uid7,
 )
 from station.run_kinds import RUN_KINDS, RunKind, calibration_holds, clear_failed_check
+from station.service.carrying_out import CarryingOut, Unanswered
 from station.service.clock_watch import ClockWatch
-from station.service.execution import Execution, Unanswered
+from station.service.recording import Recording
 from station.service.run import Run
 from station.settings import Settings
 from station.store import Store, request_hash, too_full
@@ -341,8 +342,10 @@ class Orchestrator:
         self._clock.look()
 
     def _execute(self, run: Run) -> None:
-        ending = self._perform(run)
+        recording = Recording(self._machine.devices, self._settings)
+        ending = self._perform(run, recording)
         ending = self._bring_to_rest(run, ending)
+        self._keep_wire(run, recording)
         judged = self._kinds[run.request.kind].judged
         run.state = self._store.finish(run.id, ending.state, ending.result, ending.reason, judged=judged)
         try:
@@ -354,6 +357,12 @@ class Orchestrator:
             self._last, self._run, self._holds = summary, None, self._calibration_holds()
         run.ended.set()
         self._listeners.publish("ended", summary)
+
+    def _keep_wire(self, run: Run, recording: Recording) -> None:
+        try:
+            self._store.add_wire(run.id, recording.end())
+        except StoreUnavailable:
+            log.exception("The end of the wire log of run %d cannot be stored", run.id)
 
     def _unread(self, run: Run, reason: Reason) -> CalibrationSummary:
         """How a run ended that the store does not give back."""
@@ -379,15 +388,18 @@ class Orchestrator:
             created_at=brief.started_at or datetime.now(UTC),
         )
 
-    def _perform(self, run: Run) -> _Ending:
+    def _perform(self, run: Run, recording: Recording) -> _Ending:
+        kind = self._kinds[run.request.kind]
         try:
-            result = Execution(
+            result = CarryingOut(
                 run,
-                self._kinds[run.request.kind],
+                kind,
                 self._machine,
                 self._store,
                 self._settings,
                 self._listeners,
+                recording.begin,
+                recording.take,
             ).result()
         except Cancelled:
             return _Ending(State.ABORTED)
@@ -401,7 +413,7 @@ class Orchestrator:
         except Exception as error:  # the worker must outlive any mistake in a procedure
             log.exception("Run %d failed unexpectedly", run.id)
             return _Ending(State.FAILED, because("unexpected", type=type(error).__name__, text=str(error)))
-        if not self._kinds[run.request.kind].judged:
+        if not kind.judged:
             return _Ending(State.SUCCEEDED, result.reason)
         return _Ending(State.SUCCEEDED, result.reason, result)
 

@@ -57,6 +57,8 @@ class Run:
     """Steps that an earlier run made."""
     steps: int = 0
     iterations: tuple[Iteration, ...] = ()
+    known_answers: list[float | None] = field(default_factory=list)
+    """Of an earlier run that is played back, in their order."""
     prompt: Prompt | None = None
     """What the run waits to be told."""
     answered: Event = field(default_factory=Event)
@@ -83,6 +85,9 @@ class Run:
         with self._lock:
             self.answered.clear()
             self.prompt, self._asked = prompt, step
+            played = bool(self.known_answers)
+        if played:
+            self.answer(prompt.id, self.known_answers.pop(0), "the record")
 
     def answer(self, prompt: str, value: float | None, who: str) -> None:
         """:raises NotApplicable: this is not what is asked.  :raises FieldRefused: the value cannot be."""

@@ -180,5 +180,16 @@ def filters(db: Database) -> None:
     db.execute("CREATE INDEX calibrations_ended_ms ON calibrations (ended_ms)")
 
 
+@migrations()
+def wire_logs(db: Database) -> None:
+    """What crossed the wires during a run, in pieces of one zlib stream; the chain has its hash."""
+    db.execute(
+        """CREATE TABLE wire_logs (
+            run_id INTEGER NOT NULL REFERENCES calibrations (id), n INTEGER NOT NULL, piece BLOB NOT NULL,
+            PRIMARY KEY (run_id, n)) WITHOUT ROWID"""
+    )
+    db.execute("ALTER TABLE chain ADD COLUMN wire_sha256 TEXT")
+
+
 def _expand(blob: bytes) -> bytes:
     return zlib.decompressobj(zdict=_WORDS).decompress(blob)

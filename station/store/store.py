@@ -51,8 +51,10 @@ from station.store.rows import (
     row_id,
     summary_from_row,
 )
+from station.store.tables import Tables
 from station.store.times import RunTimes, now, now_ms
 from station.store.trends import Trends
+from station.store.wire_logs import WireLogs
 from station.store.zero_journal import ZeroJournal
 
 log = logging.getLogger(__name__)
@@ -61,7 +63,7 @@ S = TypeVar("S", bound=CalibrationSummary)
 _UNFINISHED = (State.QUEUED, State.RUNNING, State.WAITING)
 
 
-class Store(Memories, ZeroJournal, Trends):
+class Store(Memories, ZeroJournal, WireLogs, Trends, Tables):
     """Thread safe.  Order is by number: the clock that gives the times may jump.
 
     Every method may raise `StoreUnavailable`, unless it says otherwise.
@@ -368,9 +370,11 @@ class Store(Memories, ZeroJournal, Trends):
 
     # Readings and events -----------------------------------------------------------------------
 
-    def add_reading(self, calibration_id: int, reading: Reading) -> None:
-        """Committed and on the disk when this returns."""
-        self.add_readings(calibration_id, [reading])
+    def add_reading(self, calibration_id: int, reading: Reading, *, wire: bytes = b"") -> None:
+        """Committed and on the disk when this returns, with the piece of the wire log up to it."""
+        with self._writing():
+            self.add_readings(calibration_id, [reading])
+            self.add_wire(calibration_id, wire)
 
     def add_readings(self, calibration_id: int, readings: Sequence[Reading]) -> None:
         """Several in one transaction, as an import does."""

@@ -18,6 +18,7 @@ from station.studies.plans.walked import SAMPLES, walk
 
 LEVEL_SD_DEG, MOUNTING_SD_MM = 0.005, 0.02
 REMOUNT_MM, LINK_MM = 1.0, 0.3
+TOMORROW = datetime(2030, 1, 1, tzinfo=UTC)
 WISH = 1.01
 """Of the bound that the full run before reached."""
 CASES: dict[str, tuple[PlanName, bool, bool]] = {
@@ -125,12 +126,12 @@ def checked(item: tuple[float, int]) -> Checked:
     """A full run, then plan `check` twice."""
     robot, machine, rng = _machine(item)
     fit = identify(robot, machine.machine().run(_stops(item[0], "full"), SAMPLES))
-    still = walk(check(fit, 0.0, 24.0), machine.machine(1)).result
+    still = walk(check(fit, 0.0, TOMORROW), machine.machine(1)).result
     assert still.check is not None
     joint = int(rng.integers(2))
     truth = machine.truth.copy()
     truth[joint] += np.radians(still.check.smallest_by_joint_deg[joint]) * rng.choice([-1.0, 1.0])
-    shifted = walk(check(fit, 0.0, 24.0), Drawn(robot, truth, item[1]).machine(2)).result
+    shifted = walk(check(fit, 0.0, TOMORROW), Drawn(robot, truth, item[1]).machine(2)).result
     return Checked(still.check.smallest_shift_deg, still.verdict == "fail", shifted.verdict == "fail")
 
 

@@ -104,7 +104,7 @@ def test_quick_stop_halts_a_move() -> None:
 def test_a_stop_gets_through_although_nobody_is_connected(rig: EmulatedRig) -> None:
     bus = ModbusBus(rig.servo_url)
     sent: list[bytes] = []
-    bus.trace = lambda direction, data: sent.append(data) if direction == "tx" else None
+    bus.line.recorder = lambda what, data: sent.append(data) if what == "tx" else None
     axis = LeadshineEL7(bus, 1, JointScaling(10_000, 20, 0.0, 1), name="servo axis 1")
     axis.make_safe()
     stop, look = bytes.fromhex("01 06 6002 0040"), bytes.fromhex("01 03 0B05 0001")
@@ -280,7 +280,7 @@ def test_a_move_whose_reply_is_lost_runs_once(rig: EmulatedRig) -> None:
     axis.connect()
     axis.enable()
     sent: list[bytes] = []
-    bus.trace = lambda direction, data: sent.append(data) if direction == "tx" else None
+    bus.line.recorder = lambda what, data: sent.append(data) if what == "tx" else None
     rig.inject(Fault(kind="drive_late", joint=1, after=2, delay_s=0.12))  # two reads precede the move
     axis.move_to(10.0, 20.0)
     wait_for(lambda: axis.status().in_position)

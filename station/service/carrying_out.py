@@ -1,15 +1,19 @@
-"""One run carried out: step by step from its procedure to its result, every reading stored at once."""
+"""One run carried out on a machine: connect, move, measure, follow its procedure to the result.
+
+The orchestrator does this with the devices, a replay with the wire log that an earlier run left.
+"""
 
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime, timedelta
 from typing import Any
 
 from drivers.errors import DeviceError
 from station.errors import StepFailed
-from station.motion import Cancelled, Listeners, Machine, Positioner, Retracting, Zeroing
+from station.motion import Cancelled, Clock, Listeners, Machine, Positioner, Retracting, Zeroing
 from station.records import (
     Ask,
     CalibrationResult,
@@ -29,6 +33,8 @@ from station.settings import Settings
 from station.store import Store
 
 _LOOK_S = 0.05
+ANSWER = "answer"
+"""Kind of the event that keeps what somebody answered."""
 
 
 class Unanswered(Exception):
@@ -40,8 +46,8 @@ class Unanswered(Exception):
 
 
 @dataclass(frozen=True)
-class Execution:
-    """Of one run, in the worker's thread."""
+class CarryingOut:
+    """One run, on the thread that calls `result`."""
 
     run: Run
     kind: RunKind
@@ -49,30 +55,34 @@ class Execution:
     store: Store
     settings: Settings
     listeners: Listeners
+    begin_clock: Callable[[float], Clock]
+    """From the seconds since the run began; called after all lines were closed, before any is opened."""
+    take_wire: Callable[[], bytes]
+    """What happened on the lines since the last call, to be stored."""
 
     def result(self) -> CalibrationResult:
-        """Follow the procedure to its end.
+        """Every reading is in the store by then.
 
-        :raises Cancelled: the run was told to end.
+        :raises Cancelled: stop was pressed.
         :raises Unanswered: a prompt has expired.
-        :raises DeviceError: a device failed.
-        :raises StepFailed: a step could not be carried out.
-        :raises InputRefused: the readings cannot be used.
+        :raises DeviceError, StepFailed, InputRefused: it failed; says why.
         """
-        run = self.run
+        run, kind = self.run, self.kind
         if run.cancel.is_set():
             raise Cancelled
         self._set_state(State.RUNNING)
-        assert self.kind.procedure is not None
+        assert kind.procedure is not None
         elapsed_s = self._continue()
-        positioner = Positioner(
-            self.machine, run.robot, self.settings.joints, run.cancel, time.monotonic() - elapsed_s
-        )
+        # Every run proves afresh that the right devices answer, and depends on nothing that was before it.
+        self.machine.release()
+        clock = self.begin_clock(elapsed_s)
+        positioner = Positioner(self.machine, run.robot, self.settings.joints, run.cancel, clock)
         self.machine.mounted_at(run.robot.c)
-        positioner.prepare(from_outside=self.kind.from_outside)
+        positioner.prepare(from_outside=kind.from_outside)
         zeroing = Zeroing(run.id, self.machine, positioner, self.store)
         zeroing.settle()
-        procedure = self.kind.procedure(Start(self.store, run.request, run.robot, self.settings.limits))
+        began_at = self.store.summary(run.id).created_at
+        procedure = kind.procedure(Start(self.store, run.request, run.robot, self.settings.limits, began_at))
 
         def carry_out(step: Step) -> Any:
             match step:
@@ -106,8 +116,9 @@ class Execution:
 
     def _begin(self, step: SetZeros | Retract | Ask) -> None:
         """A step without readings."""
-        began = self.run.begin_sequence(MeasurementSequence(step.title, step.number, ()))
-        self.listeners.publish("walk", began)
+        self.listeners.publish(
+            "walk", self.run.begin_sequence(MeasurementSequence(step.title, step.number, ()))
+        )
         self.listeners.publish("run", self.run.brief())
 
     def _sequence(self, positioner: Positioner, sequence: MeasurementSequence) -> list[Reading]:
@@ -122,7 +133,7 @@ class Execution:
             except DeviceError as error:
                 raise StepFailed(f"At position {stop.position}: {error}") from error
             reading = replace(reading, mount=sequence.mount)
-            self.store.add_reading(run.id, reading)
+            self.store.add_reading(run.id, reading, wire=self.take_wire())
             readings.append(reading)
             row = run.add_reading(index, reading, self.machine.shown_place(reading.theta_deg))
             self.listeners.publish("reading", row)
@@ -135,6 +146,7 @@ class Execution:
         :raises Unanswered: the time is over.
         """
         run, limit_s = self.run, self.settings.limits.prompt_s
+        # not the run's clock: how often it is read while somebody thinks is no part of the run
         deadline = time.monotonic() + limit_s
         expires_at = datetime.now(UTC) + timedelta(seconds=limit_s)
         run.ask(
@@ -149,7 +161,7 @@ class Execution:
         answer = run.take_answer()
         self.store.add_event(
             run.id,
-            "answer",
+            ANSWER,
             {"prompt": answer.prompt, "text": step.text, "value": answer.value, "by": answer.by},
         )
         if step.mounted_at is not None:
