@@ -68,10 +68,10 @@ def start_check(start: Start) -> Procedure:
     now = start.began_at or datetime.now(UTC)
     age_days = (now - (run.ended_at or run.created_at)).total_seconds() / 86_400.0
     until = now + timedelta(hours=start.limits.check_valid_h)
-    return check(source.fit.moved(shift_deg), max(age_days, 0.0), until)
+    return check_run(source.fit.moved(shift_deg), max(age_days, 0.0), until)
 
 
-def check(fit: Identification[FiveBar], age_days: float, until: datetime) -> Procedure:
+def check_run(fit: Identification[FiveBar], age_days: float, until: datetime) -> Procedure:
     """Four readings, and whether they are as predicted."""
     robot = fit.mechanism.robot
     stops = make_plan("check", robot, fit.dtheta).stops

@@ -15,7 +15,7 @@ from station.identification import Identification, identify
 from station.plans import make_plan
 from station.records import CalibrationResult, State
 from station.run_kinds import RUN_KINDS
-from station.run_kinds.check import check, compared_with
+from station.run_kinds.check import check_run, compared_with
 from station.store.store import Store
 from station.studies.plans.drawn import Drawn, drawn, robot_of
 from station.studies.plans.walked import walk
@@ -37,7 +37,7 @@ def checked(seed: int, shift_deg: tuple[float, float] = (0.0, 0.0)) -> Calibrati
     machine, fit = calibrated(seed)
     truth = machine.truth.copy()
     truth[:2] += np.radians(shift_deg)
-    return walk(check(fit, 0.0, TOMORROW), Drawn(ROBOT, truth, seed).machine(1)).result
+    return walk(check_run(fit, 0.0, TOMORROW), Drawn(ROBOT, truth, seed).machine(1)).result
 
 
 def test_machines_that_did_not_change_pass() -> None:
@@ -71,13 +71,15 @@ def test_what_no_shift_explains_is_told_apart() -> None:
     machine, fit = calibrated(1)
     truth = machine.truth.copy()
     truth[10] += 1.0
-    result = walk(check(fit, 0.0, TOMORROW), Drawn(ROBOT, truth, 1).machine(1)).result
+    result = walk(check_run(fit, 0.0, TOMORROW), Drawn(ROBOT, truth, 1).machine(1)).result
     assert result.verdict == "fail"
 
 
 def test_an_old_calibration_finds_less() -> None:
     machine, fit = calibrated(0)
-    new, old = (walk(check(fit, days, TOMORROW), machine.machine(1)).result.check for days in (0.0, 3650.0))
+    new, old = (
+        walk(check_run(fit, days, TOMORROW), machine.machine(1)).result.check for days in (0.0, 3650.0)
+    )
     assert new is not None
     assert old is not None
     assert old.smallest_shift_deg > 1.2 * new.smallest_shift_deg
