@@ -10,7 +10,7 @@ from fastapi import Depends, FastAPI
 
 from station import __version__
 from station.service import Runtime
-from web import headers, pages, problems
+from web import etags, headers, methods, pages, problems
 from web.known_query import known_query
 from web.live import LiveFeed
 from web.routes import (
@@ -29,6 +29,7 @@ from web.routes import (
     station,
     stop,
 )
+from web.slow_bodies import SlowBodies
 
 API = "/api/v1"
 DESCRIPTION = """Zero-offset calibration of a 2-DOF five-bar robot, for the operator's page and the MES alike.
@@ -66,6 +67,9 @@ def create_app(runtime: Runtime, *, static: Path = pages.STATIC) -> FastAPI:
     pages.add(app, static)
     problems.add(app)
     problems.add_schema(app.openapi())
+    app.add_middleware(SlowBodies)
+    app.add_middleware(etags.ETags, prefix=f"{API}/calibrations/")
     app.add_middleware(headers.SameOrigin)
     app.add_middleware(headers.SecurityHeaders)
+    app.add_middleware(methods.HeadAsGet)
     return app

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Annotated, Literal
 
 from pydantic import (
@@ -14,6 +15,7 @@ from pydantic import (
     WithJsonSchema,
 )
 
+from station.errors import InputRefused
 from station.five_bar import Robot as RobotFile
 from station.plans import PLANS
 from station.records import (
@@ -27,12 +29,35 @@ from station.records import (
     Sections,
     TaughtPosition,
     TranslatedPosition,
+    checked_name,
+    checked_serial,
 )
 
+
+def _as_value(check: Callable[[str], str]) -> AfterValidator:
+    """A check of `station.records` as pydantic wants it."""
+
+    def validate(text: str) -> str:
+        try:
+            return check(text)
+        except InputRefused as refused:
+            raise ValueError(str(refused)) from refused
+
+    return AfterValidator(validate)
+
+
 Serial = Annotated[
-    str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64, pattern=r"^[\w.\-/]+$")
+    str,
+    StringConstraints(strip_whitespace=True, min_length=1, max_length=64, pattern=r"^[\w.\-/]+$"),
+    _as_value(checked_serial),
 ]
-Name = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64)]
+Name = Annotated[
+    str,
+    StringConstraints(strip_whitespace=True, min_length=1, max_length=64),
+    _as_value(checked_name),
+    # for those who read the schema; a person gets the sentence of the check
+    Field(json_schema_extra={"pattern": r"^[^\u0000-\u001f\u007f-\u009f\u2028\u2029]*$"}),
+]
 
 
 def _known_plan(name: str) -> str:

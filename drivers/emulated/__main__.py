@@ -1,9 +1,9 @@
 """Run an emulated rig: `python -m drivers.emulated RIG.toml [--speed X] [--state FILE]`.
 
-One JSON line on standard output tells the addresses; the rig runs until standard input ends (so it
-never outlives whoever started it) or until it is terminated.  A line of standard input is JSON with
-`faults` or `effects` that replace those ordered before, or a `mount` of the
-mechanism; one line on standard output answers it.
+One JSON line on standard output tells `[scale]` and `[servo]` of a station file for it; the rig runs until
+standard input ends (so it never outlives whoever started it) or until it is terminated.  A line of standard
+input is JSON with `faults` or `effects` that replace those ordered before, or a `mount` of the mechanism;
+one line on standard output answers it.
 """
 
 from __future__ import annotations
@@ -44,7 +44,7 @@ def main() -> int:
     try:
         rig = EmulatedRig(load_rig(arguments.rig), speed=arguments.speed, state_file=arguments.state)
         with rig:
-            print(json.dumps({"scale_url": rig.scale_url, "servo_url": rig.servo_url}), flush=True)
+            print(json.dumps({"scale": rig.scale_options, "servo": rig.servo_options}), flush=True)
             for line in sys.stdin:
                 print(_ordered(rig, line), flush=True)
     except (RigFileError, StateFileError) as error:

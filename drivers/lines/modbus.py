@@ -23,7 +23,7 @@ from drivers.lines.url import NetAddress, SerialAddress, parse_line_url
 
 log = logging.getLogger(__name__)
 
-_RTU_OVER_TCP = "modbus+rtuovertcp"
+_TCP = "modbus+tcp"
 _BUDGET_S = 0.5
 _STOP_PAUSE_S = 0.02
 
@@ -48,14 +48,14 @@ class ModbusBus(OnLine):
         self.address: SerialAddress | NetAddress = parse_line_url(
             url,
             serial="modbus+rtu",
-            net=("modbus+tcp", _RTU_OVER_TCP),
+            net=(_TCP, "modbus+rtuovertcp", "modbus+rfc2217"),
             default_baud=38400,
             default_format="8N2",
         )
         super().__init__(SerialLine.at(self.address))
         if self._line.notice:
             log.warning("%s", self._line.notice)
-        over_tcp = isinstance(self.address, NetAddress) and not url.startswith(_RTU_OVER_TCP)
+        over_tcp = url.startswith(f"{_TCP}://")
         self._link: RtuLink | TcpLink = (TcpLink if over_tcp else RtuLink)(self._line, timeout_s)
         self._budget_s = 3 * timeout_s + _BUDGET_S if budget_s is None else budget_s
         self._owners: set[int] = set()

@@ -35,7 +35,11 @@ class SerialLine:
         :raises BadUrl: one sentence about what is wrong in it
         """
         address = parse_line_url(
-            url, serial="serial", net=("socket",), default_baud=default_baud, default_format=default_format
+            url,
+            serial="serial",
+            net=("socket", "rfc2217"),
+            default_baud=default_baud,
+            default_format=default_format,
         )
         self._set_up(address, flow_control=flow_control)
 

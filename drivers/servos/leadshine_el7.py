@@ -10,6 +10,7 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from enum import IntFlag
 
 from drivers.driver import Drive, DriverSettings, Seconds, ServoDriver
@@ -67,8 +68,21 @@ class LeadshineSettings(DriverSettings):
     """The longest time that a drive on this line takes to reply."""
 
 
+@dataclass(frozen=True, slots=True)
+class FamilyRegisters:
+    """Where the maker's families differ."""
+
+    motion_status: int
+    alarm: int
+    alarm_reset: int
+    switch_on: tuple[int, int]
+    """Where it is switched on, and what is written there."""
+
+
 class LeadshineEL7(OnLine):
     """One drive as a `ServoAxis`; may be called from any thread."""
+
+    _registers = FamilyRegisters(MOTION_STATUS, ALARM, ALARM_RESET, (DIGITAL_INPUT_1, SERVO_ON_ALWAYS))
 
     def __init__(self, bus: ModbusBus, unit: int, scaling: JointScaling, *, name: str) -> None:
         super().__init__(bus.line)
@@ -93,23 +107,33 @@ class LeadshineEL7(OnLine):
         self._target_pulses = None
         self._bus.open(self)
         try:
-            mode = self._read(CONTROL_MODE)
-            if mode != MODE_PR:
-                raise DeviceFault(
-                    f"{self._commands.title} is in control mode {mode}; set P00.01 to {MODE_PR} (PR mode)"
-                    " and switch it off and on."
-                )
-            functions = [self._read(address) for address in DIGITAL_OUTPUTS]
-            if OUTPUT_IS_SERVO_ON not in functions:
-                raise DeviceFault(
-                    f"{self._commands.title} has no output for servo-on;"
-                    f" set one of P04.10 to P04.14 to {OUTPUT_IS_SERVO_ON:02X}h."
-                )
-            self._servo_on_bit = 1 << functions.index(OUTPUT_IS_SERVO_ON)
-            self._alarm_bit = 1 << functions.index(OUTPUT_IS_ALARM) if OUTPUT_IS_ALARM in functions else 0
+            self._check_settings()
         except DeviceError:
             self._bus.release(self)
             raise
+
+    def _check_settings(self) -> None:
+        """Right after the line was opened.  :raises DeviceError: with what is wrong and what to check"""
+        mode = self._read(CONTROL_MODE)
+        if mode != MODE_PR:
+            raise DeviceFault(
+                f"{self._commands.title} is in control mode {mode}; set P00.01 to {MODE_PR} (PR mode)"
+                " and switch it off and on."
+            )
+        functions = [self._read(address) for address in DIGITAL_OUTPUTS]
+        if OUTPUT_IS_SERVO_ON not in functions:
+            raise DeviceFault(
+                f"{self._commands.title} has no output for servo-on;"
+                f" set one of P04.10 to P04.14 to {OUTPUT_IS_SERVO_ON:02X}h."
+            )
+        self._servo_on_bit = 1 << functions.index(OUTPUT_IS_SERVO_ON)
+        self._alarm_bit = 1 << functions.index(OUTPUT_IS_ALARM) if OUTPUT_IS_ALARM in functions else 0
+
+    def _enabled_and_alarmed(self, motion: MotionStatus) -> tuple[bool, bool]:
+        """From the motion status, and from the outputs where they say it."""
+        outputs = self._read(OUTPUT_STATUS)
+        alarmed = MotionStatus.FAULT in motion or bool(outputs & self._alarm_bit)
+        return bool(outputs & self._servo_on_bit), alarmed
 
     def make_safe(self) -> None:
         """Stop; the axis stays powered, since an arm without torque would fall."""
@@ -127,7 +151,7 @@ class LeadshineEL7(OnLine):
         """
         self._commands.refuse_on_alarm(self.status())
         with suppress(UnansweredWrite):  # the wait below finds out whether it took
-            self._bus.write_one(self._unit, DIGITAL_INPUT_1, SERVO_ON_ALWAYS)
+            self._bus.write_one(self._unit, *self._registers.switch_on)
         deadline_s = time.monotonic() + _ENABLE_TIMEOUT_S
         while not (status := self.status()).enabled:
             self._commands.refuse_on_alarm(status)
@@ -175,14 +199,14 @@ class LeadshineEL7(OnLine):
 
         :raises DeviceError:
         """
-        motion = MotionStatus(self._read(MOTION_STATUS))
-        outputs = self._read(OUTPUT_STATUS)
+        motion = MotionStatus(self._read(self._registers.motion_status))
+        enabled, alarmed = self._enabled_and_alarmed(motion)
         alarm = None
-        if MotionStatus.FAULT in motion or outputs & self._alarm_bit:
-            alarm = self._read(ALARM) or None  # it may have been reset between two reads
+        if alarmed:
+            alarm = self._read(self._registers.alarm) or None  # it may have been reset between two reads
         moving = MotionStatus.RUNNING in motion
         return AxisStatus(
-            enabled=bool(outputs & self._servo_on_bit),
+            enabled=enabled,
             moving=moving,
             in_position=MotionStatus.PATH_COMPLETE in motion and not moving and self._is_at_target(),
             alarm=alarm,
@@ -199,7 +223,7 @@ class LeadshineEL7(OnLine):
         :raises LinkLost: no reply
         """
         with suppress(UnansweredWrite):  # the alarm register tells
-            self._bus.write_one(self._unit, ALARM_RESET, RESET_PRESENT_ALARM)
+            self._bus.write_one(self._unit, self._registers.alarm_reset, RESET_PRESENT_ALARM)
         deadline_s = time.monotonic() + _RESET_TIMEOUT_S
         while (status := self.status()).alarm is not None:
             if time.monotonic() > deadline_s:
@@ -213,7 +237,7 @@ class LeadshineEL7(OnLine):
         """
         self._target_pulses = None
         try:
-            self._bus.stop(self._unit, TRIGGER, QUICK_STOP, look_at=MOTION_STATUS)
+            self._bus.stop(self._unit, TRIGGER, QUICK_STOP, look_at=self._registers.motion_status)
         except (LinkLost, GarbledReply) as error:
             cause = str(error).rstrip(".")
             raise LinkLost(
@@ -256,8 +280,8 @@ class LeadshineEL7(OnLine):
         return values_of(self._bus.read(self._unit, PATH_0 + 1, 2)) == [target]
 
     def _runs_or_stands_at(self, target: int) -> bool:
-        running = MotionStatus(self._read(MOTION_STATUS)) & MotionStatus.RUNNING
-        return bool(running) or abs(self._feedback_pulses() - target) <= _IN_POSITION_PULSES
+        motion = MotionStatus(self._read(self._registers.motion_status))
+        return MotionStatus.RUNNING in motion or abs(self._feedback_pulses() - target) <= _IN_POSITION_PULSES
 
 
 def _make(settings: LeadshineSettings, drives: Sequence[Drive]) -> tuple[LeadshineEL7, ...]:

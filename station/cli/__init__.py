@@ -41,8 +41,8 @@ _COMMANDS = {
     "show": ("history", "One run."),
     "solve": ("diagnosis", "Joint commands for target positions under the identified model."),
     "verify": ("archive", "Whether every finished run is as it ended."),
-    "translate": ("translate", "Taught joint positions under the zeros that the drives have now."),
     "wire": ("wire", "Every request and answer of one run, with its time, in plain words."),
+    "translate": ("translate", "Taught joint positions under the zeros that the drives have now."),
     "transfer": ("diagnosis", "Apply the effects learned on one log, unchanged, to another log."),
 }
 """Module and purpose of each command; imported when it is asked for, since the numerics take long to load."""

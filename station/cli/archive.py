@@ -30,7 +30,8 @@ def export_command(home: Path, calibration_id: int | None, folder: Path | None, 
         raise click.UsageError("Give the number of a run, or --parquet and a folder.")
     with kept(home, config) as store:
         if calibration_id is not None:
-            click.echo(readings_to_csv(store.readings(calibration_id)), nl=False)
+            uid = store.summary(calibration_id).uid
+            click.echo(readings_to_csv(store.readings(calibration_id), run_uid=uid), nl=False)
         elif folder is not None:
             _export(store, folder, load_settings(config).name)
 

@@ -12,7 +12,7 @@ from station.cli.one_run import one_run
 from station.cli.references import LENGTH, references_option
 from station.five_bar import Robot
 from station.plans import PLANS
-from station.records import AnyReference, CalibrationRequest, PlanName
+from station.records import AnyReference, CalibrationRequest, PlanName, checked_name, checked_serial
 from station.run_kinds import kind_of_plan
 from station.service import Runtime, Submitted
 
@@ -53,13 +53,16 @@ def calibrate_command(
             f"--serial {serial} is not the robot of {robot_file}, which is {robot.serial}."
         )
 
+    named, who = checked_serial(serial or robot.serial), checked_name(operator or getpass.getuser())
+    if work_order is not None:
+        checked_name(work_order)
+
     def submit(runtime: Runtime) -> Submitted:
         if robot_file:
             runtime.store.save_robot(robot)
-        who = operator or getpass.getuser()
         return runtime.orchestrator.submit(
             CalibrationRequest(
-                serial or robot.serial,
+                named,
                 kind_of_plan(plan),
                 who,
                 plan,

@@ -102,10 +102,13 @@ class FiveBar:
 
     @cached_property
     def row_sd(self) -> Real:
-        """(K,) head noise (eq. 34) and the half pulse that feedback cannot tell, through d rho / d theta."""
+        """(K,) head noise (eq. 34), half a step of a coarse readout, and the half pulse that feedback
+        cannot tell, through d rho / d theta.
+        """
         joint_sd = np.radians(self.robot.joint_sd_deg)
         by_joint = distance_by_joint(pose(self.geometry_at(self.start), self.theta))
-        head_variance = SCALE_SD_MM**2 / self.measurements.samples
+        step_variance = self.measurements.resolution_mm**2 / 12  # of a uniform distribution (GUM, F.2.2.1)
+        head_variance = SCALE_SD_MM**2 / self.measurements.samples + step_variance
         return np.asarray(np.sqrt(head_variance + joint_sd**2 * np.sum(by_joint**2, axis=1)))
 
     @property

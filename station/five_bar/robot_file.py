@@ -34,6 +34,7 @@ from station.records import (
     Positive,
     Section,
     Sections,
+    checked_serial,
     refusal,
 )
 
@@ -103,7 +104,9 @@ class Robot:
 
         :raises InputRefused: missing, not TOML, or a value out of place, with the section and key.
         """
-        return cls.from_dict(read_sections(path), source=str(path))
+        robot = cls.from_dict(read_sections(path), source=str(path))
+        checked_serial(robot.serial)
+        return robot
 
     @classmethod
     def from_dict(cls, data: Sections, *, source: str = "robot") -> Robot:

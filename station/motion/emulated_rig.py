@@ -76,8 +76,8 @@ class EmulatedRig:
         for reader in self._readers:
             reader.start()
         try:
-            urls = json.loads(self._lines.get(timeout=_START_LIMIT_S))
-            self.scale_url, self.servo_url = urls["scale_url"], urls["servo_url"]
+            told = json.loads(self._lines.get(timeout=_START_LIMIT_S))
+            self._scale, self._servo = dict(told["scale"]), dict(told["servo"])
         except (Empty, json.JSONDecodeError, KeyError, TypeError) as error:
             self.close()
             said = self._complaints[-1] if self._complaints else "it did not say why"
@@ -126,10 +126,8 @@ class EmulatedRig:
         joints = settings.servo.joint if settings.servo else DEFAULT_JOINTS
         return settings.model_copy(
             update={
-                "scale": ScaleSettings.model_validate({"protocol": "heidenhain-nd", "url": self.scale_url}),
-                "servo": ServoSettings.model_validate(
-                    {"profile": "leadshine-el7", "url": self.servo_url, "joint": joints}
-                ),
+                "scale": ScaleSettings.model_validate(self._scale),
+                "servo": ServoSettings.model_validate({**self._servo, "joint": joints}),
             }
         )
 

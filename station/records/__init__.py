@@ -14,6 +14,7 @@ from station.records.calibration import (
 )
 from station.records.column_map import ColumnMap, translated
 from station.records.column_proposal import proposed_map
+from station.records.csv_cells import harmless
 from station.records.diagnosis_document import (
     DIAGNOSIS_SCHEMA,
     MIXTURE_SCHEMA,
@@ -89,6 +90,7 @@ from station.records.measurement_file import (
     recorded_columns,
 )
 from station.records.measurements import Measurements, from_readings, number
+from station.records.names import checked_name, checked_serial
 from station.records.plan_document import PlanDocument, PlannedStop, PlanPrediction, PredictedSd
 from station.records.procedure import Procedure
 from station.records.prompt import Prompt
@@ -96,7 +98,7 @@ from station.records.quantity import Quantity
 from station.records.reading import Reading
 from station.records.reason import Reason, ReasonValue, because
 from station.records.record import Record
-from station.records.references import AnyReference, JointAngle, MountingError, ReferenceUse
+from station.records.references import AnyReference, Asked, JointAngle, MountingError, ReferenceUse
 from station.records.remembered import MemorySummary, Remembered
 from station.records.residuals import LIMIT_SDS, residual_rows
 from station.records.result import (
@@ -151,6 +153,7 @@ __all__ = [
     "ApplicationRun",
     "ApplicationState",
     "Ask",
+    "Asked",
     "BackupMade",
     "Calibration",
     "CalibrationHolds",
@@ -264,8 +267,11 @@ __all__ = [
     "ZeroWrite",
     "approaches",
     "because",
+    "checked_name",
+    "checked_serial",
     "from_readings",
     "guesses_in_words",
+    "harmless",
     "inside_visited",
     "number",
     "parse_measurements",

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.records.reading import Reading
+from station.records.scale_resolution import scale_resolution_mm
 from station.records.types import Index, Real
 
 
@@ -36,6 +37,8 @@ class Measurements:
     samples: Index
     """(K,) how many samples of the head each distance is the mean of."""
     mounts: tuple[str, ...] = ("",)
+    resolution_mm: float = 0.0
+    """Step of the readout where it is coarser than the noise of a sample, else 0."""
     temperature_c: Real | None = None
     payload_kg: Real | None = None
     tracker: Real | None = None
@@ -105,6 +108,7 @@ def from_readings(readings: Sequence[Reading], mounts: Sequence[str] = ()) -> Me
         mount=mount,
         samples=np.array([max(len(r.samples_mm), 1) for r in readings], dtype=np.intp),
         mounts=mounts,
+        resolution_mm=scale_resolution_mm(sample for r in readings for sample in r.samples_mm),
         temperature_c=optional([r.temperature_c for r in readings]),
         payload_kg=optional([r.payload_kg for r in readings]),
     )

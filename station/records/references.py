@@ -76,6 +76,14 @@ class MountingError(Section):
 AnyReference = Annotated[JointAngle | MountingError, Field(discriminator="kind")]
 
 
+class Asked(Record):
+    """What a start request says of accuracy and references."""
+
+    references: tuple[AnyReference, ...] = ()
+    until_mm: float | None = None
+    accuracy_mm: float | None = None
+
+
 class ReferenceUse(Record):
     """A reference that took part in a fit, and how well everything else agrees with it."""
 

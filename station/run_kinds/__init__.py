@@ -14,7 +14,7 @@ from station.run_kinds.adaptive import adaptive_run, fit_in_sequence
 from station.run_kinds.check import check_run
 from station.run_kinds.diagnose import diagnosed
 from station.run_kinds.import_file import Upload, import_dataset
-from station.run_kinds.kind import RUN_KINDS, Continued, RunKind, Start, kind_of_plan, own_references
+from station.run_kinds.kind import RUN_KINDS, Continued, RunKind, Start, kind_of_plan, request_of
 from station.run_kinds.lock import calibration_holds, check_not_locked, clear_failed_check
 from station.run_kinds.separate import planned
 from station.run_kinds.translate import change_of, translated
@@ -37,7 +37,7 @@ __all__ = [
     "fit_in_sequence",
     "import_dataset",
     "kind_of_plan",
-    "own_references",
     "planned",
+    "request_of",
     "translated",
 ]

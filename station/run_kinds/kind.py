@@ -11,11 +11,9 @@ from dataclasses import dataclass, field
 from datetime import datetime
 from types import MappingProxyType
 
-from pydantic import TypeAdapter
-
 from station.five_bar import Robot
 from station.plans import PLANS, Pace
-from station.records import AnyReference, Calibration, CalibrationRequest, PlanName, Procedure, Reading
+from station.records import Asked, Calibration, CalibrationRequest, PlanName, Procedure, Reading
 from station.settings import LimitSettings
 from station.store import Store
 
@@ -27,10 +25,10 @@ class Start:
     store: Store
     request: CalibrationRequest
     robot: Robot
-    limits: LimitSettings = field(default_factory=LimitSettings)
-    """Of this station."""
     began_at: datetime | None = None
     """The station's clock when the run was created; None is now."""
+    limits: LimitSettings = field(default_factory=LimitSettings)
+    """Of this station."""
 
     @property
     def pace(self) -> Pace:
@@ -100,17 +98,6 @@ class RunKind:
         return tuple(plan.name for plan in PLANS.values() if plan.run_kind == self.name)
 
 
-def own_references(store: Store, calibration: Calibration) -> tuple[AnyReference, ...]:
-    """Those that an ended run was started with, beside those of its robot's file.
-
-    What somebody read during the run is not among them.
-    """
-    asked = [
-        event.data.get("references", []) for event in store.events(calibration.id) if event.kind == "asked"
-    ]
-    return tuple(TypeAdapter(tuple[AnyReference, ...]).validate_python(asked[0])) if asked else ()
-
-
 def robot_as_measured(store: Store, calibration: Calibration) -> Robot:
     """The robot file of an ended run, with the references that it was started with.
 
@@ -137,3 +124,23 @@ def register(kind: RunKind) -> RunKind:
 def kind_of_plan(plan: PlanName) -> str:
     """The name of the kind that measures by a plan."""
     return PLANS[plan].run_kind
+
+
+def request_of(store: Store, run: int) -> CalibrationRequest:
+    """The request that a run was started with.  :raises NotFound: no such run."""
+    known = store.calibration(run)
+    plan = known.plan if RUN_KINDS[known.kind].plans else None
+    asked = next((event.data for event in store.events(run) if event.kind == "asked"), {})
+    more = Asked.model_validate(asked)
+    return CalibrationRequest(
+        known.robot_serial,
+        known.kind,
+        known.operator,
+        plan=plan,
+        of=known.of,
+        work_order=known.work_order,
+        metadata=known.metadata,
+        references=more.references,
+        until_mm=more.until_mm,
+        accuracy_mm=more.accuracy_mm,
+    )

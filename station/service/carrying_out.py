@@ -6,7 +6,7 @@ The orchestrator does this with the devices, a replay with the wire log that an 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from datetime import UTC, datetime, timedelta
 from typing import Any
@@ -33,8 +33,6 @@ from station.settings import Settings
 from station.store import Store
 
 _LOOK_S = 0.05
-ANSWER = "answer"
-"""Kind of the event that keeps what somebody answered."""
 
 
 class Unanswered(Exception):
@@ -59,6 +57,8 @@ class CarryingOut:
     """From the seconds since the run began; called after all lines were closed, before any is opened."""
     take_wire: Callable[[], bytes]
     """What happened on the lines since the last call, to be stored."""
+    answers: Iterator[float | None] | None = None
+    """What people answered when the run was made; None: people are asked."""
 
     def result(self) -> CalibrationResult:
         """Every reading is in the store by then.
@@ -82,7 +82,7 @@ class CarryingOut:
         zeroing = Zeroing(run.id, self.machine, positioner, self.store)
         zeroing.settle()
         began_at = self.store.summary(run.id).created_at
-        procedure = kind.procedure(Start(self.store, run.request, run.robot, self.settings.limits, began_at))
+        procedure = kind.procedure(Start(self.store, run.request, run.robot, began_at, self.settings.limits))
 
         def carry_out(step: Step) -> Any:
             match step:
@@ -141,12 +141,20 @@ class CarryingOut:
         return readings
 
     def _ask(self, positioner: Positioner, step: Ask) -> float | None:
-        """Wait for somebody's answer, at standstill; stop and abort end the wait at once.
+        """What somebody answers, at standstill.
 
         :raises Unanswered: the time is over.
         """
+        value = next(self.answers) if self.answers is not None else self._answer(step)
+        if step.mounted_at is not None:
+            self.machine.mounted_at(step.mounted_at)
+            positioner.look()
+        self._set_state(State.RUNNING)
+        return value
+
+    def _answer(self, step: Ask) -> float | None:
+        """Wait for it; stop and abort end the wait at once."""
         run, limit_s = self.run, self.settings.limits.prompt_s
-        # not the run's clock: how often it is read while somebody thinks is no part of the run
         deadline = time.monotonic() + limit_s
         expires_at = datetime.now(UTC) + timedelta(seconds=limit_s)
         run.ask(
@@ -161,13 +169,9 @@ class CarryingOut:
         answer = run.take_answer()
         self.store.add_event(
             run.id,
-            ANSWER,
+            "answer",
             {"prompt": answer.prompt, "text": step.text, "value": answer.value, "by": answer.by},
         )
-        if step.mounted_at is not None:
-            self.machine.mounted_at(step.mounted_at)
-            positioner.look()
-        self._set_state(State.RUNNING)
         return answer.value
 
     def _set_state(self, state: State) -> None:

@@ -8,11 +8,13 @@ to the drives directly, past the worker and past every queue.
 from __future__ import annotations
 
 import logging
+import time
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
-from datetime import UTC, datetime
 from queue import Empty, Queue
 from threading import Lock, Thread
+
+from pydantic import JsonValue
 
 from drivers.errors import DeviceError
 from station.errors import (
@@ -39,7 +41,6 @@ from station.records import (
     CalibrationHolds,
     CalibrationRequest,
     CalibrationResult,
-    CalibrationSummary,
     Prompt,
     Reason,
     State,
@@ -53,6 +54,7 @@ from station.records import (
 from station.run_kinds import RUN_KINDS, RunKind, calibration_holds, clear_failed_check
 from station.service.carrying_out import CarryingOut, Unanswered
 from station.service.clock_watch import ClockWatch
+from station.service.interlock_record import InterlockRecord
 from station.service.recording import Recording
 from station.service.run import Run
 from station.settings import Settings
@@ -88,6 +90,7 @@ class Orchestrator:
         self._kinds = kinds
         self._listeners = Listeners()
         self._machine = Machine(devices, settings.limits, self._listeners)
+        self._listeners.subscribe(InterlockRecord(store, lambda: self._run.id if self._run else None))
         self._submitting = Lock()
         self._lock = Lock()
         self._run: Run | None = None
@@ -344,7 +347,11 @@ class Orchestrator:
     def _execute(self, run: Run) -> None:
         recording = Recording(self._machine.devices, self._settings)
         ending = self._perform(run, recording)
+        failed_s = time.monotonic()
         ending = self._bring_to_rest(run, ending)
+        reason = ending.reason
+        if run.has_moved and reason is not None and reason.code == "step_failed":
+            self._record_trip(run, reason, time.monotonic() - failed_s)
         self._keep_wire(run, recording)
         judged = self._kinds[run.request.kind].judged
         run.state = self._store.finish(run.id, ending.state, ending.result, ending.reason, judged=judged)
@@ -352,41 +359,28 @@ class Orchestrator:
             summary = self._store.summary(run.id)
         except StoreUnavailable as error:
             log.exception("The end of run %d cannot be read back", run.id)
-            summary = self._unread(run, because("store_failed", text=str(error)))
+            summary = run.unread(because("store_failed", text=str(error)))
         with self._lock:
             self._last, self._run, self._holds = summary, None, self._calibration_holds()
         run.ended.set()
         self._listeners.publish("ended", summary)
+
+    def _record_trip(self, run: Run, reason: Reason, standstill_after_s: float) -> None:
+        """What ended a motion, and how long after it was noticed both axes were seen to stand."""
+        data: dict[str, JsonValue] = {
+            "text": reason.text,
+            "standstill_after_ms": round(standstill_after_s * 1000, 1),
+        }
+        try:
+            self._store.add_event(run.id, "trip", data)
+        except StoreUnavailable:
+            log.exception("What stopped run %d could not be recorded as an event", run.id)
 
     def _keep_wire(self, run: Run, recording: Recording) -> None:
         try:
             self._store.add_wire(run.id, recording.end())
         except StoreUnavailable:
             log.exception("The end of the wire log of run %d cannot be stored", run.id)
-
-    def _unread(self, run: Run, reason: Reason) -> CalibrationSummary:
-        """How a run ended that the store does not give back."""
-        brief = run.brief()
-        return CalibrationSummary(
-            id=run.id,
-            uid=run.uid,
-            robot_serial=brief.robot_serial,
-            kind=brief.kind,
-            plan=brief.plan,
-            of=brief.of,
-            operator=brief.operator,
-            work_order=brief.work_order,
-            state=run.state,
-            verdict=None,
-            outcome="failed" if run.state is State.FAILED else None,
-            step=brief.step,
-            steps=brief.steps,
-            started_at=brief.started_at,
-            reason=reason.text,
-            reason_code=reason.code,
-            reason_params=reason.params,
-            created_at=brief.started_at or datetime.now(UTC),
-        )
 
     def _perform(self, run: Run, recording: Recording) -> _Ending:
         kind = self._kinds[run.request.kind]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import closing, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -13,8 +13,8 @@ from drivers.lines import Departed, Playback, wire_events
 from station.errors import InputRefused, StepFailed
 from station.motion import Listeners, Machine, PlayedClock, build_devices
 from station.records import CalibrationRequest, State, WireHeader, because
-from station.run_kinds import RUN_KINDS, own_references
-from station.service.carrying_out import ANSWER, CarryingOut
+from station.run_kinds import RUN_KINDS, request_of
+from station.service.carrying_out import CarryingOut
 from station.service.recording import SERVO, lines_of
 from station.service.run import Run
 from station.settings import Settings
@@ -57,9 +57,8 @@ def replay(store: Store, run: int) -> Replayed:
     header_text, *lines = store.wire_log(run)
     header = WireHeader.model_validate_json(header_text)
     with _copy_before(store, run) as copy:
-        departed = _carry_out(
-            copy, run, header, Playback(wire_events(lines)), _request(store, run), _answers(store, run)
-        )
+        playback, request = Playback(wire_events(lines)), request_of(store, run)
+        departed = _carry_out(copy, run, header, playback, request, _answers(store, run))
         then, now = found(store.opened, run), found(copy.path, run)
     same = sum(a == b for a, b in zip(then[0], now[0], strict=False))
     return Replayed(same, len(then[0]), then[1] == now[1] and len(then[0]) == len(now[0]), departed)
@@ -76,25 +75,9 @@ def _copy_before(store: Store, run: int) -> Iterator[Store]:
 
 
 def _answers(store: Store, run: int) -> list[float | None]:
-    """What somebody answered during the run."""
-    given = [event.data.get("value") for event in store.events(run) if event.kind == ANSWER]
-    return [float(value) if isinstance(value, int | float) else None for value in given]
-
-
-def _request(store: Store, run: int) -> CalibrationRequest:
-    known = store.calibration(run)
-    plan = known.plan if RUN_KINDS[known.kind].plans else None
-    return CalibrationRequest(
-        known.robot_serial,
-        known.kind,
-        known.operator,
-        plan=plan,
-        of=known.of,
-        work_order=known.work_order,
-        metadata=known.metadata,
-        references=own_references(store, known),
-        until_mm=known.accuracy.wanted_mm if known.accuracy else None,
-    )
+    """What people answered to the run's prompts, in order."""
+    values = [event.data.get("value") for event in store.events(run) if event.kind == "answer"]
+    return [float(value) if isinstance(value, int | float) else None for value in values]
 
 
 def _carry_out(
@@ -103,7 +86,7 @@ def _carry_out(
     header: WireHeader,
     playback: Playback,
     request: CalibrationRequest,
-    answers: list[float | None],
+    answers: Sequence[float | None],
 ) -> str:
     """To its end in the copy; where the station departed from the log, else empty."""
     settings = Settings.model_validate(
@@ -115,9 +98,8 @@ def _carry_out(
         line.opener = playback.opener(number, numbered=numbered)
     machine = Machine(devices, settings.limits, Listeners())
     kind = RUN_KINDS[request.kind]
-    robot = copy.robot_of(run).informed(request.references)
     carrying_out = CarryingOut(
-        Run(run, copy.summary(run).uid, request, robot, known_answers=answers),
+        Run(run, copy.summary(run).uid, request, copy.robot_of(run)),
         kind,
         machine,
         copy,
@@ -125,6 +107,7 @@ def _carry_out(
         Listeners(),
         lambda _elapsed_s: PlayedClock(playback.clock),
         bytes,
+        iter(answers),
     )
     try:
         result = carrying_out.result()

@@ -14,10 +14,12 @@ from station.records import (
     Ask,
     CalibrationRequest,
     CalibrationResult,
+    CalibrationSummary,
     Iteration,
     MeasurementSequence,
     Prompt,
     Reading,
+    Reason,
     ResidualOfReading,
     RunBrief,
     RunReading,
@@ -57,8 +59,6 @@ class Run:
     """Steps that an earlier run made."""
     steps: int = 0
     iterations: tuple[Iteration, ...] = ()
-    known_answers: list[float | None] = field(default_factory=list)
-    """Of an earlier run that is played back, in their order."""
     prompt: Prompt | None = None
     """What the run waits to be told."""
     answered: Event = field(default_factory=Event)
@@ -85,9 +85,6 @@ class Run:
         with self._lock:
             self.answered.clear()
             self.prompt, self._asked = prompt, step
-            played = bool(self.known_answers)
-        if played:
-            self.answer(prompt.id, self.known_answers.pop(0), "the record")
 
     def answer(self, prompt: str, value: float | None, who: str) -> None:
         """:raises NotApplicable: this is not what is asked.  :raises FieldRefused: the value cannot be."""
@@ -182,4 +179,28 @@ class Run:
             steps=self.steps,
             iterations=self.iterations,
             prompt=self.prompt,
+        )
+
+    def unread(self, reason: Reason) -> CalibrationSummary:
+        """How it ended, where the store does not give it back."""
+        brief = self.brief()
+        return CalibrationSummary(
+            id=self.id,
+            uid=self.uid,
+            robot_serial=brief.robot_serial,
+            kind=brief.kind,
+            plan=brief.plan,
+            of=brief.of,
+            operator=brief.operator,
+            work_order=brief.work_order,
+            state=self.state,
+            verdict=None,
+            outcome="failed" if self.state is State.FAILED else None,
+            step=brief.step,
+            steps=brief.steps,
+            started_at=brief.started_at,
+            reason=reason.text,
+            reason_code=reason.code,
+            reason_params=reason.params,
+            created_at=brief.started_at or datetime.now(UTC),
         )

@@ -6,14 +6,11 @@ wait for it.  Rows become records in `station.store.rows`.
 
 from __future__ import annotations
 
-import json
 import logging
 from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
 from typing import TypeVar
-
-from pydantic import JsonValue
 
 from station.errors import KeyReused, NotFound, StoreUnavailable
 from station.five_bar import Robot
@@ -26,7 +23,6 @@ from station.records import (
     Reading,
     Reason,
     State,
-    StoredEvent,
     because,
     uid7,
 )
@@ -42,7 +38,6 @@ from station.store.rows import (
     compact,
     document_from,
     millis,
-    moment,
     pack_document,
     reading_from_row,
     reading_row,
@@ -51,6 +46,7 @@ from station.store.rows import (
     row_id,
     summary_from_row,
 )
+from station.store.stored_events import StoredEvents
 from station.store.tables import Tables
 from station.store.times import RunTimes, now, now_ms
 from station.store.trends import Trends
@@ -63,7 +59,7 @@ S = TypeVar("S", bound=CalibrationSummary)
 _UNFINISHED = (State.QUEUED, State.RUNNING, State.WAITING)
 
 
-class Store(Memories, ZeroJournal, WireLogs, Trends, Tables):
+class Store(StoredEvents, Memories, ZeroJournal, WireLogs, Trends, Tables):
     """Thread safe.  Order is by number: the clock that gives the times may jump.
 
     Every method may raise `StoreUnavailable`, unless it says otherwise.
@@ -418,37 +414,3 @@ class Store(Memories, ZeroJournal, WireLogs, Trends, Tables):
         if not rows:
             self.calibration(calibration_id)
         return [reading_from_row(row) for row in rows]
-
-    def add_event(
-        self, calibration_id: int | None, kind: str, data: dict[str, JsonValue] | None = None
-    ) -> None:
-        """Something worth remembering: who aborted, what a device said."""
-        with self._writing() as db:
-            db.execute(
-                "INSERT INTO events (calibration_id, at_ms, kind, data) VALUES (?, ?, ?, ?)",
-                [calibration_id, now_ms(), kind, compact(data) if data else None],
-            )
-
-    def latest_time(self) -> datetime | None:
-        """The latest that is on record of any run or event; None before the first."""
-        row = self._readers.one(
-            "SELECT max(coalesce((SELECT max(created_ms) FROM calibrations), 0),"
-            " coalesce((SELECT ended_ms FROM calibrations ORDER BY id DESC LIMIT 1), 0),"
-            " coalesce((SELECT at_ms FROM events ORDER BY id DESC LIMIT 1), 0)) AS latest_ms"
-        )
-        return moment(row["latest_ms"] or None) if row is not None else None
-
-    def events(self, calibration_id: int | None) -> list[StoredEvent]:
-        """Of one run, or of the station itself (None)."""
-        rows = self._readers.all(
-            "SELECT id, at_ms, kind, data FROM events WHERE calibration_id IS ? ORDER BY id", [calibration_id]
-        )
-        return [
-            StoredEvent(
-                id=row["id"],
-                at=moment(row["at_ms"]),
-                kind=row["kind"],
-                data=json.loads(row["data"]) if row["data"] else {},
-            )
-            for row in rows
-        ]

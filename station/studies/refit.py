@@ -20,7 +20,6 @@ from pydantic import JsonValue
 from station.errors import InputRefused, NotFound
 from station.records import (
     Calibration,
-    CalibrationRequest,
     CalibrationResult,
     MeasurementSequence,
     Reading,
@@ -28,7 +27,7 @@ from station.records import (
     Remembered,
     Step,
 )
-from station.run_kinds import RUN_KINDS, Start
+from station.run_kinds import RUN_KINDS, Start, request_of
 from station.service import follow_procedure
 from station.store import Store
 from station.studies.engine import Engine
@@ -148,13 +147,7 @@ def refitted(store: Store, before: Calibration, readings: Sequence[Reading]) -> 
         except NotFound as error:
             raise _NotRepeatable from error
     kind = RUN_KINDS[before.kind]
-    request = CalibrationRequest(
-        before.robot_serial,
-        before.kind,
-        before.operator,
-        plan=before.plan if kind.plans else None,
-        metadata=before.metadata,
-    )
+    request = request_of(store, before.id)
     start = Start(cast(Store, _AsThen(store, memory)), request, store.robot_of(before.id))
     assert kind.procedure is not None
     taken: dict[int, list[Reading]] = {}

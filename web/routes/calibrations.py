@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from datetime import datetime
 from typing import Annotated, Any, Literal
 
 from fastapi import APIRouter, Query, Response
@@ -28,7 +27,7 @@ from web.bodies import (
     TranslatedList,
 )
 from web.problems import documented
-from web.routes.parts import LOCATION, CalibrationId, CallerName, IdempotencyKey, TheRuntime
+from web.routes.parts import LOCATION, CalibrationId, CallerName, IdempotencyKey, Moment, TheRuntime
 
 ABORT_TIMEOUT_S = 5.0
 
@@ -63,9 +62,9 @@ def list_calibrations(
     verdict: Literal["pass", "fail"] | None = None,
     plan: Annotated[str | None, Query(description="as in the run, also `apply` or `dataset`")] = None,
     work_order: str | None = None,
-    since: Annotated[datetime | None, Query(description="created at or after")] = None,
-    until: Annotated[datetime | None, Query(description="created before")] = None,
-    ended_since: Annotated[datetime | None, Query(description="ended at or after")] = None,
+    since: Annotated[Moment | None, Query(description="created at or after")] = None,
+    until: Annotated[Moment | None, Query(description="created before")] = None,
+    ended_since: Annotated[Moment | None, Query(description="ended at or after")] = None,
 ) -> CalibrationList:
     """Newest first, page by page."""
     page = runtime.store.calibrations(

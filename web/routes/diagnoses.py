@@ -73,7 +73,8 @@ def read_separating(calibration_id: CalibrationId, runtime: TheRuntime) -> Separ
 def read_report(calibration_id: CalibrationId, runtime: TheRuntime) -> HTMLResponse:
     """The diagnosis as a page with drawings, computed again from the stored readings."""
     findings, _ = _again(runtime, calibration_id)
-    report = page(findings, f"run {calibration_id}, robot {findings.robot.serial}")
+    uid = runtime.store.summary(calibration_id).uid
+    report = page(findings, f"run {calibration_id}, uid {uid}, robot {findings.robot.serial}")
     return HTMLResponse(report.to_html(), headers={"Content-Security-Policy": REPORT_POLICY})
 
 

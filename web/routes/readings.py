@@ -14,6 +14,8 @@ class CsvResponse(Response):
     media_type = "text/csv"
 
 
+RUN_UID = "Run-Uid"
+
 router = APIRouter(prefix="/calibrations/{calibration_id}", tags=["readings"])
 
 
@@ -27,9 +29,10 @@ def list_readings(calibration_id: CalibrationId, runtime: TheRuntime) -> Reading
 
 @router.get("/readings.csv", response_class=CsvResponse, responses=documented(404))
 def download_readings(calibration_id: CalibrationId, runtime: TheRuntime) -> CsvResponse:
-    """The measurement file itself."""
+    """The measurement file itself, an imported one as it was sent; the header `Run-Uid` says of which run."""
     name = f"calibration-{calibration_id}-readings.csv"
+    uid = runtime.store.summary(calibration_id).uid
     return CsvResponse(
         readings_to_csv(runtime.store.readings(calibration_id)),
-        headers={"Content-Disposition": f'attachment; filename="{name}"'},
+        headers={"Content-Disposition": f'attachment; filename="{name}"', RUN_UID: uid},
     )

@@ -336,7 +336,7 @@ def test_a_port_that_is_held_is_a_lost_link() -> None:
 
 def test_a_bad_url_is_refused_at_once() -> None:
     with pytest.raises(
-        BadUrl, match=r"must begin with modbus\+rtu://, modbus\+tcp:// or modbus\+rtuovertcp://"
+        BadUrl, match=r"must begin with modbus\+rtu://, modbus\+tcp://, modbus\+rtuovertcp:// or"
     ):
         ModbusBus("tcp://127.0.0.1:502")
 

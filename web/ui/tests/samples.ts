@@ -181,6 +181,7 @@ export const calibration = (given: Partial<Calibration> = {}): Calibration => ({
   memory: null,
   lack_of_fit: null,
   accuracy: null,
+  advice: [],
   check: null,
   references: [],
   prompt: null,
