@@ -10,8 +10,8 @@ from station.run_kinds import (  # noqa: F401 - they register themselves
     retract,
     separate,
 )
-from station.run_kinds.adaptive import adaptive, fit_in_sequence
-from station.run_kinds.check import check
+from station.run_kinds.adaptive import adaptive_run, fit_in_sequence
+from station.run_kinds.check import check_run
 from station.run_kinds.diagnose import diagnosed
 from station.run_kinds.import_file import Upload, import_dataset
 from station.run_kinds.kind import RUN_KINDS, Continued, RunKind, Start, kind_of_plan, request_of
@@ -26,12 +26,12 @@ __all__ = [
     "RunKind",
     "Start",
     "Upload",
-    "adaptive",
+    "adaptive_run",
     "application",
     "calibration_holds",
     "change_of",
-    "check",
     "check_not_locked",
+    "check_run",
     "clear_failed_check",
     "diagnosed",
     "fit_in_sequence",

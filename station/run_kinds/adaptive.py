@@ -59,9 +59,11 @@ MOST = 60
 FIRST_GRID = (7, 4)
 RECENT, APART_DEG = 12, 1.0
 """A position must be that far from those of so many readings before: elsewhere tells more."""
-NEAR, NEARER = 1.06, 1.02
+NEAR, NEARER = 1.1, 1.05
 """Share of the best bound that readings can reach at which further ones are not worth their time, and the one
 that the first readings aim at."""
+TIGHTEST = 1.02
+"""The same where a wish is tighter than that."""
 CLEARLY = 1.15
 """Share of the wish above which the best bound must lie before a run gives up early."""
 POWER = 0.985
@@ -161,7 +163,7 @@ class Situation:
         test, changes = self._test if known.memory else (None, np.zeros((0, 0)))
         best = float(np.trace(with_readings(known.covariance, self._rows_of_full) @ self._weight))
         wanted = self.aim.wanted_mm
-        spare = NEARER if wanted is None else max(NEARER, wanted / self.best_mm)
+        spare = NEARER if wanted is None else max(TIGHTEST, wanted / self.best_mm)
         chosen = Quickest(
             covariance=known.covariance,
             rows=known.rows(places),
@@ -243,7 +245,9 @@ def _positive(covariance: Real) -> Real:
     return np.asarray((vectors * np.maximum(values, 0.0)) @ vectors.T)
 
 
-def adaptive(robot: Robot, remembered: Remembered | None, wanted_mm: float | None, pace: Pace) -> Procedure:
+def adaptive_run(
+    robot: Robot, remembered: Remembered | None, wanted_mm: float | None, pace: Pace
+) -> Procedure:
     """Reading after reading until there is a reason to stop."""
     age_days = remembered.age_days if remembered else 0.0
     memory = aged(remembered, robot, age_days).informed(robot)[0] if remembered else None

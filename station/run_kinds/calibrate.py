@@ -30,7 +30,7 @@ from station.records import (
     Remembered,
     because,
 )
-from station.run_kinds.adaptive import adaptive
+from station.run_kinds.adaptive import adaptive_run
 from station.run_kinds.fits import fit_of
 from station.run_kinds.guided import reference, two_mounts
 from station.run_kinds.kind import RunKind, Start, register
@@ -48,7 +48,7 @@ def calibrate(start: Start) -> Procedure:
     if guided := GUIDED.get(start.plan):
         return guided(start, memory)
     if start.plan == "adaptive":
-        return adaptive(start.robot, memory, start.wanted_mm, start.pace)
+        return adaptive_run(start.robot, memory, start.wanted_mm, start.pace)
     return measured_and_verified(start.plan, start.robot, memory, start.wanted_mm)
 
 

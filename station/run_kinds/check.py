@@ -65,11 +65,13 @@ def start_check(start: Start) -> Procedure:
         raise NotFound(f"Robot {start.robot.serial} has no passed calibration.")
     source = source_of(start.store, run.id)
     shift_deg = shift_of(start.store.zero_writes(start.robot.serial, since=run.id))
-    age_days = (datetime.now(UTC) - (run.ended_at or run.created_at)).total_seconds() / 86_400.0
-    return check(source.fit.moved(shift_deg), max(age_days, 0.0), start.limits.check_valid_h)
+    now = start.began_at or datetime.now(UTC)
+    age_days = (now - (run.ended_at or run.created_at)).total_seconds() / 86_400.0
+    until = now + timedelta(hours=start.limits.check_valid_h)
+    return check_run(source.fit.moved(shift_deg), max(age_days, 0.0), until)
 
 
-def check(fit: Identification[FiveBar], age_days: float, valid_h: float) -> Procedure:
+def check_run(fit: Identification[FiveBar], age_days: float, until: datetime) -> Procedure:
     """Four readings, and whether they are as predicted."""
     robot = fit.mechanism.robot
     stops = make_plan("check", robot, fit.dtheta).stops
@@ -110,7 +112,7 @@ def check(fit: Identification[FiveBar], age_days: float, valid_h: float) -> Proc
             p_value=min(shift_p, rest_p),
             blind=together,
             blind_shift_deg=float(np.degrees(blind)),
-            valid_until=datetime.now(UTC) + timedelta(hours=valid_h) if passed else None,
+            valid_until=until if passed else None,
         ),
         residuals=residual_rows(readings, difference, LIMIT_SDS * sd * np.sqrt(np.diag(test.covariance))),
     )

@@ -12,12 +12,13 @@ from station.five_bar import FiveBar, Robot
 from station.identification import Identification, bounds_mm, identify
 from station.plans import USUAL, make_plan
 from station.records import AnyReference, JointAngle, MountingError, PlanName, Remembered, Stop
-from station.run_kinds import adaptive, check, fit_in_sequence
+from station.run_kinds import adaptive_run, check_run, fit_in_sequence
 from station.studies.plans.drawn import Drawn, drawn, robot_of
 from station.studies.plans.walked import SAMPLES, walk
 
 LEVEL_SD_DEG, MOUNTING_SD_MM = 0.005, 0.02
 REMOUNT_MM, LINK_MM = 1.0, 0.3
+TOMORROW = datetime(2030, 1, 1, tzinfo=UTC)
 WISH = 1.01
 """Of the bound that the full run before reached."""
 CASES: dict[str, tuple[PlanName, bool, bool]] = {
@@ -97,7 +98,7 @@ def struck(item: tuple[float, int]) -> Struck:
     memory = Remembered(1, datetime.now(UTC), before.lasting.record())
     wish_mm = WISH * bounds_mm(before)[0]
     after = machine.struck(rng)
-    run = walk(adaptive(robot, memory, wish_mm, USUAL), after.machine(1))
+    run = walk(adaptive_run(robot, memory, wish_mm, USUAL), after.machine(1))
     used = run.result.memory is not None and run.result.memory.used
     fit = fit_in_sequence(robot, list(run.readings), memory if used else None, 0.0)
     change, truth = "link", after.truth.copy()
@@ -109,7 +110,7 @@ def struck(item: tuple[float, int]) -> Struck:
         link = int(rng.integers(4))
         truth[6 + link] += LINK_MM * rng.choice([-1.0, 1.0])
         change = ("L1", "L2", "l1", "l2")[link]
-    misled = walk(adaptive(robot, memory, wish_mm, USUAL), Drawn(robot, truth, item[1]).machine(2)).result
+    misled = walk(adaptive_run(robot, memory, wish_mm, USUAL), Drawn(robot, truth, item[1]).machine(2)).result
     return Struck(
         readings=len(run.readings),
         machine_s=run.machine_s,
@@ -125,12 +126,12 @@ def checked(item: tuple[float, int]) -> Checked:
     """A full run, then plan `check` twice."""
     robot, machine, rng = _machine(item)
     fit = identify(robot, machine.machine().run(_stops(item[0], "full"), SAMPLES))
-    still = walk(check(fit, 0.0, 24.0), machine.machine(1)).result
+    still = walk(check_run(fit, 0.0, TOMORROW), machine.machine(1)).result
     assert still.check is not None
     joint = int(rng.integers(2))
     truth = machine.truth.copy()
     truth[joint] += np.radians(still.check.smallest_by_joint_deg[joint]) * rng.choice([-1.0, 1.0])
-    shifted = walk(check(fit, 0.0, 24.0), Drawn(robot, truth, item[1]).machine(2)).result
+    shifted = walk(check_run(fit, 0.0, TOMORROW), Drawn(robot, truth, item[1]).machine(2)).result
     return Checked(still.check.smallest_shift_deg, still.verdict == "fail", shifted.verdict == "fail")
 
 

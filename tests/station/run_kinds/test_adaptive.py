@@ -12,7 +12,7 @@ from station.five_bar import Robot
 from station.identification import bounds_mm, identify
 from station.plans import USUAL, make_plan
 from station.records import JointAngle, Real, Remembered
-from station.run_kinds.adaptive import adaptive, fit_in_sequence
+from station.run_kinds.adaptive import adaptive_run, fit_in_sequence
 from station.studies.plans.drawn import Drawn, drawn, robot_of
 from station.studies.plans.walked import Walked, walk
 
@@ -32,7 +32,7 @@ class Struck:
     def run(self, wanted_mm: float | None, *, memory: bool = True, truth: Real | None = None) -> Walked:
         machine = self.machine if truth is None else Drawn(ROBOT, truth, self.machine.seed)
         remembered = self.memory if memory else None
-        return walk(adaptive(ROBOT, remembered, wanted_mm, USUAL), machine.machine(1))
+        return walk(adaptive_run(ROBOT, remembered, wanted_mm, USUAL), machine.machine(1))
 
 
 @pytest.fixture(scope="module", params=[2])
@@ -102,7 +102,7 @@ def test_a_reference_is_worth_many_readings() -> None:
     machine, rng = drawn(ROBOT, 4)
     seen_deg = float(np.degrees(machine.truth[0]) + rng.normal(0.0, 0.005))
     robot: Robot = ROBOT.informed([JointAngle(joint=1, at_deg=0.0, reads_deg=seen_deg, sd_deg=0.005)])
-    walked = walk(adaptive(robot, None, 0.35, USUAL), machine.machine())
+    walked = walk(adaptive_run(robot, None, 0.35, USUAL), machine.machine())
     assert walked.result.verdict == "pass"
     assert len(walked.readings) <= 8
 
@@ -111,6 +111,6 @@ def test_readings_that_no_machine_gives_are_no_pass(struck: Struck) -> None:
     machine = struck.machine.machine(1)
     effects = [{"kind": "gear_cyclic", "joint": 1, "amplitude_deg": 0.2, "per_rev": 20.0}]
     spoiled = type(machine)(ROBOT, struck.machine.truth, "whole pulses", 7, effects)
-    result = walk(adaptive(ROBOT, struck.memory, None, USUAL), spoiled).result
+    result = walk(adaptive_run(ROBOT, struck.memory, None, USUAL), spoiled).result
     assert result.verdict == "fail"
     assert result.outcome in ("unexplained", "failed")
