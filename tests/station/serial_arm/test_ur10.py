@@ -23,7 +23,8 @@ from tests.station.simulated import DATA, needs_data
 LOGS = DATA / "ur10"
 ROBOT = Path(__file__).parents[3] / "docs/examples/ur10.toml"
 
-pytestmark = needs_data
+# thousands of readings of six joints: half a minute on a quiet machine, several on a busy one
+pytestmark = [needs_data, pytest.mark.timeout(400)]
 
 
 def robot() -> AnyRobot:

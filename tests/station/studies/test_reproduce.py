@@ -21,6 +21,10 @@ BEFORE_MM = {
 }
 
 
+# the whole study runs once for all of them
+pytestmark = pytest.mark.timeout(400)
+
+
 @pytest.fixture(scope="module")
 def written(tmp_path_factory: pytest.TempPathFactory) -> tuple[dict[str, Any], str]:
     """What `station reproduce` writes: JSON and page."""
