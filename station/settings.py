@@ -7,7 +7,15 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Self
 
-from pydantic import BaseModel, ConfigDict, Field, SerializeAsAny, ValidationError, model_validator
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    IPvAnyNetwork,
+    SerializeAsAny,
+    ValidationError,
+    model_validator,
+)
 from pydantic_core import ErrorDetails
 
 from drivers.driver import DriverSettings
@@ -142,8 +150,19 @@ class ServiceSettings(_Section):
     """File of the history; by default `station.db` in the home folder."""
     least_free_mb: Annotated[float, Field(ge=0, le=1e6)] = 4.0
     """No run starts with less room on the disk of the history, MB."""
-    api_keys: Path | None = None
-    """Not used yet."""
+    open: bool = True
+    """Whether the emulated rig on a loopback address needs no sign-in; any other station always does."""
+    hosts: tuple[Annotated[str, Field(pattern=r"^[A-Za-z0-9.\-:\[\]]+$")], ...] = ()
+    """Names under which browsers reach the station, as `station.plant.example` or with `:port`; the address
+    that it listens at and those of loopback are always among them."""
+    trusted_proxies: tuple[IPvAnyNetwork, ...] = ()
+    """Addresses or networks of reverse proxies whose `X-Forwarded-` headers count."""
+    sign_off_min: Annotated[float, Field(gt=0, le=1440)] = 60.0
+    """After so many minutes without activity somebody is signed off, but never while a run is under way."""
+    body_mb: Annotated[float, Field(gt=0, le=100)] = 4.0
+    """Largest file in a request, MB; JSON may have 1 MB."""
+    body_s: Annotated[float, Field(gt=0, le=3600)] = 30.0
+    """A request whose body takes longer is refused, s."""
 
 
 class BackupSettings(_Section):

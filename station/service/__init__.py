@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from station.service.entrance import check_entrance, listens_on_loopback
 from station.service.orchestrator import LiveEvent, Orchestrator, Submitted
 from station.service.runtime import Runtime, holding
+from station.service.timer import Timer
 
 __all__ = [
     "LiveEvent",
     "Orchestrator",
     "Runtime",
     "Submitted",
+    "Timer",
+    "check_entrance",
     "holding",
+    "listens_on_loopback",
 ]

@@ -11,7 +11,6 @@ import logging
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import asdict, dataclass
-from datetime import UTC, datetime
 from queue import Empty, Queue
 from threading import Lock, Thread
 from typing import Any
@@ -33,9 +32,10 @@ from station.motion import (
 )
 from station.plans import PLANS
 from station.records import (
+    STATION,
+    Actor,
     CalibrationRequest,
     CalibrationResult,
-    CalibrationSummary,
     MeasurementSequence,
     Reading,
     Reason,
@@ -102,7 +102,9 @@ class Orchestrator:
 
     # Asking for runs -----------------------------------------------------------------------------
 
-    def submit(self, request: CalibrationRequest, *, idempotency_key: str | None = None) -> Submitted:
+    def submit(
+        self, request: CalibrationRequest, *, idempotency_key: str | None = None, by: Actor = STATION
+    ) -> Submitted:
         """Start a run, or find the one that this key started.
 
         :raises Busy: another run holds the rig.
@@ -130,7 +132,7 @@ class Orchestrator:
             kind.check(self._store, request)
             uid = uid7()
             calibration_id = self._store.create(
-                request, robot, key=idempotency_key, body_hash=body_hash, uid=uid
+                request, robot, key=idempotency_key, body_hash=body_hash, uid=uid, by=by
             )
             run = Run(calibration_id, uid, request, robot)
             with self._lock:
@@ -140,7 +142,13 @@ class Orchestrator:
         return Submitted(calibration_id, created=True)
 
     def follow(
-        self, kind: str, calibration_id: int, operator: str, *, idempotency_key: str | None = None
+        self,
+        kind: str,
+        calibration_id: int,
+        operator: str,
+        *,
+        idempotency_key: str | None = None,
+        by: Actor = STATION,
     ) -> Submitted:
         """Start a run that is about an earlier one: apply it, roll it back, distinguish its causes.
 
@@ -153,19 +161,19 @@ class Orchestrator:
             return Submitted(done, created=False)
         serial = self._store.summary(calibration_id).robot_serial
         request = CalibrationRequest(serial, kind, operator, of=calibration_id)
-        return self.submit(request, idempotency_key=idempotency_key)
+        return self.submit(request, idempotency_key=idempotency_key, by=by)
 
     def no_room(self) -> str | None:
         """Why the disk is too full for a run; None when it is not."""
         return too_full(self._store.path, self._settings.service.least_free_mb)
 
-    def retract(self, operator: str, *, idempotency_key: str | None = None) -> Submitted:
+    def retract(self, operator: str, *, idempotency_key: str | None = None, by: Actor = STATION) -> Submitted:
         """Start a run that brings the arm back into the workspace of the robot measured last.
 
         :raises: as `submit`.
         """
         request = CalibrationRequest(self._machine.robot.serial, "retract", operator)
-        return self.submit(request, idempotency_key=idempotency_key)
+        return self.submit(request, idempotency_key=idempotency_key, by=by)
 
     def _robot(self, serial: str) -> Robot:
         """The kept robot file, else the paper's Table 1, checked against the drives' scaling."""
@@ -192,6 +200,17 @@ class Orchestrator:
             self._halt(run, who)
         else:
             self._store.summary(calibration_id)
+
+    @property
+    def emulated(self) -> bool:
+        """Whether the devices are those of the emulated rig."""
+        return self._machine.devices.emulated
+
+    @property
+    def running(self) -> int | None:
+        """The run that holds the rig."""
+        run = self._run
+        return None if run is None else run.id
 
     @property
     def axes(self) -> tuple[str, ...]:
@@ -309,35 +328,11 @@ class Orchestrator:
             summary = self._store.summary(run.id)
         except StoreUnavailable as error:
             log.exception("The end of run %d cannot be read back", run.id)
-            summary = self._unread(run, because("store_failed", text=str(error)))
+            summary = run.as_ended(because("store_failed", text=str(error)))
         with self._lock:
             self._last, self._run = summary, None
         run.ended.set()
         self._listeners.publish("ended", summary)
-
-    def _unread(self, run: Run, reason: Reason) -> CalibrationSummary:
-        """How a run ended that the store does not give back."""
-        brief = run.brief()
-        return CalibrationSummary(
-            id=run.id,
-            uid=run.uid,
-            robot_serial=brief.robot_serial,
-            kind=brief.kind,
-            plan=brief.plan,
-            of=brief.of,
-            operator=brief.operator,
-            work_order=brief.work_order,
-            state=run.state,
-            verdict=None,
-            outcome="failed" if run.state is State.FAILED else None,
-            step=brief.step,
-            steps=brief.steps,
-            started_at=brief.started_at,
-            reason=reason.text,
-            reason_code=reason.code,
-            reason_params=reason.params,
-            created_at=brief.started_at or datetime.now(UTC),
-        )
 
     def _perform(self, run: Run) -> _Ending:
         try:

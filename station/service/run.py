@@ -12,9 +12,11 @@ from station.five_bar import Robot
 from station.records import (
     CalibrationRequest,
     CalibrationResult,
+    CalibrationSummary,
     Iteration,
     MeasurementSequence,
     Reading,
+    Reason,
     ResidualOfReading,
     RunBrief,
     RunReading,
@@ -105,6 +107,30 @@ class Run:
                 ResidualOfReading(reading=r.reading, residual_mm=r.residual_mm, limit_mm=r.limit_mm)
                 for r in self._readings
             ]
+
+    def as_ended(self, reason: Reason) -> CalibrationSummary:
+        """How it ended, where the store does not give that back."""
+        brief = self.brief()
+        return CalibrationSummary(
+            id=self.id,
+            uid=self.uid,
+            robot_serial=brief.robot_serial,
+            kind=brief.kind,
+            plan=brief.plan,
+            of=brief.of,
+            operator=brief.operator,
+            work_order=brief.work_order,
+            state=self.state,
+            verdict=None,
+            outcome="failed" if self.state is State.FAILED else None,
+            step=brief.step,
+            steps=brief.steps,
+            started_at=brief.started_at,
+            reason=reason.text,
+            reason_code=reason.code,
+            reason_params=reason.params,
+            created_at=brief.started_at or datetime.now(UTC),
+        )
 
     def brief(self) -> RunBrief:
         """The `run` event: without stops and readings."""

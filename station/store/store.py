@@ -6,8 +6,8 @@ wait for it.  Rows become records in `station.store.rows`.
 
 from __future__ import annotations
 
-import json
 import logging
+import sqlite3
 from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
@@ -18,6 +18,8 @@ from pydantic import JsonValue
 from station.errors import KeyReused, NotFound, StoreUnavailable
 from station.five_bar import Robot
 from station.records import (
+    STATION,
+    Actor,
     Calibration,
     CalibrationRequest,
     CalibrationResult,
@@ -26,12 +28,14 @@ from station.records import (
     Reading,
     Reason,
     State,
-    StoredEvent,
     because,
     uid7,
 )
 from station.store.chain import Verified, append, verify
 from station.store.ends import End, UnstoredEnds, end_of
+from station.store.events import StationEvents
+from station.store.outbox import Outbox
+from station.store.people import People
 from station.store.robots import Memories
 from station.store.rows import (
     LIST_COLUMNS,
@@ -41,7 +45,6 @@ from station.store.rows import (
     compact,
     document_from,
     millis,
-    moment,
     pack_document,
     reading_from_row,
     reading_row,
@@ -58,9 +61,11 @@ log = logging.getLogger(__name__)
 
 S = TypeVar("S", bound=CalibrationSummary)
 _UNFINISHED = (State.QUEUED, State.RUNNING)
+_DEEDS = {"apply": "run.applied", "rollback": "run.rolled_back"}
+"""What the audit calls the start of a run of this kind."""
 
 
-class Store(Memories, ZeroJournal, Trends):
+class Store(Memories, ZeroJournal, Trends, People, Outbox, StationEvents):
     """Thread safe.  Order is by number: the clock that gives the times may jump.
 
     Every method may raise `StoreUnavailable`, unless it says otherwise.
@@ -81,10 +86,12 @@ class Store(Memories, ZeroJournal, Trends):
         key: str | None = None,
         body_hash: bytes = b"",
         uid: str | None = None,
+        by: Actor = STATION,
     ) -> int:
         """A new calibration in state queued; its idempotency key is kept in the same transaction.
 
         :param uid: where it is known already; else made here.
+        :param by: who starts it, for the audit.
         :raises KeyReused: the key is taken (ask `find_key` first to answer a repeated request).
         """
         robot_id = self.save_robot(robot)
@@ -115,6 +122,11 @@ class Store(Memories, ZeroJournal, Trends):
                 if taken is not None:
                     raise KeyReused(int(taken[0]))
                 db.execute("INSERT INTO idempotency_keys VALUES (?, ?, ?)", [key, body_hash, calibration_id])
+            db.execute("INSERT INTO run_starters VALUES (?, ?, ?)", [calibration_id, by.name, by.via])
+            asked = {"kind": request.kind, "plan": request.label, "robot_serial": robot.serial}
+            told = {**asked, "operator": request.operator, "work_order": request.work_order, "of": request.of}
+            self.record(by, _DEEDS.get(request.kind, "run.started"), f"run {calibration_id}", after=told)
+            self.announce("run.started", self._written(db.conn, calibration_id))
         self._times.begin(calibration_id, created_ms)
         return calibration_id
 
@@ -127,10 +139,11 @@ class Store(Memories, ZeroJournal, Trends):
         *,
         key: str | None = None,
         body_hash: bytes = b"",
+        by: Actor = STATION,
     ) -> int:
         """A run that was measured elsewhere, whole or not at all.  :raises KeyReused: as `create`."""
         with self._writing():
-            calibration_id = self.create(request, robot, key=key, body_hash=body_hash)
+            calibration_id = self.create(request, robot, key=key, body_hash=body_hash, by=by)
             self.set_state(calibration_id, State.RUNNING, steps=len(readings))
             self.add_readings(calibration_id, readings)
             self._end(calibration_id, end_of(State.SUCCEEDED, result, None, self._times.now(calibration_id)))
@@ -227,8 +240,19 @@ class Store(Memories, ZeroJournal, Trends):
                     )
             if ended:
                 append(lambda sql, values: db.execute(sql, values).fetchall(), calibration_id)
+                self.announce("run.ended", self._written(db.conn, calibration_id))
         self._times.end(calibration_id)
         return end.state if ended else self.summary(calibration_id).state
+
+    def _written(self, connection: sqlite3.Connection, calibration_id: int) -> dict[str, JsonValue]:
+        """The summary of a run as it stands in the transaction under way."""
+        cursor = connection.cursor()
+        cursor.row_factory = sqlite3.Row
+        row = cursor.execute(
+            f"SELECT {LIST_COLUMNS} FROM calibrations LEFT JOIN results ON calibration_id = id WHERE id = ?",
+            [calibration_id],
+        ).fetchone()
+        return summary_from_row(row).model_dump(mode="json", by_alias=True)
 
     def interrupt_unfinished(self) -> list[int]:
         """At start-up: what was queued or running when the station went down is interrupted.
@@ -411,37 +435,3 @@ class Store(Memories, ZeroJournal, Trends):
         if not rows:
             self.calibration(calibration_id)
         return [reading_from_row(row) for row in rows]
-
-    def add_event(
-        self, calibration_id: int | None, kind: str, data: dict[str, JsonValue] | None = None
-    ) -> None:
-        """Something worth remembering: who aborted, what a device said."""
-        with self._writing() as db:
-            db.execute(
-                "INSERT INTO events (calibration_id, at_ms, kind, data) VALUES (?, ?, ?, ?)",
-                [calibration_id, now_ms(), kind, compact(data) if data else None],
-            )
-
-    def latest_time(self) -> datetime | None:
-        """The latest that is on record of any run or event; None before the first."""
-        row = self._readers.one(
-            "SELECT max(coalesce((SELECT max(created_ms) FROM calibrations), 0),"
-            " coalesce((SELECT ended_ms FROM calibrations ORDER BY id DESC LIMIT 1), 0),"
-            " coalesce((SELECT at_ms FROM events ORDER BY id DESC LIMIT 1), 0)) AS latest_ms"
-        )
-        return moment(row["latest_ms"] or None) if row is not None else None
-
-    def events(self, calibration_id: int | None) -> list[StoredEvent]:
-        """Of one run, or of the station itself (None)."""
-        rows = self._readers.all(
-            "SELECT id, at_ms, kind, data FROM events WHERE calibration_id IS ? ORDER BY id", [calibration_id]
-        )
-        return [
-            StoredEvent(
-                id=row["id"],
-                at=moment(row["at_ms"]),
-                kind=row["kind"],
-                data=json.loads(row["data"]) if row["data"] else {},
-            )
-            for row in rows
-        ]

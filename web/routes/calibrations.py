@@ -5,11 +5,14 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Annotated, Any, Literal
 
-from fastapi import APIRouter, Query, Response
+from fastapi import BackgroundTasks, Query, Response
 from starlette.exceptions import HTTPException
 
+from station.errors import Forbidden
+from station.people import Permission
 from station.records import (
     LARGEST_ID,
+    Actor,
     Calibration,
     CalibrationRequest,
     CalibrationSummary,
@@ -18,14 +21,15 @@ from station.records import (
 )
 from station.run_kinds import application, kind_of_plan
 from station.service import Runtime
-from web.aside import aside
+from web.aside import aside, record_later
 from web.bodies import ApplyBody, CalibrationBody, CalibrationList
+from web.guarded import Router, needs
 from web.problems import documented
 from web.routes.parts import LOCATION, CalibrationId, IdempotencyKey, TheRuntime
 
 ABORT_TIMEOUT_S = 5.0
 
-router = APIRouter(prefix="/calibrations", tags=["calibrations"])
+router = Router(prefix="/calibrations", tags=["calibrations"])
 
 STARTED: dict[int | str, dict[str, Any]] = {
     202: {"description": "Accepted", "headers": LOCATION},
@@ -36,17 +40,18 @@ STARTED: dict[int | str, dict[str, Any]] = {
 @router.post("", status_code=202, response_model=CalibrationSummary, responses=STARTED)
 def start_calibration(
     body: CalibrationBody,
+    by: Annotated[Actor, needs(Permission.START)],
     runtime: TheRuntime,
     response: Response,
     idempotency_key: IdempotencyKey = None,
 ) -> CalibrationSummary:
     """Start a run.  The same `Idempotency-Key` with the same body answers the same run."""
     request = CalibrationRequest(kind=kind_of_plan(body.plan), **body.model_dump())
-    submitted = runtime.orchestrator.submit(request, idempotency_key=idempotency_key)
+    submitted = runtime.orchestrator.submit(request, idempotency_key=idempotency_key, by=by)
     return _started(submitted, runtime, response)
 
 
-@router.get("", response_model=CalibrationList)
+@router.get("", response_model=CalibrationList, dependencies=[needs(Permission.READ)])
 def list_calibrations(
     runtime: TheRuntime,
     limit: Annotated[int, Query(ge=1, le=500)] = 50,
@@ -76,7 +81,12 @@ def list_calibrations(
     return CalibrationList(items=page.items, next=page.next)
 
 
-@router.get("/{calibration_id}", response_model=Calibration, responses=documented(404))
+@router.get(
+    "/{calibration_id}",
+    response_model=Calibration,
+    responses=documented(404),
+    dependencies=[needs(Permission.READ)],
+)
 def read_calibration(calibration_id: CalibrationId, runtime: TheRuntime) -> Calibration:
     """One run in full."""
     calibration = runtime.store.calibration(calibration_id)
@@ -93,12 +103,20 @@ def read_calibration(calibration_id: CalibrationId, runtime: TheRuntime) -> Cali
     response_model=CalibrationSummary,
     responses=documented(404, 504),
 )
-async def abort_calibration(calibration_id: CalibrationId, runtime: TheRuntime) -> CalibrationSummary:
+async def abort_calibration(
+    calibration_id: CalibrationId,
+    by: Annotated[Actor, needs(Permission.ABORT)],
+    runtime: TheRuntime,
+    later: BackgroundTasks,
+) -> CalibrationSummary:
     """End a run at once and make the machine safe; calling it again changes nothing."""
 
     def abort() -> CalibrationSummary:
-        runtime.orchestrator.abort(calibration_id)
+        _check_own(runtime, calibration_id, by)
+        runtime.orchestrator.abort(calibration_id, by.name)
         return runtime.store.summary(calibration_id)
+
+    later.add_task(record_later, runtime.store, by, "run.aborted", f"run {calibration_id}")
 
     try:
         return await aside(abort, timeout_s=ABORT_TIMEOUT_S)
@@ -117,6 +135,7 @@ async def abort_calibration(calibration_id: CalibrationId, runtime: TheRuntime) 
 def apply_calibration(
     calibration_id: CalibrationId,
     body: ApplyBody,
+    by: Annotated[Actor, needs(Permission.OPERATE)],
     runtime: TheRuntime,
     response: Response,
     idempotency_key: IdempotencyKey = None,
@@ -126,7 +145,7 @@ def apply_calibration(
     A run of its own; when its verification fails it puts the old zeros back by itself.
     """
     submitted = runtime.orchestrator.follow(
-        "apply", calibration_id, body.operator, idempotency_key=idempotency_key
+        "apply", calibration_id, body.operator, idempotency_key=idempotency_key, by=by
     )
     return _started(submitted, runtime, response)
 
@@ -138,10 +157,15 @@ def apply_calibration(
     responses={**STARTED, **documented(404)},
 )
 def roll_back_calibration(
-    calibration_id: CalibrationId, body: ApplyBody, runtime: TheRuntime, response: Response
+    calibration_id: CalibrationId,
+    body: ApplyBody,
+    by: Annotated[Actor, needs(Permission.OPERATE)],
+    runtime: TheRuntime,
+    response: Response,
 ) -> CalibrationSummary:
     """Put the old zeros back; a run of its own.  Calling it again answers the run that did it."""
-    return _started(runtime.orchestrator.follow("rollback", calibration_id, body.operator), runtime, response)
+    submitted = runtime.orchestrator.follow("rollback", calibration_id, body.operator, by=by)
+    return _started(submitted, runtime, response)
 
 
 @router.post(
@@ -153,6 +177,7 @@ def roll_back_calibration(
 def separate(
     calibration_id: CalibrationId,
     body: ApplyBody,
+    by: Annotated[Actor, needs(Permission.OPERATE)],
     runtime: TheRuntime,
     response: Response,
     idempotency_key: IdempotencyKey = None,
@@ -162,9 +187,21 @@ def separate(
     A run of its own: it continues the readings of that run, and new fresh readings confirm.
     """
     submitted = runtime.orchestrator.follow(
-        "separate", calibration_id, body.operator, idempotency_key=idempotency_key
+        "separate", calibration_id, body.operator, idempotency_key=idempotency_key, by=by
     )
     return _started(submitted, runtime, response)
+
+
+def _check_own(runtime: Runtime, calibration_id: int, by: Actor) -> None:
+    """:raises Forbidden: a MES ends only what it started."""
+    if by.role == "mes":
+        starter = runtime.store.started_by(calibration_id)
+        if starter is None or (starter.via, starter.name) != (by.via, by.name):
+            runtime.store.summary(calibration_id)
+            raise Forbidden(
+                f"{by.name} has the role mes and may end only runs that it started;"
+                f" run {calibration_id} is not one.  The stop is open to everyone."
+            )
 
 
 def _started(submitted: Submitted, runtime: Runtime, response: Response) -> CalibrationSummary:

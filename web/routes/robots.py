@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter
+from typing import Annotated
 
+from station.people import Permission
+from station.records import Actor
 from web.bodies import Robot, Serial
+from web.guarded import Router, needs
 from web.problems import documented
 from web.routes.parts import CallerName, TheRuntime
 
-router = APIRouter(prefix="/robots", tags=["robots"])
+router = Router(prefix="/robots", tags=["robots"])
 
 
-@router.get("/{serial:path}", response_model=Robot, responses=documented(404))
+@router.get(
+    "/{serial:path}", response_model=Robot, responses=documented(404), dependencies=[needs(Permission.READ)]
+)
 def read_robot(serial: Serial, runtime: TheRuntime) -> Robot:
     """Its file, and what its next run will know of geometry and mechanism."""
     memory = runtime.store.memory(serial)
@@ -23,6 +28,11 @@ def read_robot(serial: Serial, runtime: TheRuntime) -> Robot:
 
 
 @router.delete("/{serial:path}/memory", status_code=204, responses=documented(404))
-def forget(serial: Serial, runtime: TheRuntime, operator: CallerName = None) -> None:
+def forget(
+    serial: Serial,
+    by: Annotated[Actor, needs(Permission.MAINTAIN)],
+    runtime: TheRuntime,
+    operator: CallerName = None,
+) -> None:
     """The next run starts without memory; what was known stays on record.  Again is harmless."""
-    runtime.store.forget(serial, operator or "REST")
+    runtime.store.forget(serial, by)
