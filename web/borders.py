@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ipaddress
+import re
 from collections.abc import Sequence
 from ipaddress import IPv4Network, IPv6Network
 from typing import Any, cast
@@ -17,6 +18,7 @@ from web.problems import problem
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
 SAFE_METHODS = ("GET", "HEAD", "OPTIONS")
 POLICY_VIOLATION = 1008
+_NETLOC = re.compile(r"[\w.\-]+(:\d+)?|\[[0-9a-f:.]+\](:\d+)?", re.ASCII)
 
 
 class Forwarded:
@@ -105,6 +107,8 @@ class Borders:
 
 def hostname(netloc: str) -> str:
     """Without port and brackets; empty where it is none."""
+    if not _NETLOC.fullmatch(netloc):
+        return ""
     try:
         return urlsplit(f"//{netloc}").hostname or ""
     except ValueError:

@@ -42,11 +42,12 @@ def serve_command(
     new = new_history(database_path(settings, home))
     logs = logging_to(home, terminal=logging.WARNING)
     host = host or settings.service.host
+    emulated = emulate is not None or settings.scale is None
+    check_entrance(database_path(settings, home), host, emulated=emulated)
     listener = _listen(host, settings.service.port if port is None else port)
     with logs, listener, Runtime.open(settings, home, emulate) as runtime:
         if new:
             click.echo(new, err=True)
-        check_entrance(runtime.store, host, emulated=runtime.orchestrator.emulated)
         access = access_of(runtime, host)
         application = create_app(runtime, access=access)
         server = _Server(

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import ipaddress
+from contextlib import closing
+from pathlib import Path
 
 from station.errors import InputRefused
 from station.store import Store
@@ -18,10 +20,17 @@ def listens_on_loopback(host: str) -> bool:
         return False
 
 
-def check_entrance(store: Store, host: str, *, emulated: bool) -> None:
-    """:raises InputRefused: others reach it, or it moves a real machine, and nobody can sign in."""
-    if (emulated and listens_on_loopback(host)) or store.anybody_known():
+def check_entrance(database: Path, host: str, *, emulated: bool) -> None:
+    """Before anything is opened.
+
+    :raises InputRefused: others reach it, or it moves a real machine, and nobody can sign in.
+    """
+    if emulated and listens_on_loopback(host):
         return
+    if database.exists():
+        with closing(Store(database, read_only=True)) as store:
+            if store.anybody_known():
+                return
     why = "moves a real machine" if not emulated else f"is reached by others at {host}"
     raise InputRefused(
         f"This station {why}, and nobody can sign in yet; first run"
