@@ -6,12 +6,13 @@ A further driver is one module with a `DRIVER` and one line in the register of i
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Annotated, Generic, TypeVar
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from drivers.lines import ModbusWords
 from drivers.protocols import LinearScale, ServoAxis
 from drivers.scaling import JointScaling
 
@@ -46,6 +47,8 @@ class ScaleDriver(Generic[S]):
     settings: type[S]
     make: Callable[[S], LinearScale]
     """Nothing is opened yet.  :raises BadUrl:"""
+    words: Callable[[bytes], str] = bytes.hex
+    """What bytes on its line mean, sent or come, for whoever reads a wire log."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,3 +58,9 @@ class ServoDriver(Generic[S]):
     settings: type[S]
     make: Callable[[S, Sequence[Drive]], Sequence[ServoAxis]]
     """One axis a drive, in this order; nothing is opened yet.  :raises BadUrl:"""
+    registers: Mapping[int, str] = field(default_factory=dict)
+    """Names by address, for whoever reads a wire log."""
+
+    def words(self, url: str) -> ModbusWords:
+        """What frames on the line with this URL mean."""
+        return ModbusWords(self.registers, over_tcp=url.startswith("modbus+tcp://"))

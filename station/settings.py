@@ -13,6 +13,7 @@ from pydantic import (
     ConfigDict,
     Field,
     IPvAnyNetwork,
+    JsonValue,
     SerializeAsAny,
     ValidationError,
     model_validator,
@@ -45,6 +46,10 @@ class ScaleSettings(_Section):
         from drivers.scales import SCALES
 
         return _with_options(data, "protocol", {name: driver.settings for name, driver in SCALES.items()})
+
+    def flat(self) -> dict[str, JsonValue]:
+        """As the station file gives it, with every option."""
+        return {"protocol": self.protocol, **self.options.model_dump(mode="json")}
 
 
 class JointSettings(_Section):
@@ -93,6 +98,11 @@ class ServoSettings(_Section):
         known = {name: driver.settings for name, driver in SERVOS.items()}
         return _with_options(data, "profile", known, own=("joint",))
 
+    def flat(self) -> dict[str, JsonValue]:
+        """As the station file gives it, with every option."""
+        joints = [joint.model_dump(mode="json") for joint in self.joint]
+        return {"profile": self.profile, "joint": joints, **self.options.model_dump(mode="json")}
+
     @model_validator(mode="after")
     def _drives_differ(self) -> Self:
         if self.joint[0].unit == self.joint[1].unit:
@@ -126,7 +136,10 @@ class LimitSettings(_Section):
     swing_mm: Annotated[float, Field(ge=0, le=200)] = 80.0
     """How far outside it the arm may swing on the way, zero offsets not yet known included."""
     settle_s: Annotated[float, Field(ge=0, le=10)] = 0.3
-    """Pause between standstill and the first sample."""
+    """Longest wait after standstill for samples that agree; after it they only have to be within
+    `scale_spread_mm`."""
+    settled_mm: Annotated[float, Field(ge=0, le=1)] = 0.006
+    """Samples within this of each other agree: the arm has come to rest."""
     samples: Annotated[int, Field(ge=2, le=100)] = 5
     """Samples of the scale in one reading."""
     scale_spread_mm: Annotated[float, Field(gt=0, le=1)] = 0.05
@@ -137,6 +150,12 @@ class LimitSettings(_Section):
     """How far a moving joint may leave the way from its start to its target."""
     overshoot_deg: Annotated[float, Field(gt=0, le=5)] = 0.5
     """Run-up of a stop that must be approached from a given side."""
+    prompt_s: Annotated[float, Field(gt=0, le=86400)] = 300.0
+    """How long a run waits for an answer, in real time; then it is made safe and ends."""
+    level_sd_deg: Annotated[float, Field(gt=0, le=1)] = 0.005
+    """Standard uncertainty of a level on a link, as plan `reference` asks for it."""
+    check_valid_h: Annotated[float, Field(gt=0, le=8760)] = 24.0
+    """How long a passed check holds, hours."""
     travel_error_mm: Annotated[float, Field(gt=0, le=500)] = 60.0
     """How far the scale's travel may differ from what the joints say."""
 
@@ -163,8 +182,6 @@ class ServiceSettings(_Section):
     """After so many minutes without activity somebody is signed off, but never while a run is under way."""
     body_mb: Annotated[float, Field(gt=0, le=100)] = 4.0
     """Largest file in a request, MB; JSON may have 1 MB."""
-    body_s: Annotated[float, Field(gt=0, le=3600)] = 30.0
-    """A request whose body takes longer is refused, s."""
 
 
 class BackupSettings(_Section):
@@ -184,12 +201,15 @@ class RetentionSettings(_Section):
     samples_days: Annotated[float, Field(ge=1)] | None = None
     """Days after the end of a run after which the single samples of its readings are dropped; their mean and
     number stay.  An event says so.  Without it they are kept."""
+    wire_days: Annotated[float, Field(ge=1)] | None = None
+    """Days after the end of a run after which what crossed the wires during it is dropped.  An event says so.
+    Without it they are kept."""
 
 
 class QualitySettings(_Section):
     """`[quality]`: what process control compares finished runs with."""
 
-    zero_offset_deg: Annotated[float, Field(gt=0, le=90)] = 1.0
+    zero_offset_deg: Annotated[float, Field(gt=0, le=90)] = 3.0
     """Largest zero offset, to either side, that counts as within the process limits."""
     position_error_mm: Annotated[float, Field(gt=0, le=1000)] = 0.5
     """Largest position error, 95 % bound over the workspace, that counts as within the process limits."""

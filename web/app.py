@@ -11,7 +11,7 @@ from fastapi import Depends, FastAPI
 from station import __version__
 from station.people import Access
 from station.service import Runtime, Timer, listens_on_loopback
-from web import pages, problems
+from web import etags, methods, pages, problems
 from web.borders import Borders, Forwarded
 from web.headers import SecurityHeaders
 from web.known_query import known_query
@@ -26,6 +26,7 @@ from web.routes import (
     events,
     health,
     live,
+    plans,
     quality,
     readings,
     retract,
@@ -34,6 +35,7 @@ from web.routes import (
     station,
     stop,
 )
+from web.slow_bodies import SlowBodies
 
 API = "/api/v1"
 DESCRIPTION = """Zero-offset calibration of a 2-DOF five-bar robot, for the operator's page and the MES alike.
@@ -46,8 +48,8 @@ JSON_BYTES = 1_000_000
 """Largest body of JSON."""
 NOTE_USE_S = 60.0
 ROUTES = (
-    station, audit, backups, calibrations, datasets, diagnoses, emulator, events, quality, readings, retract,
-    robots, sessions, stop,
+    station, audit, backups, calibrations, datasets, diagnoses, emulator, events, plans, quality, readings,
+    retract, robots, sessions, stop,
 )  # fmt: skip
 LIVE_ROUTES = (live,)
 
@@ -91,9 +93,12 @@ def create_app(runtime: Runtime, *, access: Access | None = None, static: Path =
     pages.add(app, static)
     problems.add(app)
     problems.add_schema(app.openapi())
+    app.add_middleware(SlowBodies)
+    app.add_middleware(etags.ETags, prefix=f"{API}/calibrations/")
     app.add_middleware(Borders, hosts=service.hosts)
     app.add_middleware(Forwarded, proxies=service.trusted_proxies)
     app.add_middleware(SecurityHeaders)
+    app.add_middleware(methods.HeadAsGet)
     return app
 
 

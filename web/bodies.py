@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Annotated, Literal
 
 from pydantic import (
@@ -14,14 +15,49 @@ from pydantic import (
     WithJsonSchema,
 )
 
+from station.errors import InputRefused
 from station.five_bar import Robot as RobotFile
 from station.plans import PLANS
-from station.records import CalibrationSummary, MemorySummary, Reading, Record, Sections
+from station.records import (
+    LARGEST_ID,
+    AnyReference,
+    CalibrationSummary,
+    MemorySummary,
+    Positive,
+    Reading,
+    Record,
+    Sections,
+    TaughtPosition,
+    TranslatedPosition,
+    checked_name,
+    checked_serial,
+)
+
+
+def _as_value(check: Callable[[str], str]) -> AfterValidator:
+    """A check of `station.records` as pydantic wants it."""
+
+    def validate(text: str) -> str:
+        try:
+            return check(text)
+        except InputRefused as refused:
+            raise ValueError(str(refused)) from refused
+
+    return AfterValidator(validate)
+
 
 Serial = Annotated[
-    str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64, pattern=r"^[\w.\-/]+$")
+    str,
+    StringConstraints(strip_whitespace=True, min_length=1, max_length=64, pattern=r"^[\w.\-/]+$"),
+    _as_value(checked_serial),
 ]
-Name = Annotated[str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64)]
+Name = Annotated[
+    str,
+    StringConstraints(strip_whitespace=True, min_length=1, max_length=64),
+    _as_value(checked_name),
+    # for those who read the schema; a person gets the sentence of the check
+    Field(json_schema_extra={"pattern": r"^[^\u0000-\u001f\u007f-\u009f\u2028\u2029]*$"}),
+]
 
 
 def _known_plan(name: str) -> str:
@@ -45,6 +81,15 @@ class CalibrationBody(BaseModel):
     operator: Name
     work_order: Name | None = None
     metadata: dict[str, JsonValue] = Field(default_factory=dict)
+    references: tuple[AnyReference, ...] = Field(
+        default_factory=tuple, max_length=20, description="what other instruments measured; for this run"
+    )
+    accuracy_mm: Positive | None = Field(
+        default=None, description="largest position error that is wanted; else the robot file's"
+    )
+    until_mm: Positive | None = Field(
+        default=None, description="the same, and plan `adaptive` ends as soon as it is reached"
+    )
 
 
 class DatasetFields(BaseModel):
@@ -65,6 +110,42 @@ class ApplyBody(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
     operator: Name
+
+
+class AnswerBody(BaseModel):
+    """The answer to what a run asks."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    prompt: str = Field(description="`id` of the prompt")
+    value: float | None = Field(default=None, description="where a number is asked for")
+
+
+class TranslateBody(BaseModel):
+    """Positions that were taught under other zeros."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    positions: list[TaughtPosition] = Field(min_length=1, max_length=10_000)
+    taught_under: int | None = Field(
+        default=None, ge=1, le=LARGEST_ID, description="the run after whose application they were taught"
+    )
+
+
+class TranslatedList(Record):
+    """In their order."""
+
+    items: list[TranslatedPosition]
+    next: None = None
+
+
+class ClearBody(BaseModel):
+    """Who lets a robot work again after a failed check, and why."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    operator: Name
+    reason: Annotated[str, StringConstraints(strip_whitespace=True, min_length=3, max_length=500)]
 
 
 class SeparatingStop(Record):

@@ -26,6 +26,7 @@ from station.errors import (
     TooManyTries,
 )
 from web.live_messages import LIVE_MESSAGE
+from web.methods import allowed
 
 MEDIA_TYPE = "application/problem+json"
 RETRY_AFTER = {"Retry-After": "5"}
@@ -166,11 +167,16 @@ def add(app: FastAPI) -> None:
 
     @app.exception_handler(HTTPException)
     async def http(request: Request, error: HTTPException) -> ProblemResponse:
-        return problem(error.status_code, str(error.detail), headers=error.headers)
+        headers = dict(error.headers or {})
+        if error.status_code == HTTPStatus.METHOD_NOT_ALLOWED:
+            headers["Allow"] = allowed(app.routes, request.url.path)
+        return problem(error.status_code, str(error.detail), headers=headers)
 
     @app.exception_handler(Exception)
     async def unexpected(request: Request, error: Exception) -> ProblemResponse:
-        return problem(500, "The service failed at this request; its log has the cause.")
+        # the server closes the connection after an exception; the client should not have to find out
+        headers = {"Connection": "close"}
+        return problem(500, "The service failed at this request; its log has the cause.", headers=headers)
 
 
 def _field(location: tuple[int | str, ...]) -> str:

@@ -1,8 +1,9 @@
 """Run an emulated rig: `python -m drivers.emulated RIG.toml [--speed X] [--state FILE]`.
 
-One JSON line on standard output tells the addresses; the rig runs until standard input ends (so it
-never outlives whoever started it) or until it is terminated.  A line of standard input is JSON with
-`faults` or `effects` that replace those ordered before; one line on standard output answers it.
+One JSON line on standard output tells `[scale]` and `[servo]` of a station file for it; the rig runs until
+standard input ends (so it never outlives whoever started it) or until it is terminated.  A line of standard
+input is JSON with `faults` or `effects` that replace those ordered before, or a `mount` of the mechanism;
+one line on standard output answers it.
 """
 
 from __future__ import annotations
@@ -28,6 +29,8 @@ class Order(BaseModel):
 
     faults: tuple[FaultOrder, ...] | None = None
     effects: tuple[AnyEffect, ...] | None = None
+    mount: tuple[float, float] | None = None
+    """Where the mechanism is mounted from now on, mm."""
 
 
 def main() -> int:
@@ -41,7 +44,7 @@ def main() -> int:
     try:
         rig = EmulatedRig(load_rig(arguments.rig), speed=arguments.speed, state_file=arguments.state)
         with rig:
-            print(json.dumps({"scale_url": rig.scale_url, "servo_url": rig.servo_url}), flush=True)
+            print(json.dumps({"scale": rig.scale_options, "servo": rig.servo_options}), flush=True)
             for line in sys.stdin:
                 print(_ordered(rig, line), flush=True)
     except (RigFileError, StateFileError) as error:
@@ -64,6 +67,8 @@ def _ordered(rig: EmulatedRig, line: str) -> str:
         rig.orders.replace(order.faults)
     if order.effects is not None:
         rig.machine.replace_effects(order.effects)
+    if order.mount is not None:
+        rig.machine.remount(order.mount)
     return order.model_dump_json()
 
 

@@ -27,6 +27,7 @@ _JOINTS: tuple[JointNumber, JointNumber] = (1, 2)
 _STOP_RPM_PER_S = 50_000.0
 _USUAL_RPM_PER_S = 10_000.0
 _PATH_STEPS = 16
+_REMOUNT_SD_MM = 0.2
 
 
 class Unreachable(ValueError):
@@ -154,7 +155,7 @@ class Machine:
         :param speed: how much faster than real the arms move
         """
         seed = spec.seed if seed is None else seed
-        self._spec = spec
+        self._spec = self._mounted = spec
         self._clock = clock
         self._noise = Random(f"{seed} scale")
         self._lock = RLock()
@@ -235,6 +236,15 @@ class Machine:
                 axis.put(shaft)
                 axis.zero_pulses = zero
             self._start_memories()
+
+    def remount(self, c_mm: Point) -> None:
+        """Mount the mechanism elsewhere; every place has a mounting error of its own, always the same one."""
+        with self._lock:
+            own = Random(f"{self._seed} mount {c_mm}")
+            error = self._mounted.drm_mm
+            if c_mm != self._mounted.c_mm:
+                error = (own.gauss(error[0], _REMOUNT_SD_MM), own.gauss(error[1], _REMOUNT_SD_MM))
+            self._spec = self._mounted.model_copy(update={"c_mm": c_mm, "drm_mm": error})
 
     # -- effects on order ----------------------------------------------------------------------
 

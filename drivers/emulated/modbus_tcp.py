@@ -6,30 +6,15 @@ import socket
 import struct
 from collections.abc import Callable, Mapping
 from contextlib import suppress
-from dataclasses import dataclass
 from threading import Event, Lock, Thread
+
+from drivers.emulated.link import DriveReply, DropLink, HalfOpen, Kind
 
 _TARGET_SILENT = 0x0B
 _HEADER = struct.Struct(">HHHB")  # transaction, protocol, length, unit
 _LONGEST_PDU = 253
-
-
-@dataclass(frozen=True, slots=True)
-class DriveReply:
-    """What came back from the line behind the gateway; no PDU: the drive was silent."""
-
-    pdu: bytes | None
-    delay_s: float = 0.0
-    spoil: Callable[[bytes], bytes] | None = None
-    """What becomes of the frame on its way."""
-
-
-class DropLink(Exception):
-    """A drive's answer that makes the gateway close the connection."""
-
-
-class HalfOpen(Exception):
-    """A drive's answer that makes the connection dead without a word, for as long as it lives."""
+_UNIT_AT, _FUNCTION_AT = 6, 7
+_NOISE = bytes.fromhex("00ff55aa")
 
 
 class ModbusTcpGateway:
@@ -84,7 +69,7 @@ class ModbusTcpGateway:
                     continue
                 answer = bytes((pdu[0] | 0x80, _TARGET_SILENT)) if reply.pdu is None else reply.pdu
                 whole = _HEADER.pack(transaction, 0, len(answer) + 1, unit) + answer
-                connection.sendall(reply.spoil(whole) if reply.spoil else whole)
+                connection.sendall(_SPOIL[reply.spoil](whole) if reply.spoil else whole)
 
     def _ask(self, unit: int, pdu: bytes) -> DriveReply:
         drive = self._units.get(unit)
@@ -120,3 +105,16 @@ def _shut(connection: socket.socket) -> None:
     with suppress(OSError):
         connection.shutdown(socket.SHUT_RDWR)
     connection.close()
+
+
+def _changed(frame: bytes, at: int, by: int) -> bytes:
+    return frame[:at] + bytes((frame[at] ^ by,)) + frame[at + 1 :]
+
+
+_SPOIL: dict[Kind, Callable[[bytes], bytes]] = {
+    "wrong_id": lambda frame: _changed(frame, _UNIT_AT, 0x10),
+    "wrong_function": lambda frame: _changed(frame, _FUNCTION_AT, 0x07),
+    "short": lambda frame: frame[:-1],
+    "garbage": lambda frame: _NOISE + frame,
+    "twice": lambda frame: frame + frame,
+}

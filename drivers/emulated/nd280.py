@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
 
 from drivers.emulated.faults import Faults
 from drivers.emulated.machine import Unreachable
+from drivers.emulated.readout import Reply
 
 _STX, _ENQ, _ACK, _NAK, _ESC = b"\x02", b"\x05", b"\x06", b"\x15", b"\x1b"
 _LONGEST_COMMAND_BYTES = 7
@@ -20,14 +20,8 @@ _STEP_MM = 1e-4
 _ERROR_TEXT = "FORMAT ERR."
 _KEY_CL, _KEY_MINUS, _KEY_POINT, _KEY_ENT = 100, 101, 102, 104
 _MOST_DIGITS = 9
-
-
-@dataclass(frozen=True, slots=True)
-class Reply:
-    """Bytes to send, after a pause."""
-
-    data: bytes
-    delay_s: float = 0.0
+_VALUE = re.compile(rb"[+-][ 0-9.]{10} .. \r\n|[+-][ 0-9.]{10} ...\r\n")
+_UNIT_AT = 12
 
 
 class ND280:
@@ -62,6 +56,18 @@ class ND280:
     def reboot(self) -> None:
         """As after a power cut: the datum is gone."""
         self._special(0)
+
+    def is_value(self, data: bytes) -> bool:
+        """Whether these bytes are a measured-value line."""
+        return _VALUE.fullmatch(data) is not None
+
+    def marked_faulty(self, data: bytes) -> bytes:
+        """A value line with the mark of a fault."""
+        return data[:_UNIT_AT] + b"?" + data[_UNIT_AT + 1 :]
+
+    def in_other_unit(self, data: bytes) -> bytes:
+        """A value line in inches."""
+        return data[:_UNIT_AT] + b'"' + data[_UNIT_AT + 1 :]
 
     def _next_request(self) -> bytes:
         """One complete request out of the input buffer, or nothing yet."""

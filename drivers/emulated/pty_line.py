@@ -9,19 +9,21 @@ import tty
 from collections.abc import Callable
 from threading import Thread
 
-from drivers.emulated.nd280 import Reply
+from drivers.emulated.readout import Reply
 
 _XON, _XOFF = 0x11, 0x13
 
 
 class PtyLine:
-    """Serves one device from a thread of its own until closed; honours XON/XOFF sent to it.
+    """Serves one device from a thread of its own until closed.
 
     :param receive: bytes from the station in, replies out
+    :param flow_control: whether the device honours XON/XOFF; else these are bytes as any
     """
 
-    def __init__(self, receive: Callable[[bytes], list[Reply]]) -> None:
+    def __init__(self, receive: Callable[[bytes], list[Reply]], flow_control: bool = True) -> None:
         self._receive = receive
+        self._flow_control = flow_control
         self._device, self._station = os.openpty()
         # kept open here, so that the line survives the station closing and opening it
         tty.setraw(self._station)
@@ -56,6 +58,8 @@ class PtyLine:
                 os.write(self._device, pending.pop(0)[1])
 
     def _without_flow_control(self, data: bytes) -> bytes:
+        if not self._flow_control:
+            return data
         for byte in data:
             if byte in (_XON, _XOFF):
                 self._paused = byte == _XOFF

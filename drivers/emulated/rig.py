@@ -10,17 +10,24 @@ from threading import Event, Thread
 from types import TracebackType
 from typing import Self
 
-from drivers.emulated.el7 import EL7Drive
+from drivers.emulated.blvr import BLVRDrive
+from drivers.emulated.drive import EmulatedDrive
+from drivers.emulated.el7 import CS2RS, EL7, EL7Drive
 from drivers.emulated.faults import Faults
+from drivers.emulated.link import DriveReply, DropLink
 from drivers.emulated.machine import Machine, MachineState
-from drivers.emulated.modbus_tcp import DriveReply, DropLink, ModbusTcpGateway
+from drivers.emulated.modbus_rtu import RtuLine
+from drivers.emulated.modbus_tcp import ModbusTcpGateway
 from drivers.emulated.nd280 import ND280
 from drivers.emulated.orders import Orders
 from drivers.emulated.pty_line import PtyLine
+from drivers.emulated.readout import EmulatedReadout
+from drivers.emulated.siko_head import SikoDevice
 from drivers.emulated.spec import Fault, RigSpec
 from drivers.emulated.spoiled import ReadoutOnLine, SpoiledDrive
 
 _SAVE_EVERY_S = 0.05
+_SCALE_LINES = {"heidenhain-nd": "baud=9600&format=7E2&override=8N1", "siko": "baud=19200&format=8N1"}
 
 
 class EmulatedRig:
@@ -47,13 +54,21 @@ class EmulatedRig:
         with ExitStack() as stack:
             if self._state_file is not None:
                 stack.enter_context(_StateKeeper(self.machine, self._state_file))
-            readout = ReadoutOnLine(ND280(self.machine.head_mm, self._faults), self.orders)
-            line = PtyLine(readout.receive)
+            line = PtyLine(ReadoutOnLine(self._readout(), self.orders).receive, self._flow_control)
             stack.callback(line.close)
-            gateway = ModbusTcpGateway({joint: self._drive(joint) for joint in (1, 2)})
-            stack.callback(gateway.close)
-            self.scale_url = f"serial://{line.port}?baud=9600&format=7E2&override=8N1"
-            self.servo_url = f"modbus+tcp://127.0.0.1:{gateway.port}"
+            self.scale_url = f"serial://{line.port}?{_SCALE_LINES[self.spec.emulated.scale]}"
+            drives = {joint: self._drive(joint) for joint in (1, 2)}
+            for drive in drives.values():
+                stack.callback(drive.close)
+            units = {
+                joint: _DriveOnLine(
+                    SpoiledDrive(drive, joint, self.orders, behind_gateway=self.spec.emulated.line == "tcp"),
+                    joint,
+                    self._faults,
+                )
+                for joint, drive in drives.items()
+            }
+            self.servo_url = self._connect(units, drives[1].check_sum_exception, stack)
             self._open = stack.pop_all()
         return self
 
@@ -70,9 +85,46 @@ class EmulatedRig:
         """No more faults."""
         self._faults.clear()
 
-    def _drive(self, joint: int) -> _DriveOnLine:
-        drive = EL7Drive(self.machine, joint, self._faults)
-        return _DriveOnLine(SpoiledDrive(drive, joint, self.orders), joint, self._faults)
+    @property
+    def scale_options(self) -> dict[str, str | float]:
+        """`[scale]` of a station file for this rig."""
+        options: dict[str, str | float] = {"protocol": self.spec.emulated.scale, "url": self.scale_url}
+        if self.spec.emulated.scale == "siko":
+            options["resolution_mm"] = self.spec.emulated.scale_resolution_mm
+        return options
+
+    @property
+    def servo_options(self) -> dict[str, str]:
+        """`[servo]` of a station file for this rig, without its joints."""
+        return {"profile": self.spec.emulated.servo, "url": self.servo_url}
+
+    @property
+    def _flow_control(self) -> bool:
+        return self.spec.emulated.scale == "heidenhain-nd"
+
+    def _readout(self) -> EmulatedReadout:
+        if self.spec.emulated.scale == "siko":
+            return SikoDevice(self.machine.head_mm, self._faults, self.spec.emulated.scale_resolution_mm)
+        return ND280(self.machine.head_mm, self._faults)
+
+    def _drive(self, joint: int) -> EmulatedDrive:
+        family = self.spec.emulated.servo
+        if family == "orientalmotor":
+            return BLVRDrive(self.machine, joint, self._faults, self.spec.machine.counts_per_rev)
+        return EL7Drive(self.machine, joint, self._faults, CS2RS if family == "leadshine-cs2rs" else EL7)
+
+    def _connect(
+        self, units: dict[int, _DriveOnLine], check_sum_exception: int | None, stack: ExitStack
+    ) -> str:
+        """Put the drives on their line; its address."""
+        if self.spec.emulated.line == "tcp":
+            gateway = ModbusTcpGateway(units)
+            stack.callback(gateway.close)
+            return f"modbus+tcp://127.0.0.1:{gateway.port}"
+        baud = self.spec.emulated.baud
+        line = RtuLine(units, baud=baud, check_sum_exception=check_sum_exception)
+        stack.callback(line.close)
+        return f"modbus+rtu://{line.port}?baud={baud}&format=8N2"
 
 
 class _DriveOnLine:

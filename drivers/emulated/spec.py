@@ -62,6 +62,16 @@ class EmulationSpec(_Table):
 
     speed: Positive = 50.0
     """How much faster than real time the arms move."""
+    scale: Literal["heidenhain-nd", "siko"] = "heidenhain-nd"
+    """Which readout is on the head."""
+    scale_resolution_mm: Positive = 0.01
+    """Of a SIKO head."""
+    servo: Literal["leadshine-el7", "leadshine-cs2rs", "orientalmotor"] = "leadshine-el7"
+    """Which family the drives are of."""
+    line: Literal["tcp", "rtu"] = "tcp"
+    """Whether the drives are behind a Modbus TCP gateway, or the station is on their RS-485 line."""
+    baud: Annotated[int, Field(ge=1200, le=1_000_000)] = 38_400
+    """Of that line."""
     state_file: str | None = None
     """Where the drives' places are kept while the rig is off; none: they start at their zero."""
 

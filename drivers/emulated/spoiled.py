@@ -2,28 +2,26 @@
 
 from __future__ import annotations
 
-import re
-from collections.abc import Callable
 from typing import Final
 
-from drivers.emulated.el7 import EL7Drive
-from drivers.emulated.modbus_tcp import DriveReply, DropLink, HalfOpen
-from drivers.emulated.nd280 import ND280, Reply
+from drivers.emulated.drive import EmulatedDrive
+from drivers.emulated.link import DriveReply, DropLink, HalfOpen
 from drivers.emulated.orders import LATE_S, Device, FaultOrder, Kind, Orders
+from drivers.emulated.readout import EmulatedReadout, Reply
 
-_UNIT_AT, _FUNCTION_AT = 6, 7  # in a Modbus TCP frame
 _SLAVE_BUSY = 0x06
 _NOISE = bytes.fromhex("00ff55aa")
-_VALUE = re.compile(rb"[+-][ 0-9.]{10} .. \r\n|[+-][ 0-9.]{10} ...\r\n")
 _ALARMS: tuple[Kind, ...] = ("alarm", "following_error")
 _LOSSES: tuple[Kind, ...] = ("lost_counts", "reboot")
-_UNIT_OF_VALUE, _FAULT, _INCH = 12, b"?", b'"'
 
 
 class SpoiledDrive:
     """A drive and its place on the line."""
 
-    def __init__(self, drive: EL7Drive, joint: int, orders: Orders) -> None:
+    def __init__(
+        self, drive: EmulatedDrive, joint: int, orders: Orders, *, behind_gateway: bool = True
+    ) -> None:
+        self._behind_gateway = behind_gateway
         self._drive = drive
         self._own: Final[Device] = "axis1" if joint == 1 else "axis2"
         self._orders = orders
@@ -34,7 +32,8 @@ class SpoiledDrive:
             raise DropLink
         if self._due("half_open"):
             raise HalfOpen
-        if self._due("silent") or self._due("bad_crc"):  # a gateway drops a frame with a wrong check sum
+        # a gateway drops a frame with a wrong check sum
+        if self._due("silent") or (self._behind_gateway and self._due("bad_crc")):
             return DriveReply(None)
         if self._due("echo"):
             return DriveReply(request)
@@ -44,9 +43,9 @@ class SpoiledDrive:
         reply = DriveReply(self._drive.answer(request))
         if self._due("late"):
             return DriveReply(reply.pdu, LATE_S)
-        for kind, spoil in _SPOIL_FRAME.items():
+        for kind in _ON_THE_WAY:
             if self._due(kind):
-                return DriveReply(reply.pdu, spoil=spoil)
+                return DriveReply(reply.pdu, spoil=kind)
         return reply
 
     def _change_drive(self) -> None:
@@ -66,39 +65,13 @@ class SpoiledDrive:
         return self._orders.due(kind, self._own, "line")
 
 
-def _wrong_id(frame: bytes) -> bytes:
-    return frame[:_UNIT_AT] + bytes((frame[_UNIT_AT] ^ 0x10,)) + frame[_FUNCTION_AT:]
-
-
-def _wrong_function(frame: bytes) -> bytes:
-    return frame[:_FUNCTION_AT] + bytes((frame[_FUNCTION_AT] ^ 0x07,)) + frame[_FUNCTION_AT + 1 :]
-
-
-def _short(frame: bytes) -> bytes:
-    return frame[:-1]
-
-
-def _garbage(frame: bytes) -> bytes:
-    return _NOISE + frame
-
-
-def _twice(frame: bytes) -> bytes:
-    return frame + frame
-
-
-_SPOIL_FRAME: Final[dict[Kind, Callable[[bytes], bytes]]] = {
-    "wrong_id": _wrong_id,
-    "wrong_function": _wrong_function,
-    "short": _short,
-    "garbage": _garbage,
-    "twice": _twice,
-}
+_ON_THE_WAY: tuple[Kind, ...] = ("wrong_id", "wrong_function", "bad_crc", "short", "garbage", "twice")
 
 
 class ReadoutOnLine:
-    """A position display and its line."""
+    """A readout and its line."""
 
-    def __init__(self, display: ND280, orders: Orders) -> None:
+    def __init__(self, display: EmulatedReadout, orders: Orders) -> None:
         self._display = display
         self._orders = orders
         self._last_value = b""
@@ -119,7 +92,7 @@ class ReadoutOnLine:
 
     def _spoiled(self, reply: Reply) -> Reply:
         data, delay_s = reply.data, reply.delay_s
-        if _VALUE.fullmatch(data):
+        if self._display.is_value(data):
             data = self._spoiled_value(data)
         if self._due("late"):
             delay_s = LATE_S
@@ -138,9 +111,9 @@ class ReadoutOnLine:
             return self._last_value
         self._last_value = line
         if self._due("contaminated") or self._due("overspeed"):
-            line = line[:_UNIT_OF_VALUE] + _FAULT + line[_UNIT_OF_VALUE + 1 :]
+            return self._display.marked_faulty(line)
         if self._due("unit"):
-            line = line[:_UNIT_OF_VALUE] + _INCH + line[_UNIT_OF_VALUE + 1 :]
+            return self._display.in_other_unit(line)
         return line
 
     def _due(self, kind: Kind) -> FaultOrder | None:

@@ -3,13 +3,28 @@
 from __future__ import annotations
 
 from drivers.lines.modbus import ModbusBus, UnansweredWrite
+from drivers.lines.modbus_words import ModbusWords
+from drivers.lines.on_line import OnLine, line_of
+from drivers.lines.playback import Departed, Playback
 from drivers.lines.retrying import within
-from drivers.lines.serial import SerialLine, Trace
+from drivers.lines.serial import Happening, SerialLine
+from drivers.lines.url import NetAddress, SerialAddress
+from drivers.lines.wire_log import WireEvent, WireLog, wire_events
 
 __all__ = [
+    "Departed",
+    "Happening",
     "ModbusBus",
+    "ModbusWords",
+    "NetAddress",
+    "OnLine",
+    "Playback",
+    "SerialAddress",
     "SerialLine",
-    "Trace",
     "UnansweredWrite",
+    "WireEvent",
+    "WireLog",
+    "line_of",
+    "wire_events",
     "within",
 ]

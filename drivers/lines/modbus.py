@@ -6,6 +6,7 @@ link that fell silent heals, and a stop passes all that wait.
 
 from __future__ import annotations
 
+import logging
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, nullcontext
@@ -15,11 +16,14 @@ from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
 from drivers.lines.modbus_frames import Request, read_request, registers_of, write_one_request, write_request
 from drivers.lines.modbus_rtu import RtuLink
 from drivers.lines.modbus_tcp import TcpLink
+from drivers.lines.on_line import OnLine
 from drivers.lines.retrying import within
-from drivers.lines.serial import SerialLine, Trace
+from drivers.lines.serial import SerialLine
 from drivers.lines.url import NetAddress, SerialAddress, parse_line_url
 
-_RTU_OVER_TCP = "modbus+rtuovertcp"
+log = logging.getLogger(__name__)
+
+_TCP = "modbus+tcp"
 _BUDGET_S = 0.5
 _STOP_PAUSE_S = 0.02
 
@@ -32,7 +36,7 @@ class NotSent(LinkLost):
     """The request did not reach the drive for certain."""
 
 
-class ModbusBus:
+class ModbusBus(OnLine):
     """A line shared by its drives; may be called from any thread."""
 
     def __init__(self, url: str, *, timeout_s: float = 0.3, budget_s: float | None = None) -> None:
@@ -44,32 +48,20 @@ class ModbusBus:
         self.address: SerialAddress | NetAddress = parse_line_url(
             url,
             serial="modbus+rtu",
-            net=("modbus+tcp", _RTU_OVER_TCP),
+            net=(_TCP, "modbus+rtuovertcp", "modbus+rfc2217"),
             default_baud=38400,
             default_format="8N2",
         )
-        self._line = SerialLine.at(self.address)
-        over_tcp = isinstance(self.address, NetAddress) and not url.startswith(_RTU_OVER_TCP)
+        super().__init__(SerialLine.at(self.address))
+        if self._line.notice:
+            log.warning("%s", self._line.notice)
+        over_tcp = url.startswith(f"{_TCP}://")
         self._link: RtuLink | TcpLink = (TcpLink if over_tcp else RtuLink)(self._line, timeout_s)
         self._budget_s = 3 * timeout_s + _BUDGET_S if budget_s is None else budget_s
         self._owners: set[int] = set()
         self._owning = Lock()
         self._sending = Lock()
         self._stops = 0
-
-    @property
-    def trace(self) -> Trace | None:
-        """A flight recorder's hook, called with ("tx" or "rx", bytes)."""
-        return self._line.trace
-
-    @trace.setter
-    def trace(self, hook: Trace | None) -> None:
-        self._line.trace = hook
-
-    @property
-    def notice(self) -> str | None:
-        """One sentence to log at start when the line format is overridden, else None."""
-        return self._line.notice
 
     @property
     def stops(self) -> int:

@@ -51,7 +51,7 @@ class TcpLink:
         if self._busy or not first:  # a gateway that takes one connection only has to be freed for this one
             self._line.interrupt()
         line = SerialLine.at(self._line.address)
-        line.trace = self._line.trace
+        line.opener, line.recorder = self._line.opener, self._line.recorder
         try:
             line.open()
             return self._ask(line, request, timeout_s, nullcontext)

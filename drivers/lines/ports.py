@@ -8,13 +8,15 @@ import select
 import socket
 import termios
 import time
+from collections.abc import Callable
 from contextlib import suppress
 from typing import Protocol
 
 import serial
 
 from drivers.errors import DeviceError, LinkLost
-from drivers.lines.url import LineFormat, NetAddress, SerialAddress
+from drivers.lines.rfc2217 import open_remote_port
+from drivers.lines.url import LineFormat, NetAddress, RemoteSerialAddress, SerialAddress
 
 CONNECT_LIMIT_S = 1.0
 _IFLAG, _CFLAG = 0, 2  # of what termios.tcgetattr returns
@@ -38,7 +40,11 @@ class Port(Protocol):
         ...
 
 
-def open_port(address: SerialAddress | NetAddress, *, xonxoff: bool) -> Port:
+Opener = Callable[[SerialAddress | NetAddress, bool], Port]
+"""As `open_port`."""
+
+
+def open_port(address: SerialAddress | NetAddress, xonxoff: bool) -> Port:
     """Open it for this process alone.
 
     :raises LinkLost: the port is missing, busy or unreachable
@@ -46,6 +52,8 @@ def open_port(address: SerialAddress | NetAddress, *, xonxoff: bool) -> Port:
     """
     if isinstance(address, SerialAddress):
         return _SerialPort(open_serial_port(address, xonxoff=xonxoff))
+    if isinstance(address, RemoteSerialAddress):
+        return open_remote_port(address, xonxoff=xonxoff)
     try:
         return _SocketPort(socket.create_connection((address.host, address.port), CONNECT_LIMIT_S))
     except OSError as error:

@@ -10,11 +10,14 @@ from collections.abc import Callable
 from typing import Literal
 
 from drivers.errors import DeviceError, GarbledReply, LinkLost
-from drivers.lines.ports import Port, open_port, reason
+from drivers.lines.ports import Opener, Port, open_port, reason
 from drivers.lines.url import NetAddress, SerialAddress, parse_line_url
 
-Trace = Callable[[Literal["tx", "rx"], bytes], None]
-"""A flight recorder's hook: what crossed the wire, and which way."""
+Happening = Literal["tx", "rx", "nothing", "broken", "refused"]
+"""What was sent, what came, that nothing was there at a glance (a read without waiting), the text of an
+error of the open line, or that with which it could not be opened."""
+Recorder = Callable[[Happening, bytes], None]
+"""Told of everything that happens on a line, as it happens, in the thread that causes it."""
 
 XON = b"\x11"
 _ECHO_LIMIT_S = 0.1
@@ -32,7 +35,11 @@ class SerialLine:
         :raises BadUrl: one sentence about what is wrong in it
         """
         address = parse_line_url(
-            url, serial="serial", net=("socket",), default_baud=default_baud, default_format=default_format
+            url,
+            serial="serial",
+            net=("socket", "rfc2217"),
+            default_baud=default_baud,
+            default_format=default_format,
         )
         self._set_up(address, flow_control=flow_control)
 
@@ -45,7 +52,9 @@ class SerialLine:
 
     def _set_up(self, address: SerialAddress | NetAddress, *, flow_control: bool) -> None:
         self.address = address
-        self.trace: Trace | None = None
+        self.recorder: Recorder | None = None
+        self.opener: Opener = open_port
+        """What opens its port; a recording may be played back in place of one."""
         self._flow_control = flow_control
         self._port: Port | None = None
         self._wanted = False
@@ -59,6 +68,11 @@ class SerialLine:
     @property
     def is_open(self) -> bool:
         return self._port is not None
+
+    @property
+    def is_played_back(self) -> bool:
+        """Whether nobody is there, and a wire log answers."""
+        return self.opener is not open_port
 
     def open(self) -> None:
         """Open for this process alone; open it again whenever it breaks, until it is closed.
@@ -97,8 +111,7 @@ class SerialLine:
         try:
             port.write(data)
         except OSError as error:
-            self._drop()
-            raise LinkLost(f"{self.address} broke while writing: {reason(error)}.") from error
+            raise self._broken("writing", error) from error
         self._record("tx", data)
         if self.address.echo:
             self._take_echo(data)
@@ -113,11 +126,12 @@ class SerialLine:
             data, self._unread = self._unread, b""
             return data
         try:
+            at_a_glance = deadline_s <= time.monotonic()
             data = port.read_some(deadline_s)
         except OSError as error:
-            self._drop()
-            raise LinkLost(f"{self.address} broke while reading: {reason(error)}.") from error
-        self._record("rx", data)
+            raise self._broken("reading", error) from error
+        if data or at_a_glance:
+            self._record("rx" if data else "nothing", data)
         return data
 
     def drain(self, seconds: float) -> None:
@@ -164,7 +178,11 @@ class SerialLine:
         if self._port is None:
             if not (first or self._wanted):
                 raise DeviceError(f"{self.address} is not open; connect first.")
-            self._port = open_port(self.address, xonxoff=self._flow_control)
+            try:
+                self._port = self.opener(self.address, self._flow_control)
+            except DeviceError as error:
+                self._record("refused", f"{type(error).__name__} {error}".encode())
+                raise
             if self._flow_control:
                 self._resume_output(self._port)
         return self._port
@@ -174,8 +192,7 @@ class SerialLine:
         try:
             port.write(XON)
         except OSError as error:
-            self._drop()
-            raise LinkLost(f"{self.address} broke while writing: {reason(error)}.") from error
+            raise self._broken("writing", error) from error
         self._record("tx", XON)
 
     def _drop(self) -> None:
@@ -184,6 +201,12 @@ class SerialLine:
             port, self._port = self._port, None
             port.close()
 
-    def _record(self, direction: Literal["tx", "rx"], data: bytes) -> None:
-        if self.trace is not None and data:
-            self.trace(direction, data)
+    def _broken(self, while_doing: str, error: OSError) -> LinkLost:
+        self._drop()
+        why = reason(error)
+        self._record("broken", why.encode())
+        return LinkLost(f"{self.address} broke while {while_doing}: {why}.")
+
+    def _record(self, what: Happening, data: bytes) -> None:
+        if self.recorder is not None:
+            self.recorder(what, data)

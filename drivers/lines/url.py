@@ -2,7 +2,8 @@
 
 `serial:///dev/ttyUSB0?baud=9600&format=7E2`, `socket://host:port`,
 `modbus+rtu:///dev/ttyUSB1?baud=38400&format=8N2`, `modbus+tcp://host:port`,
-`modbus+rtuovertcp://host:port` (RTU frames through a serial device server).
+`modbus+rtuovertcp://host:port` (RTU frames through a serial device server), `rfc2217://host:port?baud=9600&
+format=7E2` and `modbus+rfc2217://...` (a device server that takes the line settings as well).
 
 `override=8N1` may follow on a serial URL: the line is then opened with that format instead,
 for a port that cannot carry the wanted one (a pseudo-terminal has no parity), and the opened
@@ -80,6 +81,14 @@ class NetAddress:
         return f"{self.host}:{self.port}"
 
 
+@dataclass(frozen=True, slots=True)
+class RemoteSerialAddress(NetAddress):
+    """A serial port of a device server, with its line settings."""
+
+    baud: int = 9600
+    format: LineFormat = LineFormat(8, "N", 1)
+
+
 def parse_line_url(
     url: str, *, serial: str, net: Sequence[str], default_baud: int, default_format: str
 ) -> SerialAddress | NetAddress:
@@ -93,7 +102,17 @@ def parse_line_url(
     if parts.scheme == serial:
         return _serial_address(url, parts, default_baud, default_format)
     if parts.scheme in net:
-        return _net_address(url, parts)
+        address = _net_address(url, parts, ("baud", "format", "echo") if _is_remote(parts) else ("echo",))
+        if not _is_remote(parts):
+            return address
+        options = dict(parse_qsl(parts.query))
+        return RemoteSerialAddress(
+            address.host,
+            address.port,
+            address.echo,
+            _baud(url, options, default_baud),
+            _line_format(url, options.get("format", default_format)),
+        )
     *most, last = (f"{scheme}://" for scheme in (serial, *net))
     raise BadUrl(f'The address "{url}" must begin with {", ".join(most)} or {last}.')
 
@@ -104,19 +123,27 @@ def _serial_address(url: str, parts: SplitResult, default_baud: int, default_for
             f'The address "{url}" must name a port after three slashes, as in {parts.scheme}:///dev/ttyUSB0.'
         )
     options = _options(url, parts, ("baud", "format", "override", "echo"))
-    baud_text = options.get("baud", str(default_baud))
-    if not re.fullmatch(r"[1-9]\d{2,6}", baud_text):
-        raise BadUrl(
-            f'The address "{url}" has the baud rate "{baud_text}", which is not a whole number such as 9600.'
-        )
     override = options.get("override")
     return SerialAddress(
         port=parts.path,
-        baud=int(baud_text),
+        baud=_baud(url, options, default_baud),
         format=_line_format(url, options.get("format", default_format)),
         override=None if override is None else _line_format(url, override),
         echo=_echo(url, options),
     )
+
+
+def _is_remote(parts: SplitResult) -> bool:
+    return parts.scheme.endswith("rfc2217")
+
+
+def _baud(url: str, options: dict[str, str], default: int) -> int:
+    text = options.get("baud", str(default))
+    if not re.fullmatch(r"[1-9]\d{2,6}", text):
+        raise BadUrl(
+            f'The address "{url}" has the baud rate "{text}", which is not a whole number such as 9600.'
+        )
+    return int(text)
 
 
 def _options(url: str, parts: SplitResult, known: tuple[str, ...]) -> dict[str, str]:
@@ -141,11 +168,11 @@ def _line_format(url: str, text: str) -> LineFormat:
     return LineFormat(int(text[0]), text[1], int(text[2]))
 
 
-def _net_address(url: str, parts: SplitResult) -> NetAddress:
+def _net_address(url: str, parts: SplitResult, known: tuple[str, ...]) -> NetAddress:
     try:
         port = parts.port
     except ValueError:
         port = None
     if not parts.hostname or not port or parts.path.strip("/"):
         raise BadUrl(f'The address "{url}" must be {parts.scheme}://host:port.')
-    return NetAddress(parts.hostname, port, _echo(url, _options(url, parts, ("echo",))))
+    return NetAddress(parts.hostname, port, _echo(url, _options(url, parts, known)))

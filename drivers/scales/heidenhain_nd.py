@@ -10,19 +10,14 @@ else is on the line, and the display itself raises no doubt about it.
 
 from __future__ import annotations
 
-import logging
 import re
 import time
-from collections.abc import Callable
 from enum import IntEnum
-from threading import RLock
-from typing import TypeVar
 
 from drivers.driver import DriverSettings, ScaleDriver, Seconds
 from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
-from drivers.lines import SerialLine, Trace, within
-
-log = logging.getLogger(__name__)
+from drivers.lines import SerialLine
+from drivers.scales.readout import Readout
 
 _ASK_VALUE = b"\x02"
 _STX, _NAK = b"\x02", b"\x15"
@@ -37,12 +32,9 @@ _INDICATORS = (
     *("REF", "datum 1", "datum 2", "SET", "START", "PRINT", "inch", "<", "=", ">"),
     *("MIN", "ACTL", "MAX", "DIFF"),
 )
-_BUDGET_S = 0.5
 _LONGEST_REPLY_BYTES = 64
 _PAUSE_S = 0.05  # between the lines of one reply it is far shorter
 _AGREEMENT_MM = 0.01
-
-_T = TypeVar("_T")
 
 
 class Indicator(IntEnum):
@@ -60,7 +52,7 @@ class HeidenhainSettings(DriverSettings):
     """How long a reply may take."""
 
 
-class HeidenhainND:
+class HeidenhainND(Readout):
     """A position display as a `LinearScale`; may be called from any thread."""
 
     def __init__(
@@ -70,38 +62,17 @@ class HeidenhainND:
 
         :raises BadUrl: one sentence about what is wrong in `url`
         """
-        self._line = SerialLine(url, default_baud=9600, default_format="7E2", flow_control=True)
-        self._name = name
-        self._timeout_s = timeout_s
-        self._budget_s = 3 * timeout_s + _BUDGET_S if budget_s is None else budget_s
-        self._lock = RLock()
+        line = SerialLine(url, default_baud=9600, default_format="7E2", flow_control=True)
+        super().__init__(line, name=name, timeout_s=timeout_s, budget_s=budget_s)
         self._may_have_stale_bytes = False
         self._identity_reply = b""
         self._sent = b""
-
-    @property
-    def name(self) -> str:
-        return self._name
 
     @property
     def identity(self) -> tuple[str, ...]:
         """Model and software lines the display answered at `connect`."""
         lines = self._identity_reply[1:].decode("ascii").split("\r\n")
         return tuple(line.strip() for line in lines if line.strip())
-
-    @property
-    def notice(self) -> str | None:
-        """One sentence to log at start when the line format is overridden, else None."""
-        return self._line.notice
-
-    @property
-    def trace(self) -> Trace | None:
-        """A flight recorder's hook, called with ("tx" or "rx", bytes)."""
-        return self._line.trace
-
-    @trace.setter
-    def trace(self, hook: Trace | None) -> None:
-        self._line.trace = hook
 
     def connect(self) -> None:
         """Open the line, read the model, and compare the value line with the value on the display.
@@ -120,13 +91,6 @@ class HeidenhainND:
             except DeviceError:
                 self._line.close()
                 raise
-
-    def make_safe(self) -> None:
-        """A readout moves nothing."""
-
-    def close(self) -> None:
-        with self._lock:
-            self._line.close()
 
     def read_mm(self) -> float:
         """The head's present value in mm.
@@ -154,21 +118,7 @@ class HeidenhainND:
         with self._lock:
             return self._retried(self._ask_error_text)
 
-    def _retried(self, ask: Callable[[], _T]) -> _T:
-        """`ask` again when its reply is late or malformed: reading twice changes nothing."""
-
-        def attempt() -> _T:
-            try:
-                self._discard_stale_bytes()
-                return ask()
-            except (GarbledReply, LinkLost):
-                self._may_have_stale_bytes = True
-                self._line.renew()
-                raise
-
-        return within(self._budget_s, attempt)
-
-    def _discard_stale_bytes(self) -> None:
+    def _prepare(self) -> None:
         """Make sure that the next reply is the answer to the next question.
 
         A reply that came too late would otherwise be taken for the following one, and the readings
@@ -182,6 +132,9 @@ class HeidenhainND:
         else:
             self._line.drain(self._timeout_s)
         self._may_have_stale_bytes = False
+
+    def _has_failed(self) -> None:
+        self._may_have_stale_bytes = True
 
     def _read_up_to_identity(self) -> None:
         self._send_screen_command("A0000")
@@ -331,10 +284,18 @@ def _printable(text: bytes) -> bool:
 
 
 def _make(settings: HeidenhainSettings) -> HeidenhainND:
-    scale = HeidenhainND(settings.url, timeout_s=settings.timeout_s)
-    if scale.notice:
-        log.warning("%s", scale.notice)
-    return scale
+    return HeidenhainND(settings.url, timeout_s=settings.timeout_s)
 
 
-DRIVER = ScaleDriver(HeidenhainSettings, _make)
+def in_words(data: bytes) -> str:
+    """What was sent or came, for whoever reads a wire log."""
+    match = _VALUE_LINE.fullmatch(data)
+    if data == _ASK_VALUE:
+        return "what is the value?"
+    if match is not None:
+        fault = ", marked as faulty" if match[3] == _FAULT else ""
+        return f"the value is {match[1].decode()}{match[2].decode().strip()}{fault}"
+    return f"{data!r}"[2:-1]
+
+
+DRIVER = ScaleDriver(HeidenhainSettings, _make, in_words)

@@ -10,22 +10,26 @@ An exclusive or misses two flipped bits of one weight, so a position counts only
 
 from __future__ import annotations
 
-import logging
 import time
-from collections.abc import Callable
-from threading import RLock
-from typing import Annotated, TypeVar
+from typing import Annotated
 
 from pydantic import Field
 
 from drivers.driver import DriverSettings, ScaleDriver, Seconds
 from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
-from drivers.lines import SerialLine, Trace, within
-
-log = logging.getLogger(__name__)
+from drivers.lines import SerialLine
+from drivers.scales.readout import Readout
 
 READ_POSITION, IDENTIFY, READ_RESOLUTION = 0x16, 0x1B, 0x1E
 CHECK_SUM_ERROR, REFUSED, ILLEGAL_VALUE = 0x82, 0x83, 0x85
+_COMMANDS = {
+    READ_POSITION: "position",
+    IDENTIFY: "type and firmware",
+    READ_RESOLUTION: "resolution",
+    CHECK_SUM_ERROR: "received a wrong check byte",
+    REFUSED: "refuses, or cannot measure",
+    ILLEGAL_VALUE: "refuses the value",
+}
 _SHORT = 0x80
 _SHORT_LENGTH, _LONG_LENGTH = 3, 6
 _TYPES = {34: "MSA501", 23: "MSA510/1", 21: "MA501"}
@@ -33,13 +37,10 @@ _WITH_RESOLUTION = 23
 _RESOLUTIONS_MM = {0: 10.0, 1: 1.0, 2: 0.1, 3: 0.01}
 _SILENCE_S = 0.03
 """After a reply that did not come."""
-_BUDGET_S = 0.5
 _AGREEMENT_COUNTS = 2
 _MOST_READS = 5
 _STEADY_MM = 0.5
 """How much the way between three reads of a moving head may change."""
-
-_T = TypeVar("_T")
 
 
 class SikoSettings(DriverSettings):
@@ -53,7 +54,7 @@ class SikoSettings(DriverSettings):
     """How long a reply may take."""
 
 
-class SikoHead:
+class SikoHead(Readout):
     """A reading head as a `LinearScale`; may be called from any thread."""
 
     def __init__(
@@ -63,38 +64,17 @@ class SikoHead:
 
         :raises BadUrl: one sentence about what is wrong in the URL
         """
-        self._line = SerialLine(settings.url, default_baud=19200, default_format="8N1")
+        line = SerialLine(settings.url, default_baud=19200, default_format="8N1")
+        super().__init__(line, name=name, timeout_s=settings.timeout_s, budget_s=budget_s)
         self._address = settings.address
         self._resolution_mm = settings.resolution_mm
-        self._timeout_s = settings.timeout_s
-        self._budget_s = 3 * settings.timeout_s + _BUDGET_S if budget_s is None else budget_s
-        self._name = name
-        self._lock = RLock()
         self._free_from_s = 0.0
         self._identity = ""
-
-    @property
-    def name(self) -> str:
-        return self._name
 
     @property
     def identity(self) -> str:
         """Type and firmware that the head answered at `connect`."""
         return self._identity
-
-    @property
-    def notice(self) -> str | None:
-        """One sentence to log at start when the line format is overridden, else None."""
-        return self._line.notice
-
-    @property
-    def trace(self) -> Trace | None:
-        """A flight recorder's hook, called with ("tx" or "rx", bytes)."""
-        return self._line.trace
-
-    @trace.setter
-    def trace(self, hook: Trace | None) -> None:
-        self._line.trace = hook
 
     def connect(self) -> None:
         """Open the line, read the type, and compare the resolution where the head tells it.
@@ -112,13 +92,6 @@ class SikoHead:
             except DeviceError:
                 self._line.close()
                 raise
-
-    def make_safe(self) -> None:
-        """A readout moves nothing."""
-
-    def close(self) -> None:
-        with self._lock:
-            self._line.close()
 
     def read_mm(self) -> float:
         """The head's present value in mm.
@@ -159,21 +132,15 @@ class SikoHead:
         """The three data bytes of the reply to a short telegram."""
         return self._retried(lambda: self._exchange(command))
 
-    def _retried(self, ask: Callable[[], _T]) -> _T:
-        def attempt() -> _T:
-            try:
-                return ask()
-            except (GarbledReply, LinkLost):
-                self._free_from_s = time.monotonic() + _SILENCE_S
-                self._line.renew()
-                raise
+    def _prepare(self) -> None:
+        """A late reply must not answer the next question."""
+        self._line.drain(max(0.0, self._free_from_s - time.monotonic()))
 
-        return within(self._budget_s, attempt)
+    def _has_failed(self) -> None:
+        self._free_from_s = time.monotonic() + _SILENCE_S
 
     def _exchange(self, command: int) -> tuple[int, int, int]:
         request = with_check_byte(bytes((self._address | _SHORT, command)))
-        # a late reply must not answer this question
-        self._line.drain(max(0.0, self._free_from_s - time.monotonic()))
         self._line.write(request)
         reply = self._reply(request)
         if reply[1] == command:
@@ -235,11 +202,15 @@ def with_check_byte(telegram: bytes) -> bytes:
     return telegram + bytes((check,))
 
 
-def _make(settings: SikoSettings) -> SikoHead:
-    scale = SikoHead(settings)
-    if scale.notice:
-        log.warning("%s", scale.notice)
-    return scale
+def in_words(data: bytes) -> str:
+    """What was sent or came, for whoever reads a wire log."""
+    if len(data) not in (_SHORT_LENGTH, _LONG_LENGTH) or with_check_byte(data[:-1]) != data:
+        return f"bytes {data.hex(' ')}"
+    command = _COMMANDS.get(data[1], f"command {data[1]:02X}h")
+    head = f"head {data[0] & ~_SHORT}"
+    if len(data) == _SHORT_LENGTH:
+        return f"{head}: {command}"
+    return f"{head}: {command} = {int.from_bytes(data[2:5], 'little', signed=True)}"
 
 
-DRIVER = ScaleDriver(SikoSettings, _make)
+DRIVER = ScaleDriver(SikoSettings, SikoHead, in_words)

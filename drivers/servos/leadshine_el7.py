@@ -7,20 +7,19 @@ word first.  A move is one frame: the path-0 block 6200h..6207h, whose last word
 
 from __future__ import annotations
 
-import logging
 import time
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from enum import IntFlag
 
 from drivers.driver import Drive, DriverSettings, Seconds, ServoDriver
 from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
-from drivers.lines import ModbusBus, UnansweredWrite
+from drivers.lines import ModbusBus, OnLine, UnansweredWrite
 from drivers.protocols import AxisStatus
 from drivers.scaling import JointScaling
 from drivers.servos.joint_commands import JointCommands
-
-log = logging.getLogger(__name__)
+from drivers.servos.registers import values_of, words_of
 
 CONTROL_MODE = 0x0003
 ALARM_RESET = 0x0033
@@ -69,10 +68,24 @@ class LeadshineSettings(DriverSettings):
     """The longest time that a drive on this line takes to reply."""
 
 
-class LeadshineEL7:
+@dataclass(frozen=True, slots=True)
+class FamilyRegisters:
+    """Where the maker's families differ."""
+
+    motion_status: int
+    alarm: int
+    alarm_reset: int
+    switch_on: tuple[int, int]
+    """Where it is switched on, and what is written there."""
+
+
+class LeadshineEL7(OnLine):
     """One drive as a `ServoAxis`; may be called from any thread."""
 
+    _registers = FamilyRegisters(MOTION_STATUS, ALARM, ALARM_RESET, (DIGITAL_INPUT_1, SERVO_ON_ALWAYS))
+
     def __init__(self, bus: ModbusBus, unit: int, scaling: JointScaling, *, name: str) -> None:
+        super().__init__(bus.line)
         self._bus = bus
         self._unit = unit
         self._scaling = scaling
@@ -91,25 +104,36 @@ class LeadshineEL7:
 
         :raises DeviceError: with what is wrong and what to check
         """
+        self._target_pulses = None
         self._bus.open(self)
         try:
-            mode = self._read(CONTROL_MODE)
-            if mode != MODE_PR:
-                raise DeviceFault(
-                    f"{self._commands.title} is in control mode {mode}; set P00.01 to {MODE_PR} (PR mode)"
-                    " and switch it off and on."
-                )
-            functions = [self._read(address) for address in DIGITAL_OUTPUTS]
-            if OUTPUT_IS_SERVO_ON not in functions:
-                raise DeviceFault(
-                    f"{self._commands.title} has no output for servo-on;"
-                    f" set one of P04.10 to P04.14 to {OUTPUT_IS_SERVO_ON:02X}h."
-                )
-            self._servo_on_bit = 1 << functions.index(OUTPUT_IS_SERVO_ON)
-            self._alarm_bit = 1 << functions.index(OUTPUT_IS_ALARM) if OUTPUT_IS_ALARM in functions else 0
+            self._check_settings()
         except DeviceError:
             self._bus.release(self)
             raise
+
+    def _check_settings(self) -> None:
+        """Right after the line was opened.  :raises DeviceError: with what is wrong and what to check"""
+        mode = self._read(CONTROL_MODE)
+        if mode != MODE_PR:
+            raise DeviceFault(
+                f"{self._commands.title} is in control mode {mode}; set P00.01 to {MODE_PR} (PR mode)"
+                " and switch it off and on."
+            )
+        functions = [self._read(address) for address in DIGITAL_OUTPUTS]
+        if OUTPUT_IS_SERVO_ON not in functions:
+            raise DeviceFault(
+                f"{self._commands.title} has no output for servo-on;"
+                f" set one of P04.10 to P04.14 to {OUTPUT_IS_SERVO_ON:02X}h."
+            )
+        self._servo_on_bit = 1 << functions.index(OUTPUT_IS_SERVO_ON)
+        self._alarm_bit = 1 << functions.index(OUTPUT_IS_ALARM) if OUTPUT_IS_ALARM in functions else 0
+
+    def _enabled_and_alarmed(self, motion: MotionStatus) -> tuple[bool, bool]:
+        """From the motion status, and from the outputs where they say it."""
+        outputs = self._read(OUTPUT_STATUS)
+        alarmed = MotionStatus.FAULT in motion or bool(outputs & self._alarm_bit)
+        return bool(outputs & self._servo_on_bit), alarmed
 
     def make_safe(self) -> None:
         """Stop; the axis stays powered, since an arm without torque would fall."""
@@ -127,7 +151,7 @@ class LeadshineEL7:
         """
         self._commands.refuse_on_alarm(self.status())
         with suppress(UnansweredWrite):  # the wait below finds out whether it took
-            self._bus.write_one(self._unit, DIGITAL_INPUT_1, SERVO_ON_ALWAYS)
+            self._bus.write_one(self._unit, *self._registers.switch_on)
         deadline_s = time.monotonic() + _ENABLE_TIMEOUT_S
         while not (status := self.status()).enabled:
             self._commands.refuse_on_alarm(status)
@@ -154,7 +178,7 @@ class LeadshineEL7:
             raise DeviceFault(f"{self._commands.title} is not switched on.")
         block = [
             MOVE_ABSOLUTE,
-            *_words(target),
+            *words_of(target),
             rpm,
             _RAMP_MS_PER_1000_RPM,
             _RAMP_MS_PER_1000_RPM,
@@ -175,14 +199,14 @@ class LeadshineEL7:
 
         :raises DeviceError:
         """
-        motion = MotionStatus(self._read(MOTION_STATUS))
-        outputs = self._read(OUTPUT_STATUS)
+        motion = MotionStatus(self._read(self._registers.motion_status))
+        enabled, alarmed = self._enabled_and_alarmed(motion)
         alarm = None
-        if MotionStatus.FAULT in motion or outputs & self._alarm_bit:
-            alarm = self._read(ALARM) or None  # it may have been reset between two reads
+        if alarmed:
+            alarm = self._read(self._registers.alarm) or None  # it may have been reset between two reads
         moving = MotionStatus.RUNNING in motion
         return AxisStatus(
-            enabled=bool(outputs & self._servo_on_bit),
+            enabled=enabled,
             moving=moving,
             in_position=MotionStatus.PATH_COMPLETE in motion and not moving and self._is_at_target(),
             alarm=alarm,
@@ -199,7 +223,7 @@ class LeadshineEL7:
         :raises LinkLost: no reply
         """
         with suppress(UnansweredWrite):  # the alarm register tells
-            self._bus.write_one(self._unit, ALARM_RESET, RESET_PRESENT_ALARM)
+            self._bus.write_one(self._unit, self._registers.alarm_reset, RESET_PRESENT_ALARM)
         deadline_s = time.monotonic() + _RESET_TIMEOUT_S
         while (status := self.status()).alarm is not None:
             if time.monotonic() > deadline_s:
@@ -213,7 +237,7 @@ class LeadshineEL7:
         """
         self._target_pulses = None
         try:
-            self._bus.stop(self._unit, TRIGGER, QUICK_STOP, look_at=MOTION_STATUS)
+            self._bus.stop(self._unit, TRIGGER, QUICK_STOP, look_at=self._registers.motion_status)
         except (LinkLost, GarbledReply) as error:
             cause = str(error).rstrip(".")
             raise LinkLost(
@@ -244,7 +268,7 @@ class LeadshineEL7:
         return self._bus.read(self._unit, address, 1)[0]
 
     def _feedback_pulses(self) -> int:
-        return _signed(self._bus.read(self._unit, FEEDBACK, 2))
+        return values_of(self._bus.read(self._unit, FEEDBACK, 2))[0]
 
     def _is_at_target(self) -> bool:
         """The complete bit alone may still be that of the previous move."""
@@ -253,28 +277,30 @@ class LeadshineEL7:
 
     def _holds_target(self, target: int) -> bool:
         """After a lost reply: whether the drive got the move."""
-        return _signed(self._bus.read(self._unit, PATH_0 + 1, 2)) == target
+        return values_of(self._bus.read(self._unit, PATH_0 + 1, 2)) == [target]
 
     def _runs_or_stands_at(self, target: int) -> bool:
-        running = MotionStatus(self._read(MOTION_STATUS)) & MotionStatus.RUNNING
-        return bool(running) or abs(self._feedback_pulses() - target) <= _IN_POSITION_PULSES
-
-
-def _words(value: int) -> tuple[int, int]:
-    """A signed 32-bit value as two registers, high word first."""
-    return (value >> 16) & 0xFFFF, value & 0xFFFF
-
-
-def _signed(words: list[int]) -> int:
-    value = words[0] << 16 | words[1]
-    return value - (1 << 32) if value & (1 << 31) else value
+        motion = MotionStatus(self._read(self._registers.motion_status))
+        return MotionStatus.RUNNING in motion or abs(self._feedback_pulses() - target) <= _IN_POSITION_PULSES
 
 
 def _make(settings: LeadshineSettings, drives: Sequence[Drive]) -> tuple[LeadshineEL7, ...]:
     bus = ModbusBus(settings.url, timeout_s=settings.timeout_s)
-    if bus.notice:
-        log.warning("%s", bus.notice)
     return tuple(LeadshineEL7(bus, drive.unit, drive.scaling, name=drive.name) for drive in drives)
 
 
-DRIVER = ServoDriver(LeadshineSettings, _make)
+REGISTERS = {
+    CONTROL_MODE: "control mode",
+    ALARM_RESET: "alarm reset",
+    DIGITAL_INPUT_1: "function of input 1",
+    **{address: f"function of output {n}" for n, address in enumerate(DIGITAL_OUTPUTS, start=1)},
+    ALARM: "alarm",
+    MOTION_STATUS: "motion status",
+    TRIGGER: "trigger",
+    OUTPUT_STATUS: "outputs",
+    FEEDBACK: "position, pulses",
+    PATH_0: "path 0: mode, target, speed, ramps, pause, trigger",
+    PATH_0 + 1: "target of path 0, pulses",
+}
+
+DRIVER = ServoDriver(LeadshineSettings, _make, REGISTERS)

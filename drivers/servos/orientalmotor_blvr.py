@@ -8,7 +8,6 @@ a station that died or froze leaves the motor at standstill.
 
 from __future__ import annotations
 
-import logging
 import time
 from collections.abc import Callable, Sequence
 from contextlib import suppress
@@ -20,12 +19,11 @@ from pydantic import Field
 
 from drivers.driver import Drive, DriverSettings, Seconds, ServoDriver
 from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
-from drivers.lines import ModbusBus, UnansweredWrite
+from drivers.lines import ModbusBus, OnLine, UnansweredWrite
 from drivers.protocols import AxisStatus
 from drivers.scaling import JointScaling
 from drivers.servos.joint_commands import JointCommands
-
-log = logging.getLogger(__name__)
+from drivers.servos.registers import values_of, words_of
 
 DIRECT_DATA, POSITION_DATA = 0x0058, 0x005C
 INPUTS, OUTPUTS, ALARM = 0x007C, 0x007E, 0x0080
@@ -66,12 +64,13 @@ class OrientalMotorSettings(DriverSettings):
     """A drive that hears nothing for so long stops with alarm 85h; 0 switches that off."""
 
 
-class OrientalMotorBLVR:
+class OrientalMotorBLVR(OnLine):
     """One drive as a `ServoAxis`; may be called from any thread."""
 
     def __init__(
         self, bus: ModbusBus, unit: int, scaling: JointScaling, *, name: str, watchdog_ms: int
     ) -> None:
+        super().__init__(bus.line)
         self._bus = bus
         self._unit = unit
         self._scaling = scaling
@@ -92,9 +91,11 @@ class OrientalMotorBLVR:
         :raises DeviceError: with what is wrong and what to check
         """
         self.close()
+        self._target_pulses = None
+        self._stop_is_held = True  # whoever spoke to the drive before may have left it so
         self._bus.open(self)
         try:
-            numerator, denominator = _items(self._bus.read(self._unit, RESOLUTION, 4))
+            numerator, denominator = values_of(self._bus.read(self._unit, RESOLUTION, 4))
             if numerator != self._scaling.counts_per_rev * denominator:
                 raise DeviceFault(
                     f"{self._commands.title} counts {numerator}/{denominator} steps a turn,"
@@ -104,7 +105,7 @@ class OrientalMotorBLVR:
         except DeviceError:
             self._bus.release(self)
             raise
-        if self._watchdog_ms:
+        if self._watchdog_ms and not self.line.is_played_back:
             self._feeder = _Feeder(self._feed, self._watchdog_ms / 1000 / _FEEDS_PER_TIMEOUT, self._name)
 
     def make_safe(self) -> None:
@@ -159,10 +160,10 @@ class OrientalMotorBLVR:
         if not status.enabled:
             raise DeviceFault(f"{self._commands.title} is not switched on.")
         if self._stop_is_held:
-            self._bus.write(self._unit, INPUTS, _words(SERVO_ON), stops_seen=asked_at)
+            self._bus.write(self._unit, INPUTS, words_of(SERVO_ON), stops_seen=asked_at)
             self._stop_is_held = False
         items = (0, MOVE_ABSOLUTE, target, rpm, _RAMP_MS, _RAMP_MS, FULL_TORQUE, START)
-        block = [word for item in items for word in _words(item)]
+        block = words_of(*items)
         try:
             self._bus.write(self._unit, DIRECT_DATA, block, stops_seen=asked_at)
         except UnansweredWrite:
@@ -216,7 +217,7 @@ class OrientalMotorBLVR:
         self._target_pulses = None
         self._stop_is_held = True
         try:
-            self._bus.stop(self._unit, INPUTS, _words(SERVO_ON | QUICK_STOP), look_at=OUTPUTS)
+            self._bus.stop(self._unit, INPUTS, words_of(SERVO_ON | QUICK_STOP), look_at=OUTPUTS)
         except (LinkLost, GarbledReply) as error:
             cause = str(error).rstrip(".")
             raise LinkLost(
@@ -256,11 +257,11 @@ class OrientalMotorBLVR:
         return Output(self._read(OUTPUTS) & 0xFFFF & sum(Output))
 
     def _read(self, address: int) -> int:
-        (value,) = _items(self._bus.read(self._unit, address, 2))
+        (value,) = values_of(self._bus.read(self._unit, address, 2))
         return value
 
     def _write(self, address: int, value: int) -> None:
-        self._bus.write(self._unit, address, _words(value), stops_seen=self._bus.stops)
+        self._bus.write(self._unit, address, words_of(value), stops_seen=self._bus.stops)
 
     def _edge(self, address: int) -> None:
         """Maintenance commands act on the change from 0 to 1; what is read back afterwards decides."""
@@ -290,25 +291,25 @@ class _Feeder:
             self._feed()
 
 
-def _words(value: int) -> list[int]:
-    """A signed 32-bit item as two registers, high word first."""
-    return [(value >> 16) & 0xFFFF, value & 0xFFFF]
-
-
-def _items(words: Sequence[int]) -> list[int]:
-    """Signed 32-bit items out of registers."""
-    unsigned = [high << 16 | low for high, low in zip(words[::2], words[1::2], strict=True)]
-    return [value - (1 << 32) if value & (1 << 31) else value for value in unsigned]
-
-
 def _make(settings: OrientalMotorSettings, drives: Sequence[Drive]) -> tuple[OrientalMotorBLVR, ...]:
     bus = ModbusBus(settings.url, timeout_s=settings.timeout_s)
-    if bus.notice:
-        log.warning("%s", bus.notice)
     return tuple(
         OrientalMotorBLVR(bus, drive.unit, drive.scaling, name=drive.name, watchdog_ms=settings.watchdog_ms)
         for drive in drives
     )
 
 
-DRIVER = ServoDriver(OrientalMotorSettings, _make)
+REGISTERS = {
+    DIRECT_DATA: "direct data: number, type, position, speed, ramps, torque, trigger",
+    POSITION_DATA: "position of the direct data, steps",
+    INPUTS: "inputs",
+    OUTPUTS: "outputs",
+    ALARM: "alarm",
+    FEEDBACK: "position, steps",
+    ALARM_RESET: "alarm reset",
+    PRESET: "position preset",
+    RESOLUTION: "resolution",
+    WATCHDOG: "communication watchdog, ms",
+}
+
+DRIVER = ServoDriver(OrientalMotorSettings, _make, REGISTERS)

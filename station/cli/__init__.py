@@ -21,6 +21,7 @@ _COMMANDS = {
     "columns": ("columns", "Propose a column map for a file of measurements made elsewhere."),
     "confusion": ("confusion", "The diagnosis judged on random emulated machines."),
     "diagnose": ("diagnosis", "Trace what the model leaves over to its cause."),
+    "doctor": ("doctor", "Look at every device and its line, and say what to do; nothing moves."),
     "export": ("archive", "The readings of one run as a measurement file."),
     "gauge-study": ("gauge_study", "How much of the scatter of measured parts is the gauge."),
     "identify": ("identify", "Zero offsets with uncertainty from a measurement file."),
@@ -30,7 +31,9 @@ _COMMANDS = {
     "plan": ("plan", "The positions of a plan, their order and the accuracy they predict."),
     "quality": ("quality", "Capability, run rules and a Pareto of outcomes over finished runs."),
     "real-robot": ("real_robot", "The closed loop on logs of a real arm, as figures and drawings."),
+    "refit": ("refit", "What today's software says of stored runs; nothing stored is changed."),
     "reproduce": ("studies", "The paper's tables and figures, computed again beside ours."),
+    "replay": ("wire", "Carry out a run again from its wire log, without a machine, and compare."),
     "restore": ("restoring", "Put a backup in the place of the history; what was there is kept."),
     "retract": ("apply", "Bring the arm back into its workspace, slowly."),
     "robot": ("robot", "Write an arm's robot file from its URDF description."),
@@ -41,6 +44,8 @@ _COMMANDS = {
     "solve": ("diagnosis", "Joint commands for target positions under the identified model."),
     "user": ("people", "People who sign in at the page."),
     "verify": ("archive", "Whether every finished run is as it ended."),
+    "wire": ("wire", "Every request and answer of one run, with its time, in plain words."),
+    "translate": ("translate", "Taught joint positions under the zeros that the drives have now."),
     "transfer": ("diagnosis", "Apply the effects learned on one log, unchanged, to another log."),
 }
 """Module and purpose of each command; imported when it is asked for, since the numerics take long to load."""

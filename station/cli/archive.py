@@ -5,19 +5,47 @@ from __future__ import annotations
 from pathlib import Path
 
 import click
+from rich.console import Console
+from rich.progress import Progress
 
-from station.cli.kept import config_option, kept, run_argument
-from station.records import readings_to_csv
+from station.cli.kept import config_option, kept
+from station.records import LARGEST_ID, readings_to_csv
+from station.settings import load_settings
+from station.store import Store
 
 
 @click.command("export")
-@run_argument
+@click.argument("calibration_id", metavar="[ID]", required=False, type=click.IntRange(1, LARGEST_ID))
+@click.option(
+    "--parquet", "folder", type=click.Path(file_okay=False, path_type=Path), help="The whole history."
+)
 @config_option
 @click.pass_obj
-def export_command(home: Path, calibration_id: int, config: Path | None) -> None:
-    """One run's readings as a measurement file on standard output."""
+def export_command(home: Path, calibration_id: int | None, folder: Path | None, config: Path | None) -> None:
+    """One run's readings as a measurement file on standard output, or the history as Parquet files.
+
+    With --parquet every finished run that the folder does not hold yet is added to it.
+    """
+    if (calibration_id is None) == (folder is None):
+        raise click.UsageError("Give the number of a run, or --parquet and a folder.")
     with kept(home, config) as store:
-        click.echo(readings_to_csv(store.readings(calibration_id)), nl=False)
+        if calibration_id is not None:
+            uid = store.summary(calibration_id).uid
+            click.echo(readings_to_csv(store.readings(calibration_id), run_uid=uid), nl=False)
+        elif folder is not None:
+            _export(store, folder, load_settings(config).name)
+
+
+def _export(store: Store, folder: Path, station: str) -> None:
+    from station.quality import export_parquet
+
+    with Progress(console=Console(stderr=True), transient=True) as bar:
+        runs = bar.add_task("Runs", total=None)
+        found = export_parquet(store, folder, station, lambda count: bar.advance(runs, count))
+    click.echo(
+        f"{found.runs} runs, {found.readings} readings and {found.findings} rows of findings were added; the "
+        f"folder holds runs up to {found.last}."
+    )
 
 
 @click.command("verify")

@@ -9,9 +9,10 @@ import click
 
 from station.cli.machine_options import machine_options, read_settings
 from station.cli.one_run import one_run
+from station.cli.references import LENGTH, references_option
 from station.five_bar import Robot
 from station.plans import PLANS
-from station.records import CalibrationRequest, PlanName
+from station.records import AnyReference, CalibrationRequest, PlanName, checked_name, checked_serial
 from station.run_kinds import kind_of_plan
 from station.service import Runtime, Submitted
 
@@ -22,6 +23,13 @@ from station.service import Runtime, Submitted
 @click.option("--robot", "robot_file", type=click.Path(path_type=Path), help="Robot file, kept from then on.")
 @click.option("--operator", help="Who is responsible; else the user of this terminal.")
 @click.option("--work-order", help="Kept with the run.")
+@references_option
+@click.option(
+    "--until",
+    "until_mm",
+    type=LENGTH,
+    help="Largest position error that is wanted, 0.2mm; plan adaptive ends when it is reached.",
+)
 @machine_options
 @click.pass_obj
 def calibrate_command(
@@ -31,6 +39,8 @@ def calibrate_command(
     robot_file: Path | None,
     operator: str | None,
     work_order: str | None,
+    references: tuple[AnyReference, ...],
+    until_mm: float | None,
     config: Path | None,
     emulate: Path | None,
     speed: float | None,
@@ -43,12 +53,23 @@ def calibrate_command(
             f"--serial {serial} is not the robot of {robot_file}, which is {robot.serial}."
         )
 
+    named, who = checked_serial(serial or robot.serial), checked_name(operator or getpass.getuser())
+    if work_order is not None:
+        checked_name(work_order)
+
     def submit(runtime: Runtime) -> Submitted:
         if robot_file:
             runtime.store.save_robot(robot)
-        who = operator or getpass.getuser()
         return runtime.orchestrator.submit(
-            CalibrationRequest(serial or robot.serial, kind_of_plan(plan), who, plan, work_order)
+            CalibrationRequest(
+                named,
+                kind_of_plan(plan),
+                who,
+                plan,
+                work_order,
+                references=references,
+                until_mm=until_mm,
+            )
         )
 
     one_run(home, settings, emulate, submit)

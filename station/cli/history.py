@@ -17,7 +17,7 @@ from rich.console import Console
 from rich.table import Table
 
 from station.cli.kept import at_terminal, config_option, kept, run_argument
-from station.records import Reading, State
+from station.records import Reading, State, harmless
 from station.store import Store
 
 _COLUMNS = (
@@ -73,7 +73,10 @@ def runs_command(
         if as_csv:
             writer = csv.DictWriter(sys.stdout, _COLUMNS)
             writer.writeheader()
-            writer.writerows(islice(rows, limit))
+            writer.writerows(
+                {name: harmless(cell) if isinstance(cell, str) else cell for name, cell in row.items()}
+                for row in islice(rows, limit)
+            )
         else:
             _print_table(list(islice(rows, limit or 20)))
 

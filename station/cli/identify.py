@@ -10,9 +10,11 @@ from rich.console import Console
 from rich.table import Table
 
 from station.cli.files import columns_option, describe, existing, measured_option, write_json
+from station.cli.references import reference_line, references_option
+from station.five_bar import Robot
 from station.identification import Identification, identification_document, identify
 from station.machines import AnyMechanism, Measured, read_readings, read_robot
-from station.records import ColumnMap, IdentificationDocument, Quantity
+from station.records import AnyReference, ColumnMap, IdentificationDocument, Quantity
 
 
 @click.command("identify")
@@ -20,12 +22,22 @@ from station.records import ColumnMap, IdentificationDocument, Quantity
 @click.option("--robot", "robot_file", type=existing, help="Robot file; without it the paper's Table 1.")
 @measured_option
 @columns_option
+@references_option
 @click.option("--json", "json_file", type=existing, help="Write the whole result here.")
 def identify_command(
-    data: Path, robot_file: Path | None, measured: Measured, mapping: ColumnMap | None, json_file: Path | None
+    data: Path,
+    robot_file: Path | None,
+    measured: Measured,
+    mapping: ColumnMap | None,
+    references: tuple[AnyReference, ...],
+    json_file: Path | None,
 ) -> None:
     """Zero offsets with uncertainty from a measurement file."""
     robot = read_robot(robot_file)
+    if references:
+        if not isinstance(robot, Robot):
+            raise click.UsageError("--reference is for the five-bar; this robot file is of another machine.")
+        robot = robot.informed(references)
     readings = read_readings(robot, data, measured, mapping=mapping)
     found = identify(robot, readings)
     document = identification_document(found, describe(data, len(readings)))
@@ -57,6 +69,8 @@ def _print(found: Identification[AnyMechanism], document: IdentificationDocument
         console.print(f"  {remedy.text}: sd {remedy.sd_deg:.4f} deg")
     if weak.blind:
         console.print("Not determined by the readings: " + "; ".join(weak.blind) + ".")
+    for use in document.references:
+        console.print(f"Reference {reference_line(use)}")
     for outlier in found.outliers:
         console.print(f"Left out: reading {outlier.reading}, {outlier.reason}.")
     if not found.solution.complete:

@@ -11,7 +11,7 @@ import click
 from station.cli.kept import new_history
 from station.errors import InputRefused
 from station.five_bar import Robot
-from station.records import CalibrationRequest
+from station.records import CalibrationRequest, checked_name, checked_serial
 from station.run_kinds import Upload, import_dataset
 from station.settings import database_path, load_settings
 from station.store import Store
@@ -40,7 +40,7 @@ def import_command(
     """
     learned = _read(data)
     fresh = _read(fresh_file) if fresh_file else None
-    request = CalibrationRequest(serial, "import", operator)
+    request = CalibrationRequest(checked_serial(serial), "import", checked_name(operator))
     path = database_path(load_settings(config), context.obj)
     new = new_history(path)
     with closing(Store(path)) as store:

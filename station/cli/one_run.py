@@ -16,12 +16,13 @@ from rich.console import Console
 from station.cli.kept import new_history
 from station.cli.machine_options import logging_to
 from station.cli.progress import progress
-from station.errors import NotApplicable
-from station.records import Calibration, State
+from station.errors import FieldRefused, NotApplicable
+from station.records import Calibration, Prompt, State
 from station.service import Runtime, Submitted
 from station.settings import Settings, database_path
 
 _STOP_LIMIT_S = 15.0
+_LOOK_S = 0.2
 
 
 def one_run(
@@ -43,19 +44,35 @@ def one_run(
                 calibration_id = submit(runtime).id
             except NotApplicable as refusal:
                 raise click.UsageError(str(refusal)) from refusal
-            state = _end_of(runtime, calibration_id)
+            state = _end_of(runtime, calibration_id, console)
         calibration = runtime.store.calibration(calibration_id)
     _print_outcome(console, state, calibration)
     done = calibration.verdict == "pass" or (calibration.verdict is None and calibration.outcome == "good")
     sys.exit(0 if done else 1)
 
 
-def _end_of(runtime: Runtime, calibration_id: int) -> State:
+def _end_of(runtime: Runtime, calibration_id: int, console: Console) -> State:
+    orchestrator = runtime.orchestrator
     try:
-        return runtime.orchestrator.wait(calibration_id)
-    except KeyboardInterrupt:
+        while not (state := orchestrator.wait(calibration_id, _LOOK_S)).ended:
+            if prompt := orchestrator.prompt(calibration_id):
+                _answer(runtime, calibration_id, prompt, console)
+        return state
+    except (KeyboardInterrupt, click.Abort):
         runtime.orchestrator.stop("the operator at the terminal")
         return runtime.orchestrator.wait(calibration_id, _STOP_LIMIT_S)
+
+
+def _answer(runtime: Runtime, calibration_id: int, prompt: Prompt, console: Console) -> None:
+    """Ask at the terminal what the run asks."""
+    console.print(prompt.text, markup=False, soft_wrap=True)
+    value = click.prompt(prompt.unit or "value", type=float) if prompt.kind == "number" else None
+    if prompt.kind == "confirm":
+        click.prompt("Press Enter when done", default="", show_default=False)
+    try:
+        runtime.orchestrator.answer(calibration_id, prompt.id, value, "the terminal")
+    except (FieldRefused, NotApplicable) as refusal:
+        console.print(str(refusal), markup=False)
 
 
 @contextmanager

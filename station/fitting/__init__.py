@@ -2,7 +2,13 @@
 
 from __future__ import annotations
 
-from station.fitting.accuracy import common_sd_deg, position_error_field, position_error_summary, rms_and_max
+from station.fitting.accuracy import (
+    common_sd_deg,
+    largest_error_bound,
+    position_error_field,
+    position_error_summary,
+    rms_and_max,
+)
 from station.fitting.least_squares import BLIND, NotConvergedError, Prior, Residuals, Solution, solve
 from station.fitting.linear import positive, solved
 from station.fitting.noise import (
@@ -36,6 +42,7 @@ __all__ = [
     "estimate_noise",
     "find_outliers",
     "lack_of_fit",
+    "largest_error_bound",
     "outliers_of_fit",
     "position_error_field",
     "position_error_summary",

@@ -14,18 +14,25 @@ from station.five_bar.error_model import (
     position_jacobian,
 )
 from station.five_bar.kinematics import HOME, Geometry, Unreachable, elbows, forward, inverse
-from station.five_bar.mechanism import GRID, MOST_ZERO_OFFSET, SCALE_SD_MM, FiveBar, lengths, load, pull
+from station.five_bar.mechanism import GRID, SCALE_SD_MM, FiveBar, lengths, load, pull
 from station.five_bar.plausibility import check_distances, check_places, check_poses
+from station.five_bar.references import measured_value, with_references
 from station.five_bar.robot_file import (
     FIVE_BAR_MODEL,
     FRESH_INSET_MM,
     INSET_MM,
+    MOST_ZERO_OFFSET,
     Robot,
     RobotFile,
     Tolerances,
     read_sections,
 )
-from station.five_bar.weak_direction import describe_weak_direction
+from station.five_bar.weak_direction import (
+    KNOWN_DRM_SD_MM,
+    SECOND_MOUNT_MM,
+    describe_weak_direction,
+    with_second_mount,
+)
 
 __all__ = [
     "FIVE_BAR_MODEL",
@@ -34,9 +41,11 @@ __all__ = [
     "HOME",
     "INSET_MM",
     "KEPT",
+    "KNOWN_DRM_SD_MM",
     "MOST_ZERO_OFFSET",
     "NAMES",
     "SCALE_SD_MM",
+    "SECOND_MOUNT_MM",
     "SIZE",
     "FiveBar",
     "Geometry",
@@ -56,9 +65,12 @@ __all__ = [
     "inverse",
     "lengths",
     "load",
+    "measured_value",
     "perturbed",
     "pose",
     "position_jacobian",
     "pull",
     "read_sections",
+    "with_references",
+    "with_second_mount",
 ]

@@ -20,7 +20,8 @@ from station.five_bar.error_model import (
 )
 from station.five_bar.kinematics import Geometry, inverse
 from station.five_bar.plausibility import check_distances, check_poses
-from station.five_bar.robot_file import FIVE_BAR_MODEL, Robot
+from station.five_bar.references import with_references
+from station.five_bar.robot_file import FIVE_BAR_MODEL, MOST_ZERO_OFFSET, Robot
 from station.mechanism import (
     Conditions,
     Observation,
@@ -39,8 +40,6 @@ UNKNOWN_MOUNT_SD_MM = 300.0
 """Prior of c where the robot file does not say where a mount is."""
 IMPOSSIBLE_SDS = 20.0
 """A parameter this many tolerances from nominal is a wrong file or a missing effect, not a calibration."""
-MOST_ZERO_OFFSET = 4.0
-"""Tolerances of a zero offset."""
 GRID = (9, 7)
 """Points of the workspace at which position errors are predicted."""
 
@@ -59,13 +58,17 @@ class FiveBar:
         self.measured = measurements.distance
         self.reading_of_row: Index = np.arange(len(measurements))
         self._mount = measurements.mount
-        c = np.array([complex(*robot.mounts.get(name, robot.c)) for name in measurements.mounts])
+        c = np.array([complex(*(robot.mount_of(name) or robot.c)) for name in measurements.mounts])
         self._cd = c + complex(*robot.d)
         self._extra = len(measurements.mounts) - 1
 
     @cached_property
     def parameters(self) -> tuple[Parameter, ...]:
-        """The unknowns with the priors of the robot file."""
+        """The unknowns with the priors of the robot file and of its references."""
+        return with_references(self._by_tolerance, self.robot)
+
+    @cached_property
+    def _by_tolerance(self) -> tuple[Parameter, ...]:
         robot, tolerance = self.robot, self.robot.tolerances
         zero_sd = np.radians(tolerance.zero_offset_deg)
         degrees = 180.0 / np.pi
@@ -74,7 +77,7 @@ class FiveBar:
         out += [Parameter(name, "geometry", "mm", 0.0, tolerance.link_mm) for name in NAMES[6:10]]
         for label in self.measurements.mounts:
             suffix = "" if label == self.measurements.mounts[0] else f"@{label}"
-            known = not suffix or label in robot.mounts
+            known = not suffix or robot.mount_of(label) is not None
             for axis, name in enumerate(("rMx", "rMy")):
                 sd = robot.drm_sd[axis] if known else UNKNOWN_MOUNT_SD_MM
                 out.append(Parameter(name + suffix, "mechanism", "mm", robot.drm[axis], sd))
@@ -99,10 +102,13 @@ class FiveBar:
 
     @cached_property
     def row_sd(self) -> Real:
-        """(K,) head noise (eq. 34) and the half pulse that feedback cannot tell, through d rho / d theta."""
+        """(K,) head noise (eq. 34), half a step of a coarse readout, and the half pulse that feedback
+        cannot tell, through d rho / d theta.
+        """
         joint_sd = np.radians(self.robot.joint_sd_deg)
         by_joint = distance_by_joint(pose(self.geometry_at(self.start), self.theta))
-        head_variance = SCALE_SD_MM**2 / self.measurements.samples
+        step_variance = self.measurements.resolution_mm**2 / 12  # of a uniform distribution (GUM, F.2.2.1)
+        head_variance = SCALE_SD_MM**2 / self.measurements.samples + step_variance
         return np.asarray(np.sqrt(head_variance + joint_sd**2 * np.sum(by_joint**2, axis=1)))
 
     @property
@@ -183,13 +189,13 @@ class FiveBar:
     def implausible(self, p: Real) -> str:
         """A link 3 mm off is a wrong robot file or a wrong column, not a calibration; names the parameter."""
         offset = np.array(
-            [abs(x - q.prior_mean) / q.prior_sd for x, q in zip(p, self.parameters, strict=True)]
+            [abs(x - q.prior_mean) / q.prior_sd for x, q in zip(p, self._by_tolerance, strict=True)]
         )
         worst = int(np.argmax(offset))
         limit_deg = MOST_ZERO_OFFSET * self.robot.tolerances.zero_offset_deg
         if offset[worst] <= IMPOSSIBLE_SDS and (np.degrees(np.abs(p[:2])) <= limit_deg).all():
             return ""
-        q = self.parameters[worst]
+        q = self._by_tolerance[worst]
         return f"{q.name} would be {p[worst] * q.shown:.3f} {q.unit}, {offset[worst]:.0f} times its tolerance"
 
     def position_errors(self, p: Real) -> tuple[Real, Real]:

@@ -64,11 +64,14 @@ def _check_joint_ranges(robot: Robot, measurements: Measurements) -> None:
 def check_distances(robot: Robot, measurements: Measurements) -> None:
     """:raises InputRefused: naming the reading whose distance cannot belong to its joint angles."""
     for mount in range(len(measurements.mounts)):
-        if mount and measurements.mounts[mount] not in robot.mounts:
-            continue  # where this mount is, is for the identification to find
+        c = robot.mount_of(measurements.mounts[mount])
+        if c is None:
+            if mount:
+                continue  # where this mount is, is for the identification to find
+            c = robot.c
         own = np.flatnonzero(measurements.mount == mount)
-        c = complex(*robot.mounts.get(measurements.mounts[mount], robot.c))
-        nominal = np.abs(forward(robot.geometry, measurements.theta[own]) - c - complex(*robot.d))
+        foot = complex(*c) + complex(*robot.d)
+        nominal = np.abs(forward(robot.geometry, measurements.theta[own]) - foot)
         apart = measurements.distance[own] - nominal
         apart -= np.median(apart)
         if np.abs(apart).max() > MISMATCH_MM:

@@ -14,6 +14,7 @@ multiplication by i and a unit vector u(theta) is exp(i theta).
 from __future__ import annotations
 
 import tomllib
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
@@ -24,12 +25,30 @@ from pydantic import Field, ValidationError
 from drivers.scaling import JointScaling
 from station.errors import InputRefused
 from station.five_bar.kinematics import Geometry, Unreachable, inverse
-from station.records import Complex, Finite, Positive, Section, Sections, refusal
+from station.records import (
+    AnyReference,
+    Complex,
+    Finite,
+    JointAngle,
+    MountingError,
+    Positive,
+    Section,
+    Sections,
+    checked_serial,
+    refusal,
+)
 
 Pair = tuple[float, float]
 FIVE_BAR_MODEL = "five-bar"
 INSET_MM = 4.0
 """Kept free of the workspace's edge by what is measured, for the overshoot of an approach."""
+MOST_ZERO_OFFSET = 4.0
+"""Tolerances of a zero offset."""
+MOST_MOUNTING_SDS = 20.0
+"""Standard deviations of the mounting error; more is a wrong entry."""
+SECOND = "second"
+ASIDE_MM = 200.0
+"""Where the second mounting point is, if the robot file names none."""
 FRESH_INSET_MM = 15.0
 """Kept free of it by fresh positions, which are predicted: the fit is surest in the interior."""
 
@@ -60,6 +79,10 @@ class Robot:
     """How well that is known: "roughly measured", and within 0.16 mm of what Table 8 found."""
     mounts: dict[str, Pair] = field(default_factory=dict)
     """c of further mounting places of the mechanism, by the `mount` id of the measurement file."""
+    references: tuple[AnyReference, ...] = ()
+    """What was measured of the mechanism and, in one run, of the joints, by other instruments."""
+    accuracy_mm: float | None = None
+    """Largest position error that is wanted of a calibration; None where nobody said."""
     tolerances: Tolerances = field(default_factory=Tolerances)
     workspace_x: Pair = (-240.0, 240.0)
     workspace_y: Pair = (-782.0, -632.0)
@@ -81,7 +104,9 @@ class Robot:
 
         :raises InputRefused: missing, not TOML, or a value out of place, with the section and key.
         """
-        return cls.from_dict(read_sections(path), source=str(path))
+        robot = cls.from_dict(read_sections(path), source=str(path))
+        checked_serial(robot.serial)
+        return robot
 
     @classmethod
     def from_dict(cls, data: Sections, *, source: str = "robot") -> Robot:
@@ -94,9 +119,12 @@ class Robot:
 
     def to_json(self) -> Sections:
         """The sections of the robot file; `from_dict` reads them back."""
+        # what is not given is left out: the file of a robot without it stays what it was
+        references = [r.model_dump() for r in self.references if isinstance(r, MountingError)]
         return {
             "robot": {
                 "serial": self.serial,
+                **({} if self.accuracy_mm is None else {"accuracy_mm": self.accuracy_mm}),
                 "e": self.e,
                 "L": self.L,
                 "l": self.l,
@@ -112,6 +140,7 @@ class Robot:
                 "drm_mm": self.drm,
                 "drm_sd_mm": self.drm_sd,
                 "mounts": self.mounts,
+                **({"reference": references} if references else {}),
             },
             "workspace": {"x": self.workspace_x, "y": self.workspace_y},
             "joints": {
@@ -138,6 +167,22 @@ class Robot:
         i = joint - 1
         return JointScaling(self.counts_per_rev, self.ratio, self.zero_at_deg[i], self.sign[i])
 
+    def mount_of(self, label: str) -> Pair | None:
+        """c of a mounting point; None where that is not known."""
+        if not label:
+            return self.c
+        return self.mounts.get(label, self.second_mount[1] if label == SECOND else None)
+
+    @property
+    def second_mount(self) -> tuple[str, Pair]:
+        """Label and c of the mounting point that plan `two_mounts` uses beside the first one.
+
+        The first of the robot file's, else one that much aside.
+        """
+        for label, c in self.mounts.items():
+            return label, c
+        return SECOND, (self.c[0] + ASIDE_MM, self.c[1])
+
     @property
     def pulse_deg(self) -> float:
         """One pulse at the joint, degrees."""
@@ -153,6 +198,26 @@ class Robot:
         x = np.linspace(*self.workspace_x, nx)
         y = np.linspace(*self.workspace_y, ny)
         return np.asarray((x[:, None] + 1j * y[None, :]).ravel())
+
+    def informed(self, references: Sequence[AnyReference]) -> Robot:
+        """The same robot, with references that hold for one run beside those of its file.
+
+        :raises InputRefused: one that is beyond what its tolerance allows.
+        """
+        for reference in references:
+            if isinstance(reference, JointAngle):
+                size, unit = reference.offset_deg, "deg"
+                most = MOST_ZERO_OFFSET * self.tolerances.zero_offset_deg
+            else:
+                axis = 0 if reference.kind == "drm_x" else 1
+                size, unit = reference.value_mm - self.drm[axis], "mm"
+                most = MOST_MOUNTING_SDS * self.drm_sd[axis]
+            if abs(size) > most:
+                raise InputRefused(
+                    f"Reference {reference.words} is {abs(size):.3g} {unit} from what the robot file expects;"
+                    f" at most {most:.3g} {unit} is believed. Check the value, its sign and the robot file."
+                )
+        return replace(self, references=(*self.references, *references))
 
     def with_mechanism(self, drm: Pair, sd: Pair) -> Robot:
         """The same robot with the MAEMM known as given."""
@@ -187,6 +252,8 @@ class _RobotSection(Section):
     """Serial number of the robot."""
     model: Literal["five-bar"] = "five-bar"
     """Kind of machine."""
+    accuracy_mm: Positive | None = None
+    """Largest position error over the workspace that is wanted of a calibration, mm."""
     e: tuple[tuple[Finite, Finite], tuple[Finite, Finite]] = Robot.e
     """Base joints 1 and 2, (x, y), mm."""
     L: Positive | tuple[Positive, Positive] = Robot.L
@@ -205,6 +272,8 @@ class _MechanismSection(Section):
     """Expected mounting error, mm."""
     drm_sd_mm: Positive | tuple[Positive, Positive] = Robot.drm_sd
     """How well it is known, mm."""
+    reference: tuple[MountingError, ...] = ()
+    """Measured errors of the mounting; they last until the mechanism is mounted anew."""
     mounts: dict[str, tuple[Finite, Finite]] = Field(default_factory=dict)
     """Further mounting points c by the `mount` id of the measurement file, mm."""
 
@@ -260,7 +329,12 @@ class RobotFile(Section):
             zero_at_deg=self.joints.zero_at_deg,
             sign=self.joints.sign if isinstance(self.joints.sign, tuple) else (self.joints.sign,) * 2,
             feedback_sd_deg=self.joints.feedback_sd_deg,
+            accuracy_mm=self.robot.accuracy_mm,
         )
+        try:
+            robot = robot.informed(self.mechanism.reference)
+        except InputRefused as error:
+            raise InputRefused(f"{source}: [[mechanism.reference]] {error}") from error
         try:
             inverse(robot.geometry, robot.workspace_grid(3, 3))
         except Unreachable as error:

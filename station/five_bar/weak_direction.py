@@ -110,24 +110,27 @@ def remedies(fit: Posterior) -> tuple[Remedy, ...]:
         ),
         Remedy(
             text=f"repeat the sequence with the mechanism mounted {SECOND_MOUNT_MM:.0f} mm aside",
-            sd_deg=common_sd_deg(_with_second_mount(fit, information)),
+            sd_deg=common_sd_deg(with_second_mount(fit.mechanism, fit.row_sd, fit.dtheta, information)),
         ),
     )
 
 
-def _with_second_mount(fit: Posterior, information: Real) -> Real:
-    """Posterior covariance after the same sequence from a second mount with its own dr_M and rho_0."""
+def with_second_mount(mechanism: FiveBar, row_sd: Real, dtheta: Real, information: Real) -> Real:
+    """(P + 3, P + 3) covariance after the same readings from a second mount with its own dr_M and rho_0.
+
+    row_sd (K,) mm, dtheta (2,) rad, information (P, P) of what is known before.
+    """
     size = len(information)
-    geometry = fit.mechanism.nominal
+    geometry = mechanism.nominal
     aside = type(geometry)(geometry.e, geometry.L, geometry.l, geometry.cd + SECOND_MOUNT_MM)
-    at = pose(aside, fit.mechanism.measurements.theta + fit.dtheta)
+    at = pose(aside, mechanism.measurements.theta + dtheta)
     rows = np.zeros((len(at.r), size + 3))
     jacobian = distance_jacobian(aside, at)
     rows[:, :10] = jacobian[:, :10]
     rows[:, size : size + 2] = jacobian[:, 10:12]
     rows[:, size + 2] = -1.0
-    rows /= fit.row_sd[:, None]
+    rows /= row_sd[:, None]
     wider = np.zeros((size + 3, size + 3))
     wider[:size, :size] = information
-    wider[[size, size + 1], [size, size + 1]] += 1.0 / np.array(fit.mechanism.robot.drm_sd) ** 2
+    wider[[size, size + 1], [size, size + 1]] += 1.0 / np.array(mechanism.robot.drm_sd) ** 2
     return np.asarray(np.linalg.inv(wider + rows.T @ rows))

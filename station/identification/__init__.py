@@ -2,25 +2,36 @@
 
 from __future__ import annotations
 
+from station.identification.advice import advice_of
+from station.identification.bound import PLAN_ENDED, accuracy_of, bounds_mm, with_accuracy
 from station.identification.document import gate_record, identification_document, position_error_map
 from station.identification.estimate import Gate, Identification, identify
-from station.identification.memory import Memory
+from station.identification.memory import GATE_P, Memory
 from station.identification.readout_jump import without_jump
+from station.identification.sequential import Innovation, Known
 from station.identification.verification import (
     Verification,
     fresh_stops,
     fresh_stops_of,
     not_identified,
+    predicted_result,
     prediction_fault,
     result_of,
     verify,
 )
 
 __all__ = [
+    "GATE_P",
+    "PLAN_ENDED",
     "Gate",
     "Identification",
+    "Innovation",
+    "Known",
     "Memory",
     "Verification",
+    "accuracy_of",
+    "advice_of",
+    "bounds_mm",
     "fresh_stops",
     "fresh_stops_of",
     "gate_record",
@@ -28,8 +39,10 @@ __all__ = [
     "identify",
     "not_identified",
     "position_error_map",
+    "predicted_result",
     "prediction_fault",
     "result_of",
     "verify",
+    "with_accuracy",
     "without_jump",
 ]

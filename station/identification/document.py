@@ -47,6 +47,7 @@ def identification_document(
         after=PredictedAccuracy(predicted_position_error_mm=found.position_error(True)),
         position_error_map=position_error_map(found),
         outliers=tuple(o.record() for o in found.outliers),
+        references=found.references,
         memory=None if found.gate is None else gate_record(found.gate),
         convergence=Convergence(
             steps=found.solution.steps,

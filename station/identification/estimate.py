@@ -29,10 +29,19 @@ from station.fitting import (
 )
 from station.five_bar import FiveBar, Robot, check_places
 from station.identification.memory import GATE_P, Memory, contradiction_p
+from station.identification.references import reference_uses
 from station.machines import AnyMechanism, AnyRobot, kind_of, mechanism_of
 from station.mechanism import by_reading, reference_of
 from station.model import Fit, Model, fit
-from station.records import Measurements, PositionError, Quantity, Real, WeakDirection
+from station.records import (
+    Measurements,
+    MountingError,
+    PositionError,
+    Quantity,
+    Real,
+    ReferenceUse,
+    WeakDirection,
+)
 
 LACK_OF_FIT_P = 1e-3
 M = TypeVar("M", bound=AnyMechanism)
@@ -61,6 +70,10 @@ class Identification(Generic[M_co]):
     outliers: tuple[Outlier, ...]
     gate: Gate | None
     """Of what earlier calibrations know; None when nothing was known."""
+    references: tuple[ReferenceUse, ...] = ()
+    """What other instruments measured, beside the rest."""
+    remembered: tuple[MountingError, ...] = ()
+    """Measurements of the mounting that the memory holds."""
 
     @property
     def measurements(self) -> Measurements:
@@ -120,7 +133,10 @@ class Identification(Generic[M_co]):
         parameters = self.mechanism.parameters
         kept = [i for i, parameter in enumerate(parameters) if parameter.lasting]
         names = tuple(parameters[i].name for i in kept)
-        return Memory(names, self.p[kept], self.covariance[np.ix_(kept, kept)])
+        measured = tuple(u.reference for u in self.references if isinstance(u.reference, MountingError))
+        held = tuple(dict.fromkeys((*self.remembered, *measured)))
+        ratio = self.noise.sigma_mm / float(np.sqrt(np.mean(self.mechanism.row_sd**2)))
+        return Memory(names, self.p[kept], self.covariance[np.ix_(kept, kept)], ratio, held)
 
     def quantities(self) -> tuple[Quantity, ...]:
         """Every parameter in shown units with its standard uncertainty.
@@ -198,13 +214,19 @@ def _identify(everything: M, memory: Memory | None) -> Identification[M]:
         _check_enough(mechanism)
     found = _at_noise(mechanism, prior, left_out)
     if memory is not None:
+        held = memory.references
+        reference_p = 1.0
+        if isinstance(mechanism, FiveBar):
+            memory, reference_p = memory.informed(mechanism.robot)
         remembered = memory.prior(mechanism.parameters)
         with_memory = _at_noise(mechanism, remembered, left_out)
-        p_value = contradiction_p(with_memory.solution, remembered, mechanism.parameters)
+        p_value = min(contradiction_p(with_memory.solution, remembered, mechanism.parameters), reference_p)
         if p_value < GATE_P:
             found = replace(found, gate=Gate(False, p_value))
         else:
-            found = replace(with_memory, gate=Gate(True, p_value))
+            found = replace(with_memory, gate=Gate(True, p_value), remembered=held)
+    if isinstance(mechanism, FiveBar):
+        found = replace(found, references=reference_uses(mechanism, found.solution, found.remembered))
     if impossible := mechanism.implausible(found.p):
         raise InputRefused(
             f"Impossible result: {impossible}; check the robot file and the readings' columns, "

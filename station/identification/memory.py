@@ -7,14 +7,15 @@ was mounted anew) drop it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.special import chdtrc
+from scipy.special import chdtrc, ndtr
 
 from station.fitting import Prior, Solution
+from station.five_bar import Robot, measured_value
 from station.mechanism import Parameter
-from station.records import LastingParameters, Real
+from station.records import LastingParameters, MountingError, Real
 
 WIDENED_PER_ROOT_YEAR = 0.3
 """Share of a parameter's tolerance by which it may have wandered in a year (random walk)."""
@@ -33,22 +34,58 @@ class Memory:
     """(M,) mm"""
     covariance: Real
     """(M, M)"""
+    noise_ratio: float = 1.0
+    """Noise of a reading over its specification, as repeats showed it."""
+    references: tuple[MountingError, ...] = ()
+    """Measurements of the mounting that it holds already; what is measured once counts once."""
 
     def record(self) -> LastingParameters:
         """As the store keeps it."""
         covariance = tuple(tuple(row) for row in self.covariance.tolist())
-        return LastingParameters(names=self.names, mean=tuple(self.mean.tolist()), covariance=covariance)
+        return LastingParameters(
+            names=self.names,
+            mean=tuple(self.mean.tolist()),
+            covariance=covariance,
+            references=self.references,
+            noise_ratio=self.noise_ratio,
+        )
 
     @classmethod
     def of(cls, kept: LastingParameters) -> Memory:
         """From what the store kept."""
-        return cls(kept.names, np.array(kept.mean), np.array(kept.covariance))
+        return cls(
+            kept.names, np.array(kept.mean), np.array(kept.covariance), kept.noise_ratio, kept.references
+        )
 
     def aged(self, parameters: tuple[Parameter, ...], years: float) -> Memory:
         """The same, less sure by what may have changed since."""
         tolerance = {p.name: p.prior_sd for p in parameters}
         wander = np.array([tolerance.get(name, 0.0) for name in self.names]) * WIDENED_PER_ROOT_YEAR
-        return Memory(self.names, self.mean, self.covariance + np.diag(wander**2 * max(years, 0.0)))
+        wider = self.covariance + np.diag(wander**2 * max(years, 0.0))
+        return replace(self, covariance=wider)
+
+    def informed(self, robot: Robot) -> tuple[Memory, float]:
+        """With the robot's references of the mounting that are new, and the p-value of the least likely one.
+
+        Rank-one updates: each is one more measurement of an unknown that is remembered.
+        """
+        known, p_value = self, 1.0
+        for reference in robot.references:
+            if not isinstance(reference, MountingError) or reference in self.references:
+                continue
+            i = known.names.index(reference.parameter)
+            value, sd = measured_value(reference, robot)
+            off = value - known.mean[i]
+            variance = known.covariance[i, i] + sd**2
+            gain = known.covariance[:, i] / variance
+            known = replace(
+                known,
+                mean=known.mean + gain * off,
+                covariance=known.covariance - np.outer(gain, known.covariance[i]),
+                references=(*known.references, reference),
+            )
+            p_value = min(p_value, float(2.0 * ndtr(-abs(off) / np.sqrt(variance))))
+        return known, p_value
 
     def prior(self, parameters: tuple[Parameter, ...]) -> Prior:
         """Prior of all parameters: remembered ones as remembered, the rest by their tolerance."""

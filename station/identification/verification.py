@@ -11,6 +11,7 @@ from scipy.special import chdtrc
 from station.fitting import REFUSED_P
 from station.five_bar import FRESH_INSET_MM, FiveBar, Robot, inverse
 from station.identification.estimate import Identification
+from station.identification.references import contradicted
 from station.records import (
     LIMIT_SDS,
     Accuracy,
@@ -19,6 +20,7 @@ from station.records import (
     Reading,
     Real,
     Reason,
+    ReferenceUse,
     Stop,
     because,
     from_readings,
@@ -99,7 +101,31 @@ def result_of(
     fit: Identification[FiveBar], readings: list[Reading], fresh: list[Reading]
 ) -> CalibrationResult:
     """Zero offsets with uncertainty, before and after, and a verdict that fails closed."""
-    check = verify(fit, from_readings(fresh))
+    check = verify(fit, from_readings(fresh, fit.measurements.mounts))
+    result = _result(
+        fit, readings, _misfit(fit, check), because("fresh_readings_agree", rms_um=check.rms_mm * 1e3)
+    )
+    assert result.after is not None
+    fresh_mm = {
+        "fresh_reading_rms_mm": check.rms_mm,
+        "fresh_reading_max_mm": float(np.abs(check.residual_mm).max()),
+    }
+    return result.model_copy(update={"after": result.after.model_copy(update=fresh_mm)})
+
+
+def predicted_result(fit: Identification[FiveBar], readings: list[Reading]) -> CalibrationResult:
+    """The same where each reading was predicted before it was used, which `fit.lack_of_fit_p` judges."""
+    misfit = None
+    if worst := contradicted(fit.references):
+        misfit = reference_contradicted(worst)
+    elif not fit.adequate:
+        misfit = because("predictions_disagree", p=fit.lack_of_fit_p)
+    return _result(fit, readings, misfit, because("readings_as_predicted", readings=len(readings)))
+
+
+def _result(
+    fit: Identification[FiveBar], readings: list[Reading], misfit: Reason | None, agreed: Reason
+) -> CalibrationResult:
     quantities = fit.quantities()
     everything = from_readings(readings)
     mechanism = FiveBar(fit.mechanism.robot, everything)
@@ -107,13 +133,12 @@ def result_of(
     raw = everything.distance - mechanism.observe(start, everything.theta).value
     residual = everything.distance - mechanism.observe(fit.p, everything.theta).value
     limit = LIMIT_SDS * fit.noise.sigma_mm
-    misfit = _misfit(fit, check)
     not_finite = _not_finite(fit)
     fault = not_finite or misfit
     return CalibrationResult(
         verdict="fail" if fault else "pass",
         outcome="failed" if not_finite else "unexplained" if misfit else "good",
-        reason=fault or because("fresh_readings_agree", rms_um=check.rms_mm * 1e3),
+        reason=fault or agreed,
         method="measurement model",
         zero_offsets=quantities[:2],
         parameters=quantities[2:],
@@ -124,11 +149,10 @@ def result_of(
         ),
         after=Accuracy(
             reading_rms_mm=float(np.sqrt(np.mean(fit.residual_mm**2))),
-            fresh_reading_rms_mm=check.rms_mm,
-            fresh_reading_max_mm=float(np.abs(check.residual_mm).max()),
             predicted_position_error_mm=fit.position_error(compensated=True),
         ),
         residuals=residual_rows(readings, residual, np.full(len(readings), limit)),
+        references=fit.references,
         lack_of_fit=misfit.text if misfit else None,
     )
 
@@ -164,6 +188,17 @@ def prediction_fault(check: Verification) -> Reason | None:
     )
 
 
+def reference_contradicted(use: ReferenceUse) -> Reason:
+    """Why a result that rests on this reference cannot be believed."""
+    return because(
+        "reference_contradicted",
+        reference=use.reference.words,
+        difference=use.residual or 0.0,
+        sd=use.sd or 0.0,
+        unit=use.unit,
+    )
+
+
 def _not_finite(fit: Identification[FiveBar]) -> Reason | None:
     """Why nothing can be said of the run; None when all numbers are finite."""
     sd = np.sqrt(np.diag(fit.covariance)[:2])
@@ -174,6 +209,8 @@ def _not_finite(fit: Identification[FiveBar]) -> Reason | None:
 
 def _misfit(fit: Identification[FiveBar], check: Verification) -> Reason | None:
     """What the model does not account for, in the readings or in the fresh ones; None when it fits."""
+    if worst := contradicted(fit.references):
+        return reference_contradicted(worst)
     if not fit.adequate:
         return because("lack_of_fit", p=fit.lack_of_fit_p)
     return prediction_fault(check)

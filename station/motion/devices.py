@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from drivers.driver import Drive
@@ -22,6 +23,8 @@ class Devices:
     addresses: tuple[str, str, str]
     """Where scale and axes hang, for people."""
     emulated: bool = False
+    remount: Callable[[tuple[float, float]], None] | None = None
+    """Mounts the mechanism of the emulated machine; None where a person does it."""
     speed: float = 1.0
     """How much faster than real time the machine lives; 1 for a real one."""
 

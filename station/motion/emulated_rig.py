@@ -14,7 +14,7 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from queue import Empty, Queue
 from threading import Lock, Thread
-from typing import IO
+from typing import IO, Any
 
 from pydantic import JsonValue
 
@@ -76,8 +76,8 @@ class EmulatedRig:
         for reader in self._readers:
             reader.start()
         try:
-            urls = json.loads(self._lines.get(timeout=_START_LIMIT_S))
-            self.scale_url, self.servo_url = urls["scale_url"], urls["servo_url"]
+            told = json.loads(self._lines.get(timeout=_START_LIMIT_S))
+            self._scale, self._servo = dict(told["scale"]), dict(told["servo"])
         except (Empty, json.JSONDecodeError, KeyError, TypeError) as error:
             self.close()
             said = self._complaints[-1] if self._complaints else "it did not say why"
@@ -100,29 +100,34 @@ class EmulatedRig:
         self.effects = tuple(self._order("effects", list(effects)))
         return self.effects
 
+    def remount(self, c: tuple[float, float]) -> None:
+        """Mount the mechanism at c, mm.  :raises InputRefused: as `order`."""
+        self._say("mount", list(c))
+
     def _order(self, what: str, tables: list[EffectTable]) -> list[EffectTable]:
+        ordered: list[EffectTable] = self._say(what, tables)
+        return ordered
+
+    def _say(self, what: str, content: Sequence[object]) -> Any:
         assert self._process.stdin is not None
         with self._ordering:
             try:
-                self._process.stdin.write(json.dumps({what: tables}) + "\n")
+                self._process.stdin.write(json.dumps({what: content}) + "\n")
                 self._process.stdin.flush()
                 answer = json.loads(self._lines.get(timeout=_ORDER_LIMIT_S))
             except (OSError, Empty, json.JSONDecodeError) as error:
                 raise InputRefused("The emulated rig does not answer; start the station again.") from error
         if "error" in answer:
             raise InputRefused(f"The emulated rig refuses the {what}: {answer['error']}.")
-        ordered: list[EffectTable] = answer[what]
-        return ordered
+        return answer[what]
 
     def settings(self, settings: Settings) -> Settings:
         """The same station with its devices at this rig's addresses."""
         joints = settings.servo.joint if settings.servo else DEFAULT_JOINTS
         return settings.model_copy(
             update={
-                "scale": ScaleSettings.model_validate({"protocol": "heidenhain-nd", "url": self.scale_url}),
-                "servo": ServoSettings.model_validate(
-                    {"profile": "leadshine-el7", "url": self.servo_url, "joint": joints}
-                ),
+                "scale": ScaleSettings.model_validate(self._scale),
+                "servo": ServoSettings.model_validate({**self._servo, "joint": joints}),
             }
         )
 

@@ -84,6 +84,12 @@ class Machine:
             if self._known[device.name].alarm is None:
                 self._learn(device, "ok", "")
 
+    def release(self) -> None:
+        """Close every device; the next use connects it anew."""
+        for device in self._all:
+            device.close()
+            self._known[device.name].connected = False
+
     def connect_missing(self, *, axes_only: bool = False) -> None:
         """Connect every device that was never connected or was lost.
 
@@ -163,6 +169,11 @@ class Machine:
                     self._known[axis.name].alarm = None
                 if status.alarm is not None or not status.enabled:
                     axis.enable()
+
+    def mounted_at(self, c: tuple[float, float]) -> None:
+        """Somebody has mounted the mechanism there, mm; with the emulated machine this does it."""
+        if self.devices.remount is not None:
+            self.devices.remount(c)
 
     # Stopping ------------------------------------------------------------------------------------
 

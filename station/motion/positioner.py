@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 import statistics
-import time
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from threading import Event
 
@@ -14,6 +14,7 @@ import numpy as np
 from drivers.protocols import ServoAxis
 from station.errors import StepFailed, sentence
 from station.five_bar import Robot, forward, inverse
+from station.motion.clock import Clock, RunClock
 from station.motion.limits import check_way
 from station.motion.machine import Machine, NotReady
 from station.records import Angles, Reading, Stop
@@ -31,6 +32,10 @@ _STILL_DEG = 0.004
 """Two pulses: less is no motion that could have a direction."""
 
 
+_Samples = tuple[list[float], Angles]
+"""Of the scale, and the mean feedback."""
+
+
 class Cancelled(Exception):
     """The run was told to end."""
 
@@ -43,7 +48,9 @@ class Positioner:
     robot: Robot
     joints: tuple[JointSettings, JointSettings]
     cancel: Event
-    started: float = field(default_factory=time.monotonic)
+    clock: Clock = field(default_factory=RunClock)
+    mount: str | None = None
+    """Where the mechanism is mounted; None: at the robot file's `c`."""
     _theta: Angles = (math.nan, math.nan)
     _direction: tuple[int, int] = (0, 0)
     _origin: tuple[float, float] | None = None
@@ -67,6 +74,8 @@ class Positioner:
         self.check_cancel()
         self.machine.ready_axes()
         if from_outside:
+            with suppress(NotReady):  # outside the workspace its head may be off the scale
+                self.machine.connect_missing()
             self._theta = self._feedback()
             return
         self.look()
@@ -86,23 +95,26 @@ class Positioner:
         :raises DeviceError: a device failed.
         :raises StepFailed: a limit forbids the stop, it was not reached, or its reading is in doubt.
         """
-        self.stand_at(stop)
-        samples, theta = self._samples(stop, number)
+        self._move_to(stop)
+        samples, theta = self._settled() or self._samples(stop, number)
         scale_mm = round(statistics.fmean(samples), _DIGITS)
         self._check_stands(stop, theta)
         self._check_travel(stop, number, samples, theta)
-        t_s = round((time.monotonic() - self.started) * self.machine.devices.speed, 3)
+        t_s = round(self.clock.now() * self.machine.devices.speed, 3)
         self.machine.moved(theta, scale_mm)
         return Reading(number, t_s, theta, self._direction, scale_mm, stop.position, sequence, tuple(samples))
 
     def stand_at(self, stop: Stop) -> None:
         """Go there and come to rest.  :raises: as `measure`."""
+        self._move_to(stop)
+        self._pause(self.machine.limits.settle_s)
+
+    def _move_to(self, stop: Stop) -> None:
         way = self._way(stop)
         check_way(self.robot, self.joints, self.machine.limits, stop, [self._theta, *way])
         self.machine.compensation_deg = self._compensation(stop)
         for target in way:
             self._go(stop, target, self.machine.limits.speed_deg_s)
-        self._pause(self.machine.limits.settle_s)
 
     def go(self, stop: Stop, speed_deg_s: float, *, scale: bool) -> None:
         """Straight there at a speed, without a check of limits.  :raises: as `measure`
@@ -160,22 +172,23 @@ class Positioner:
     def _wait_in_position(
         self, stop: Stop, start: Angles, target: Angles, limit_s: float, scale: bool
     ) -> None:
-        deadline = time.monotonic() + limit_s
-        next_look = time.monotonic() + _LOOK_S
+        now = self.clock.now()
+        deadline, next_look = now + limit_s, now + _LOOK_S
         while True:
             self.check_cancel()
             # Both, each time: one that has arrived may still raise an alarm while the other moves.
             waiting = [axis for axis in self.machine.devices.axes if not self._arrived(stop, axis)]
             if not waiting:
                 return
-            if time.monotonic() > deadline:
+            now = self.clock.now()
+            if now > deadline:
                 names = " and ".join(axis.name for axis in waiting)
                 raise StepFailed(
                     f"{sentence(names)} did not reach position {stop.position} within {limit_s:.1f} s."
                 )
-            if time.monotonic() > next_look:
+            if now > next_look:
                 self._check_corridor(stop, start, target, scale)
-                next_look = time.monotonic() + _LOOK_S
+                next_look = now + _LOOK_S
             self._wait(_POLL_S)
 
     def _arrived(self, stop: Stop, axis: ServoAxis) -> bool:
@@ -203,30 +216,48 @@ class Positioner:
 
     # Reading --------------------------------------------------------------------------------------
 
-    def _samples(self, stop: Stop, number: int) -> tuple[list[float], Angles]:
-        """Scale samples that agree, and the mean feedback; one second try."""
+    def _settled(self) -> _Samples | None:
+        """The first samples that agree; None where none do within the longest wait.
+
+        No wait is longer than a fixed pause was: what is still moving then is judged as before.
+        """
+        limits = self.machine.limits
+        until = self.clock.now() + limits.settle_s / self.machine.devices.speed
+        scale: list[float] = []
+        angles: list[Angles] = []
+        while len(scale) < limits.samples or self.clock.now() < until:
+            self._sample(scale, angles)
+            last = scale[-limits.samples :]
+            if not math.isfinite(scale[-1]):
+                return None
+            if len(last) == limits.samples and max(last) - min(last) <= limits.settled_mm:
+                return last, _mean(angles[-limits.samples :])
+        return None
+
+    def _samples(self, stop: Stop, number: int) -> _Samples:
+        """Scale samples that are near each other, and the mean feedback; one second try."""
         spread = 0.0
         for _ in range(2):
             scale: list[float] = []
             angles: list[Angles] = []
             for _ in range(self.machine.limits.samples):
-                self.check_cancel()
-                with self.machine.using(self.machine.devices.scale):
-                    scale.append(self.machine.devices.scale.read_mm())
-                angles.append(self._feedback())
+                self._sample(scale, angles)
             if not all(math.isfinite(value) for value in scale):
                 raise StepFailed(f"Reading {number} at position {stop.position} is not a number.")
             spread = max(scale) - min(scale)
             if spread <= self.machine.limits.scale_spread_mm:
-                return scale, (
-                    round(statistics.fmean(pair[0] for pair in angles), _DIGITS),
-                    round(statistics.fmean(pair[1] for pair in angles), _DIGITS),
-                )
+                return scale, _mean(angles)
             self._pause(self.machine.limits.settle_s)
         raise StepFailed(
             f"Reading {number} at position {stop.position} does not settle: its samples spread"
             f" {spread:.4f} mm, {self.machine.limits.scale_spread_mm:g} mm is allowed."
         )
+
+    def _sample(self, scale: list[float], angles: list[Angles]) -> None:
+        self.check_cancel()
+        with self.machine.using(self.machine.devices.scale):
+            scale.append(self.machine.devices.scale.read_mm())
+        angles.append(self._feedback())
 
     def _feedback(self) -> Angles:
         angles = []
@@ -253,7 +284,8 @@ class Positioner:
         And it must have moved at all: a readout that froze goes on to answer.
         """
         geometry = self.robot.geometry
-        distance = float(abs(forward(geometry, np.radians(np.array([theta])))[0] - geometry.cd))
+        foot = complex(*(self.robot.mount_of(self.mount or "") or self.robot.c)) + complex(*self.robot.d)
+        distance = float(abs(forward(geometry, np.radians(np.array([theta])))[0] - foot))
         scale_mm = statistics.fmean(samples)
         if self._before is not None:
             stood = abs(samples[0] - self._before[0]) < _FROZEN_MM
@@ -277,13 +309,20 @@ class Positioner:
         self._wait(machine_s / self.machine.devices.speed)
 
     def _wait(self, seconds: float) -> None:
-        if self.cancel.wait(seconds):
+        if self.clock.wait(self.cancel, seconds):
             raise Cancelled
 
     def check_cancel(self) -> None:
         """:raises Cancelled: stop was pressed."""
         if self.cancel.is_set():
             raise Cancelled
+
+
+def _mean(angles: Sequence[Angles]) -> Angles:
+    return (
+        round(statistics.fmean(pair[0] for pair in angles), _DIGITS),
+        round(statistics.fmean(pair[1] for pair in angles), _DIGITS),
+    )
 
 
 def _direction(travel_deg: float, before: int) -> int:

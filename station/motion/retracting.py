@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from drivers.errors import DeviceError
+from drivers.errors import DeviceError, DeviceFault
 from station.errors import StepFailed
 from station.motion.machine import Machine
 from station.motion.positioner import Positioner
@@ -21,6 +21,7 @@ class Retracting:
 
     machine: Machine
     positioner: Positioner
+    _scale_is_lost: bool = False
 
     def carry_out(self) -> float:
         """Go back; how far outside the arm stood, mm, inf where the linkage did not close.
@@ -52,9 +53,12 @@ class Retracting:
         return stood_mm
 
     def _scale_mm(self) -> float:
-        """NaN where it does not read."""
+        """NaN where it does not read; one that did not answer once is asked no more, for the arm waits."""
+        if self._scale_is_lost:
+            return math.nan
         try:
             with self.machine.using(self.machine.devices.scale):
                 return self.machine.devices.scale.read_mm()
-        except DeviceError:
+        except DeviceError as error:
+            self._scale_is_lost = not isinstance(error, DeviceFault)
             return math.nan

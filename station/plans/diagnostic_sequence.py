@@ -1,7 +1,7 @@
 """Plan `diagnostic`: a grid there and back that shows the cause of a residual, then fresh positions.
 
-There and back shows most places from both sides, ten places read before and twice afterwards from the
-same side show the noise and what time does.
+There and back shows most places from both sides; ten places, read three times from the same side at
+different times, show the noise and what time does.
 """
 
 from __future__ import annotations
@@ -10,7 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.five_bar import FRESH_INSET_MM, INSET_MM, Robot, inverse
+from station.plans.duration import USUAL
 from station.plans.plan import PlanDesign, Visits, register
+from station.plans.tour import short_ways
 from station.records import Complex, Real, Stop
 
 COLUMNS, ROWS = 9, 5
@@ -27,15 +29,37 @@ def diagnostic_grid(robot: Robot, inset_mm: float) -> Complex:
     return np.asarray((x[None, :] + 1j * y[:, None]).ravel())
 
 
-def diagnostic_visits() -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Order of places (120,) and wanted approach signs (120, 2), 0 where the way decides; always the same."""
-    rows = np.arange(COLUMNS * ROWS).reshape(ROWS, COLUMNS)
-    there = np.concatenate([row[:: (-1) ** k] for k, row in enumerate(rows)])
-    repeated = np.random.default_rng(0).permutation(there[:: len(there) // REPEATED][:REPEATED])
-    side = np.array([SIDES[k % len(SIDES)] for k in range(REPEATED)])
-    free = np.zeros((2 * len(there), 2), dtype=int)
-    order = np.concatenate([repeated, there, there[::-1], repeated, repeated])
-    return order, np.concatenate([side, free, side, side])
+def diagnostic_visits(robot: Robot) -> Visits:
+    """The grid there and back; ten places are read from one side too, on both ways and once more at the end.
+
+    There and back is a way through the columns, where neighbours are nearest for the joints.  A further
+    reading where the arm stands already costs its run-up alone.
+    """
+    places = diagnostic_grid(robot, INSET_MM)
+    columns = np.arange(ROWS * COLUMNS).reshape(ROWS, COLUMNS).T
+    there = np.concatenate([column[:: (-1) ** k] for k, column in enumerate(columns)])
+    repeated = there[:: len(there) // REPEATED][:REPEATED]
+    side = {int(place): SIDES[k % len(SIDES)] for k, place in enumerate(repeated)}
+    visits: list[tuple[int, tuple[int, int]]] = []
+    for place in (*there, *there[::-1]):
+        visits.append((int(place), (0, 0)))
+        if place in side:
+            visits.append((int(place), side[int(place)]))
+    last = visits[-1][0]
+    visits += [(place, side[place]) for place in _short_way(robot, places, repeated, last)]
+    order, approach = zip(*visits, strict=True)
+    return Visits(places, np.array(order, dtype=np.intp), np.array(approach, dtype=np.intp))
+
+
+def _short_way(robot: Robot, places: Complex, some: NDArray[np.intp], start: int) -> list[int]:
+    """Some of the places in the order of a short way that begins near another."""
+    theta_deg = np.degrees(inverse(robot.geometry, places))
+    ways = [some[way] for way in short_ways(theta_deg[some], len(some), np.random.default_rng(0))]
+    ways += [way[::-1] for way in ways]
+    lengths = [
+        USUAL.along(theta_deg[way], np.zeros((len(way), 2)), theta_deg[start])[0].sum() for way in ways
+    ]
+    return [int(place) for place in ways[int(np.argmin(lengths))]]
 
 
 def diagnostic_fresh_stops(robot: Robot, dtheta: Real, seed: int) -> tuple[Stop, ...]:
@@ -51,9 +75,4 @@ def diagnostic_fresh_stops(robot: Robot, dtheta: Real, seed: int) -> tuple[Stop,
     )
 
 
-def there_and_back(robot: Robot) -> Visits:
-    """The grid, its places and their approaches."""
-    return Visits(diagnostic_grid(robot, INSET_MM), *diagnostic_visits())
-
-
-DIAGNOSTIC = register(PlanDesign("diagnostic", there_and_back, run_kind="diagnose"))
+DIAGNOSTIC = register(PlanDesign("diagnostic", diagnostic_visits, run_kind="diagnose"))

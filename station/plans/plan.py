@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.five_bar import Robot, inverse
+from station.plans.duration import USUAL, Pace
 from station.plans.prediction import predict
 from station.records import Complex, PlanDocument, PlanName, PlannedStop, PlanPrediction, Real, Stop
 
@@ -68,11 +69,19 @@ class Plan:
     name: PlanName
     stops: tuple[Stop, ...]
     robot: Robot
+    pace: Pace = USUAL
+    """Of the station that is to measure."""
 
     @cached_property
     def predicted(self) -> PlanPrediction:
-        """The accuracy that the stops promise."""
-        return predict(self.robot, np.array([complex(*stop.target_mm) for stop in self.stops]))
+        """The accuracy that the stops promise, and how long they take."""
+        accuracy = predict(self.robot, np.array([complex(*stop.target_mm) for stop in self.stops]))
+        travel_deg, duration_s = self.pace.along(
+            np.array([stop.theta_deg for stop in self.stops]),
+            np.array([stop.approach for stop in self.stops]),
+        )
+        time = {"travel_deg": float(travel_deg.sum()), "duration_s": float(duration_s.sum())}
+        return accuracy.model_copy(update=time)
 
     def document(self) -> PlanDocument:
         """As `station plan --json` writes it."""
@@ -96,15 +105,20 @@ class Plan:
 
     def summary(self) -> str:
         """The predicted accuracy in a sentence."""
-        error, sd = self.predicted.position_error_mm, self.predicted.zero_offset_sd_deg
+        found = self.predicted
+        error, sd = found.position_error_mm, found.zero_offset_sd_deg
         return (
             f"Predicted: zero offsets to {sd[0]:.3f} and {sd[1]:.3f} deg (sd), "
-            f"position error {error.rms:.3f} mm rms, {error.max:.3f} mm at worst."
+            f"position error {error.rms:.3f} mm rms, {error.max:.3f} mm at worst. "
+            f"With 95 % probability no error is above {found.bound_95_mm:.3f} mm. "
+            f"{found.travel_deg or 0.0:.0f} deg of travel, {found.duration_s or 0.0:.0f} s."
         )
 
 
-def make_plan(name: PlanName, robot: Robot, dtheta: Real | None = None) -> Plan:
+def make_plan(name: PlanName, robot: Robot, dtheta: Real | None = None, pace: Pace = USUAL) -> Plan:
     """The plan for a robot; commands compensated by dtheta (2,) rad when some is known.
+
+    :param pace: of the station, for what is said of time
 
     :raises InputRefused: this robot cannot be measured by this plan.
     """
@@ -119,4 +133,4 @@ def make_plan(name: PlanName, robot: Robot, dtheta: Real | None = None) -> Plan:
         )
         for k, a in zip(order, approach, strict=True)
     )
-    return Plan(name, stops, robot)
+    return Plan(name, stops, robot, pace)

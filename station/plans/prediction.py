@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from station.fitting import common_sd_deg, position_error_summary, tolerance_prior
+from station.fitting import common_sd_deg, largest_error_bound, position_error_summary, tolerance_prior
 from station.five_bar import FiveBar, Robot, inverse
 from station.records import Complex, Measurements, PlanPrediction, PredictedSd, Real
 
@@ -25,11 +25,25 @@ def predict(robot: Robot, places: Complex) -> PlanPrediction:
         zero_offset_sd_deg=(float(sd[0]), float(sd[1])),
         common_sd_deg=common_sd_deg(covariance),
         position_error_mm=position_error_summary(np.zeros_like(error), jacobian, covariance),
+        bound_95_mm=largest_error_bound(np.zeros_like(error), jacobian, zeros_only(mechanism, covariance)),
         map=tuple(
             PredictedSd(x_mm=float(r.real), y_mm=float(r.imag), sd_mm=float(s))
             for r, s in zip(mechanism.workspace, sd_mm, strict=True)
         ),
     )
+
+
+def zeros_only(mechanism: FiveBar, covariance: Real) -> Real:
+    """(P, P) of what stays when the drives get the zeros that a fit of covariance (P, P) identifies.
+
+    The geometry keeps all of its error, known or not.
+    """
+    left = covariance.copy()
+    for i, parameter in enumerate(mechanism.parameters):
+        if parameter.role == "geometry":
+            left[i, 2:10] = 0.0
+            left[i, i] = parameter.prior_sd**2
+    return left
 
 
 def measured_at(robot: Robot, places: Complex) -> FiveBar:

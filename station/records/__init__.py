@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from station.records.accuracy import PositionError, Remedy, WeakDirection
+from station.records.accuracy import AccuracyReached, Advice, PositionError, Remedy, WeakDirection
 from station.records.backup import BackupMade
 from station.records.calibration import (
     Application,
@@ -14,6 +14,7 @@ from station.records.calibration import (
 )
 from station.records.column_map import ColumnMap, translated
 from station.records.column_proposal import proposed_map
+from station.records.csv_cells import harmless
 from station.records.diagnosis_document import (
     DIAGNOSIS_SCHEMA,
     MIXTURE_SCHEMA,
@@ -60,6 +61,7 @@ from station.records.identification_document import (
 )
 from station.records.kept import KeptRobot, StoredEvent
 from station.records.live import (
+    CalibrationHolds,
     DeviceState,
     DeviceView,
     Interlock,
@@ -89,6 +91,7 @@ from station.records.measurement_file import (
     recorded_columns,
 )
 from station.records.measurements import Measurements, from_readings, number
+from station.records.names import checked_name, checked_serial
 from station.records.people import (
     STATION,
     Actor,
@@ -103,18 +106,21 @@ from station.records.people import (
     User,
     Via,
 )
-from station.records.plain_table import csv_text, harmless
+from station.records.plain_table import csv_text
 from station.records.plan_document import PlanDocument, PlannedStop, PlanPrediction, PredictedSd
 from station.records.procedure import Procedure
+from station.records.prompt import Prompt
 from station.records.quantity import Quantity
 from station.records.reading import Reading
 from station.records.reason import Reason, ReasonValue, because
 from station.records.record import Record
+from station.records.references import AnyReference, Asked, JointAngle, MountingError, ReferenceUse
 from station.records.remembered import MemorySummary, Remembered
 from station.records.residuals import LIMIT_SDS, residual_rows
 from station.records.result import (
     Accuracy,
     CalibrationResult,
+    CheckFound,
     Iteration,
     LastingParameters,
     MemoryUse,
@@ -125,6 +131,7 @@ from station.records.result import (
     ZeroOffset,
 )
 from station.records.run import (
+    Ask,
     CalibrationRequest,
     MeasurementSequence,
     PlanName,
@@ -136,11 +143,21 @@ from station.records.run import (
     Submitted,
     ZeroWrite,
 )
-from station.records.sections import Finite, Positive, Section, Sections, refusal, sections_to_toml
+from station.records.sections import (
+    Finite,
+    Positive,
+    Section,
+    Sections,
+    refusal,
+    sections_of_toml,
+    sections_to_toml,
+)
+from station.records.taught import TaughtPosition, TranslatedPosition, read_taught, translated_to_csv
 from station.records.trend import TrendPoint
 from station.records.types import LARGEST_ID, Angles, Complex, Flags, Index, Real
 from station.records.uid import uid7
 from station.records.visited import inside_visited, visited_in_degrees, visited_ranges
+from station.records.wire import WireHeader
 
 __all__ = [
     "DIAGNOSIS_SCHEMA",
@@ -152,20 +169,27 @@ __all__ = [
     "STATION",
     "TIME",
     "Accuracy",
+    "AccuracyReached",
     "Actor",
+    "Advice",
     "Angles",
     "AnyModelDocument",
+    "AnyReference",
     "ApiKey",
     "Application",
     "ApplicationRun",
     "ApplicationState",
+    "Ask",
+    "Asked",
     "AuditChecked",
     "AuditEntry",
     "BackupMade",
     "Calibration",
+    "CalibrationHolds",
     "CalibrationRequest",
     "CalibrationResult",
     "CalibrationSummary",
+    "CheckFound",
     "ColumnMap",
     "Columns",
     "Complex",
@@ -197,6 +221,7 @@ __all__ = [
     "Index",
     "Interlock",
     "Iteration",
+    "JointAngle",
     "JointApplication",
     "JointCurve",
     "KeptRobot",
@@ -211,6 +236,7 @@ __all__ = [
     "MistakeRecord",
     "MixtureDocument",
     "ModelDocument",
+    "MountingError",
     "NoiseOfReadings",
     "Outcome",
     "OutlierNote",
@@ -225,6 +251,7 @@ __all__ = [
     "PredictedAccuracy",
     "PredictedSd",
     "Procedure",
+    "Prompt",
     "Quantity",
     "Reading",
     "Real",
@@ -232,6 +259,7 @@ __all__ = [
     "ReasonValue",
     "Record",
     "ReferenceOfReadings",
+    "ReferenceUse",
     "RefusedDiagnosis",
     "Remedy",
     "Remembered",
@@ -265,18 +293,23 @@ __all__ = [
     "StoredEvent",
     "Submitted",
     "Table",
+    "TaughtPosition",
     "TemperatureReference",
     "TermOfModel",
+    "TranslatedPosition",
     "TrendPoint",
     "User",
     "Verdict",
     "Via",
     "WeakDirection",
+    "WireHeader",
     "Workspace",
     "ZeroOffset",
     "ZeroWrite",
     "approaches",
     "because",
+    "checked_name",
+    "checked_serial",
     "csv_text",
     "from_readings",
     "guesses_in_words",
@@ -289,12 +322,15 @@ __all__ = [
     "read_foreign",
     "read_measurements",
     "read_table",
+    "read_taught",
     "readings_to_csv",
     "recorded_columns",
     "refusal",
     "residual_rows",
+    "sections_of_toml",
     "sections_to_toml",
     "translated",
+    "translated_to_csv",
     "uid7",
     "visited_in_degrees",
     "visited_ranges",

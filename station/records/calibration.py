@@ -7,6 +7,7 @@ from typing import Literal
 
 from pydantic import Field, JsonValue
 
+from station.records.prompt import Prompt
 from station.records.reason import ReasonValue
 from station.records.record import Record
 from station.records.result import Outcome, ResultParts, Verdict, ZeroOffset
@@ -89,5 +90,7 @@ class Calibration(CalibrationSummary, ResultParts):
 
     metadata: dict[str, JsonValue] = Field(default_factory=dict)
     zero_offset_tolerance_deg: float | None = None
+    prompt: Prompt | None = None
+    """What the run asks, in state `waiting`."""
     application: Application | None = None
     """Null unless the run has passed."""

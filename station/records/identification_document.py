@@ -10,6 +10,7 @@ from station.records.accuracy import PositionError, WeakDirection
 from station.records.diagnosis_document import DataSource, NoiseOfReadings
 from station.records.quantity import Quantity
 from station.records.record import Record
+from station.records.references import ReferenceUse
 from station.records.result import ZeroOffset
 
 
@@ -88,5 +89,7 @@ class IdentificationDocument(Record):
     after: PredictedAccuracy
     position_error_map: tuple[PositionErrorAt, ...]
     outliers: tuple[OutlierNote, ...]
+    references: tuple[ReferenceUse, ...] = ()
+    """What other instruments measured, and how well it agrees with the rest."""
     memory: GateOfMemory | None
     convergence: Convergence

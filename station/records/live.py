@@ -6,6 +6,7 @@ from datetime import datetime
 from typing import Literal
 
 from station.records.calibration import CalibrationSummary
+from station.records.prompt import Prompt
 from station.records.record import Record
 from station.records.result import Iteration
 from station.records.run import PlanName, State
@@ -64,6 +65,19 @@ class RetractView(Record):
     excess_mm: float | None
     """How far outside it stands; null when that is not known or the linkage cannot close there."""
     text: str
+
+
+class CalibrationHolds(Record):
+    """Whether calibrated work of a robot may go on."""
+
+    robot_serial: str
+    locked: bool
+    """A check has failed, and neither a passed calibration nor an engineer has cleared it."""
+    text: str
+    check: int | None = None
+    """The run that says so."""
+    calibration_valid_until: datetime | None = None
+    """Of the last passed check; null where there is none since the last calibration."""
 
 
 class Workspace(Record):
@@ -136,6 +150,8 @@ class RunBrief(Record):
     step: int | None = None
     steps: int | None = None
     iterations: tuple[Iteration, ...] = ()
+    prompt: Prompt | None = None
+    """What the run waits to be told, in state `waiting`."""
 
 
 class RunView(RunBrief):
@@ -155,6 +171,8 @@ class StationView(Record):
     """Null while it is not known where the arm stands."""
     workspace: Workspace
     retract: RetractView
+    calibration: CalibrationHolds
+    """Of the robot measured last."""
     run: RunView | None
     last: CalibrationSummary | None
 

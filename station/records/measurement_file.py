@@ -18,6 +18,7 @@ from pathlib import Path
 import numpy as np
 
 from station.errors import InputRefused
+from station.records.csv_cells import harmless
 from station.records.measurements import Measurements, number
 from station.records.reading import Reading
 from station.records.types import LARGEST_ID, Real
@@ -256,7 +257,7 @@ def _check_header(header: list[str], required: Sequence[str], optional: Sequence
     twice = {name for name in header if name and header.count(name) > 1}
     if twice:
         raise InputRefused(f"{source}: row 1: column {', '.join(sorted(twice))} appears twice.")
-    unknown = [name for name in header if name not in (*required, *optional)]
+    unknown = [name for name in header if name not in (*required, *optional, RUN_UID)]
     if unknown:
         log.warning("%s: column %s is not known and is ignored.", source, ", ".join(unknown))
 
@@ -301,18 +302,24 @@ def approaches(table: Table, column: str) -> Real:
     return values
 
 
+RUN_UID = "run_uid"
+"""Says in each row of an export of which run it is; read back, nothing depends on it."""
 HEADER = (
     "reading", "t_s", "theta1_deg", "theta2_deg", "approach1", "approach2", "scale_mm", "position",
-    "temperature_c", "payload_kg", "mount",
+    "temperature_c", "payload_kg", "mount", RUN_UID,
 )  # fmt: skip
 
 
-def readings_to_csv(readings: Iterable[Reading]) -> str:
-    """The readings of a run as a measurement file; optional columns only where something is in them."""
+def readings_to_csv(readings: Iterable[Reading], *, run_uid: str | None = None) -> str:
+    """The readings of a run as a measurement file; optional columns only where something is in them.
+
+    :param run_uid: identity of the run, of a file that leaves the station
+    """
     rows: list[Sequence[object]] = [
         (
             r.reading, f"{r.t_s:.3f}", f"{r.theta_deg[0]:.6f}", f"{r.theta_deg[1]:.6f}", *r.approach,
-            f"{r.scale_mm:.5f}", r.position, r.temperature_c, r.payload_kg, r.mount,
+            f"{r.scale_mm:.5f}", harmless(r.position), r.temperature_c, r.payload_kg,
+            r.mount and harmless(r.mount), run_uid,
         )
         for r in readings
     ]  # fmt: skip

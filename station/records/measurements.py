@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.records.reading import Reading
+from station.records.scale_resolution import scale_resolution_mm
 from station.records.types import Index, Real
 
 
@@ -36,6 +37,8 @@ class Measurements:
     samples: Index
     """(K,) how many samples of the head each distance is the mean of."""
     mounts: tuple[str, ...] = ("",)
+    resolution_mm: float = 0.0
+    """Step of the readout where it is coarser than the noise of a sample, else 0."""
     temperature_c: Real | None = None
     payload_kg: Real | None = None
     tracker: Real | None = None
@@ -82,9 +85,15 @@ def number(labels: Sequence[Hashable]) -> tuple[Index, tuple[Hashable, ...]]:
     return np.array([order[label] for label in labels], dtype=np.intp), tuple(order)
 
 
-def from_readings(readings: Sequence[Reading]) -> Measurements:
-    """Readings of one run as the orchestrator and the store hold them."""
-    mount, mounts = number([r.mount or "" for r in readings])
+def from_readings(readings: Sequence[Reading], mounts: Sequence[str] = ()) -> Measurements:
+    """Readings of one run as the orchestrator and the store hold them.
+
+    :param mounts: those of the readings that they belong to, where these may lack some
+    """
+    labels = [r.mount or "" for r in readings]
+    # the robot file's own mounting point comes first, whenever it was measured at
+    mounts = tuple(dict.fromkeys([*mounts, *[label for label in labels if not label], *labels])) or ("",)
+    mount = np.array([mounts.index(label) for label in labels], dtype=np.intp)
 
     def optional(values: list[float | None]) -> Real | None:
         return None if any(v is None for v in values) else np.array(values, dtype=float)
@@ -98,7 +107,8 @@ def from_readings(readings: Sequence[Reading]) -> Measurements:
         position=number([r.position for r in readings])[0],
         mount=mount,
         samples=np.array([max(len(r.samples_mm), 1) for r in readings], dtype=np.intp),
-        mounts=tuple(str(m) for m in mounts),
+        mounts=mounts,
+        resolution_mm=scale_resolution_mm(sample for r in readings for sample in r.samples_mm),
         temperature_c=optional([r.temperature_c for r in readings]),
         payload_kg=optional([r.payload_kg for r in readings]),
     )

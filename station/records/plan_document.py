@@ -26,6 +26,13 @@ class PlanPrediction(Record):
     common_sd_deg: float
     """Of both zero offsets together."""
     position_error_mm: PositionError
+    bound_95_mm: float
+    """With 95 % probability no position error is larger, of a machine within the tolerances that gets its
+    zeros into the drives and nothing else."""
+    duration_s: float | None = None
+    """Of all stops at the station's own speeds, in real time, without the fresh readings that verify."""
+    travel_deg: float | None = None
+    """Of the joint that goes further, summed over the stops."""
     map: tuple[PredictedSd, ...]
 
 

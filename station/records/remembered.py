@@ -27,11 +27,13 @@ class Remembered:
     calibration_id: int
     at: datetime
     memory: LastingParameters
+    as_of: datetime | None = None
+    """When a run uses it; None is now."""
 
     @property
     def age_days(self) -> float:
         """Never negative, also when the clock was set back."""
-        return max((datetime.now(UTC) - self.at).total_seconds(), 0.0) / 86_400.0
+        return max(((self.as_of or datetime.now(UTC)) - self.at).total_seconds(), 0.0) / 86_400.0
 
     def summary(self) -> MemorySummary:
         """For people: where it comes from, its age, what is known."""

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from datetime import datetime
 from typing import Annotated, Literal
 
 from pydantic import Field
 
-from station.records.accuracy import PositionError, WeakDirection
+from station.records.accuracy import AccuracyReached, Advice, PositionError, WeakDirection
 from station.records.diagnosis_document import DiagnosisDocument, Finding
 from station.records.quantity import Quantity
 from station.records.reason import Reason
 from station.records.record import Record
+from station.records.references import MountingError, ReferenceUse
 
 Verdict = Literal["pass", "fail"]
 Outcome = Literal[
@@ -77,12 +79,34 @@ class MemoryUse(Record):
     age_days: float | None = None
 
 
+class CheckFound(Record):
+    """How small a shift of the zeros a check would have found, and what it found."""
+
+    smallest_shift_deg: float
+    """A shift of either zero of this size is found with 99 % probability."""
+    smallest_by_joint_deg: tuple[float, float]
+    shift_deg: tuple[float, float]
+    """The shift of each zero that explains the readings best."""
+    p_value: float
+    """Of the readings, if nothing has changed."""
+    blind: str
+    """The direction of both zeros together in which a shift shows least."""
+    blind_shift_deg: float
+    """The shift that is found along it."""
+    valid_until: datetime | None
+    """Until when the check holds; null when it failed."""
+
+
 class LastingParameters(Record):
     """What a pass leaves to the robot's next run: geometry and mechanism, mm and mm^2."""
 
     names: tuple[str, ...]
     mean: tuple[float, ...]
     covariance: tuple[tuple[float, ...], ...]
+    references: tuple[MountingError, ...] = ()
+    """Measurements of the mounting that took part."""
+    noise_ratio: float = 1.0
+    """Noise of a reading over its specification, as repeats showed it."""
 
 
 class ResultParts(Record):
@@ -96,11 +120,19 @@ class ResultParts(Record):
     """With no compensation."""
     after: Accuracy | None = None
     """With the identified offsets applied."""
+    accuracy: AccuracyReached | None = None
+    """What is promised of positions, beside what was wanted; null where no offsets were identified."""
+    advice: tuple[Advice, ...] = ()
+    """What would help most, by gain per minute; only what helps."""
+    check: CheckFound | None = None
+    """Of a check."""
     iterations: tuple[Iteration, ...] = ()
     residuals: tuple[Residual, ...] = ()
     """Of the readings of the fit."""
     memory: MemoryUse | None = None
     """Null when nothing was known before."""
+    references: tuple[ReferenceUse, ...] = ()
+    """What other instruments measured, and how well it agrees with the rest."""
     lack_of_fit: str | None = None
     """What the model does not account for; null when it fits or none was judged."""
     findings: tuple[Finding, ...] = ()

@@ -5,9 +5,13 @@ Records carry ids and units in their names; nothing is matched by order.
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Any
+from typing import Any, Literal
+
+from station.errors import FieldRefused
+from station.records.references import AnyReference
 
 
 class State(StrEnum):
@@ -15,6 +19,7 @@ class State(StrEnum):
 
     QUEUED = "queued"
     RUNNING = "running"
+    WAITING = "waiting"
     SUCCEEDED = "succeeded"
     FAILED = "failed"
     ABORTED = "aborted"
@@ -22,7 +27,10 @@ class State(StrEnum):
 
     @property
     def ended(self) -> bool:
-        return self not in (State.QUEUED, State.RUNNING)
+        return self not in (State.QUEUED, State.RUNNING, State.WAITING)
+
+
+PromptKind = Literal["confirm", "number"]
 
 
 PlanName = str
@@ -46,6 +54,12 @@ class CalibrationRequest:
     metadata: dict[str, Any] = field(default_factory=dict)
     of: int | None = None
     """The earlier run that this one is about or continues; else None."""
+    references: tuple[AnyReference, ...] = ()
+    """What other instruments say, for this run."""
+    until_mm: float | None = None
+    """Bound on the largest position error at which plan `adaptive` ends."""
+    accuracy_mm: float | None = None
+    """Largest position error that is wanted."""
 
     @property
     def label(self) -> str:
@@ -84,6 +98,38 @@ class MeasurementSequence:
     number: int
     """1, 2, ...; stored with each of its readings."""
     stops: tuple[Stop, ...]
+    mount: str | None = None
+    """Where the mechanism is mounted; None: at the robot file's `c`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Ask:
+    """Something that only a person can do or see; answered with the number, None where none was asked for."""
+
+    title: str
+    number: int
+    text: str
+    """What to do, in words."""
+    kind: PromptKind
+    unit: str | None = None
+    low: float = -math.inf
+    """Smallest number that can be."""
+    high: float = math.inf
+    mounted_at: tuple[float, float] | None = None
+    """Where the mechanism is mounted once this is confirmed, mm."""
+
+    def checked(self, value: float | None) -> float | None:
+        """An answer that can be.  :raises FieldRefused: it is missing, or no such number can be."""
+        if self.kind == "confirm":
+            return None
+        if value is None:
+            raise FieldRefused("value", f"A number is asked for, in {self.unit}.")
+        if not (math.isfinite(value) and self.low <= value <= self.high):
+            raise FieldRefused(
+                "value",
+                f"{value:g} {self.unit} cannot be; between {self.low:g} and {self.high:g} is expected.",
+            )
+        return value
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,7 +152,7 @@ class Retract:
     number: int
 
 
-Step = MeasurementSequence | SetZeros | Retract
+Step = MeasurementSequence | SetZeros | Retract | Ask
 """What a procedure may ask for."""
 
 

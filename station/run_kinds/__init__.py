@@ -10,10 +10,14 @@ from station.run_kinds import (  # noqa: F401 - they register themselves
     retract,
     separate,
 )
+from station.run_kinds.adaptive import adaptive, fit_in_sequence
+from station.run_kinds.check import check
 from station.run_kinds.diagnose import diagnosed
 from station.run_kinds.import_file import Upload, import_dataset
-from station.run_kinds.kind import RUN_KINDS, Continued, RunKind, Start, kind_of_plan
+from station.run_kinds.kind import RUN_KINDS, Continued, RunKind, Start, kind_of_plan, request_of
+from station.run_kinds.lock import calibration_holds, check_not_locked, clear_failed_check
 from station.run_kinds.separate import planned
+from station.run_kinds.translate import change_of, translated
 from station.run_kinds.zero_state import application
 
 __all__ = [
@@ -22,9 +26,18 @@ __all__ = [
     "RunKind",
     "Start",
     "Upload",
+    "adaptive",
     "application",
+    "calibration_holds",
+    "change_of",
+    "check",
+    "check_not_locked",
+    "clear_failed_check",
     "diagnosed",
+    "fit_in_sequence",
     "import_dataset",
     "kind_of_plan",
     "planned",
+    "request_of",
+    "translated",
 ]

@@ -8,7 +8,7 @@ the drives were told.  The readout may have been switched off since, so its offs
 from __future__ import annotations
 
 from collections.abc import Generator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any, Literal
 
 from drivers.errors import DeviceError
@@ -30,8 +30,10 @@ from station.records import (
     from_readings,
     residual_rows,
 )
-from station.run_kinds.calibrate import fit_of
-from station.run_kinds.kind import RunKind, Start, register
+from station.run_kinds.adaptive import fit_in_sequence
+from station.run_kinds.calibrate import passes_apart
+from station.run_kinds.fits import fit_of
+from station.run_kinds.kind import RunKind, Start, register, robot_as_measured
 from station.run_kinds.zero_state import check_apply, check_roll_back, rolled_back_by
 from station.store import Store
 
@@ -63,12 +65,14 @@ def source_of(store: Store, calibration_id: int) -> Source:
         # without the sequence that verified: it took no part in the fit
         if calibration.after is not None and calibration.after.fresh_reading_rms_mm is not None:
             readings = [r for r in readings if r.sequence < readings[-1].sequence]
-        readings = [replace(r, position=f"{r.position} pass {r.sequence}") for r in readings]
+        readings = passes_apart(readings)
     else:  # the second sequence verified, it took no part in the fit
         readings = [r for r in readings if r.sequence == 1]
     use = calibration.memory
     memory = store.memory_left_by(use.from_calibration) if use and use.used else None
-    fit = fit_of(store.robot_of(calibration_id), readings, memory, (use.age_days if use else None) or 0.0)
+    refit = fit_in_sequence if calibration.plan == "adaptive" else fit_of
+    robot = robot_as_measured(store, calibration)
+    fit = refit(robot, readings, memory, (use.age_days if use else None) or 0.0)
     offsets = [zero.value_deg for zero in calibration.zero_offsets if zero.value_deg is not None]
     if len(offsets) != 2:
         raise InputRefused(f"Run {calibration_id} has no zero offsets; calibrate again.")

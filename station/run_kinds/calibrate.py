@@ -2,40 +2,39 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from scipy.special import chdtrc
 
 from station.errors import InputRefused
-from station.five_bar import FiveBar, Robot
+from station.five_bar import Robot
 from station.identification import (
-    Identification,
-    Memory,
+    PLAN_ENDED,
     Verification,
-    fresh_stops,
+    accuracy_of,
     fresh_stops_of,
-    gate_record,
-    identify,
-    not_identified,
     prediction_fault,
-    result_of,
+    with_accuracy,
     without_jump,
 )
 from station.plans import make_plan
 from station.published import MAX_PASSES, PublishedRun
 from station.records import (
+    AccuracyReached,
     CalibrationResult,
     MeasurementSequence,
-    MemoryUse,
     PlanName,
     Procedure,
     Reading,
     Remembered,
     because,
-    from_readings,
 )
+from station.run_kinds.adaptive import adaptive
+from station.run_kinds.fits import fit_of
+from station.run_kinds.guided import reference, two_mounts
 from station.run_kinds.kind import RunKind, Start, register
-
-DAYS_PER_YEAR = 365.25
+from station.run_kinds.verified import identified_and_verified
 
 
 def calibrate(start: Start) -> Procedure:
@@ -44,11 +43,16 @@ def calibrate(start: Start) -> Procedure:
     :raises InputRefused: the plan cannot be made for this robot.
     """
     if start.plan == "paper":  # the published method has no use for what earlier runs know
-        return published(start.robot)
-    return measured_and_verified(start.plan, start.robot, start.store.memory(start.robot.serial))
+        return published(start.robot, start.wanted_mm)
+    memory = start.store.memory(start.robot.serial, start.began_at)
+    if guided := GUIDED.get(start.plan):
+        return guided(start, memory)
+    if start.plan == "adaptive":
+        return adaptive(start.robot, memory, start.wanted_mm, start.pace)
+    return measured_and_verified(start.plan, start.robot, memory, start.wanted_mm)
 
 
-def published(robot: Robot) -> Procedure:
+def published(robot: Robot, wanted_mm: float | None = None) -> Procedure:
     """Section 4 and 5: measure, identify, compensate, again until mu < mu_0 (eq. 32, 33); then verify."""
     run = PublishedRun(robot)
     everything: list[Reading] = []
@@ -64,7 +68,24 @@ def published(robot: Robot) -> Procedure:
         return without_jump(result, robot, everything)
     stops = fresh_stops_of(robot, run.total, seed=len(everything))
     fresh: list[Reading] = yield MeasurementSequence("Verifying at fresh positions", number + 1, stops)
-    return without_jump(_verified(run, result, fresh), robot, [*everything, *fresh])
+    result = without_jump(_verified(run, result, fresh), robot, [*everything, *fresh])
+    return with_accuracy(result, _published_accuracy(run, everything, wanted_mm))
+
+
+def _published_accuracy(
+    run: PublishedRun, readings: list[Reading], wanted_mm: float | None
+) -> AccuracyReached:
+    """What the published offsets promise, judged by the measurement model on the same readings."""
+    try:
+        fit = fit_of(run.robot, passes_apart(readings), None, 0.0)
+    except InputRefused:
+        return AccuracyReached.of(None, None, wanted_mm, PLAN_ENDED)
+    return accuracy_of(fit, wanted_mm, zeros=run.total)
+
+
+def passes_apart(readings: list[Reading]) -> list[Reading]:
+    """Of plan `paper`: a position's passes stand at different angles, they are no repeats."""
+    return [replace(r, position=f"{r.position} pass {r.sequence}") for r in readings]
 
 
 def _verified(run: PublishedRun, result: CalibrationResult, fresh: list[Reading]) -> CalibrationResult:
@@ -89,39 +110,14 @@ def _verified(run: PublishedRun, result: CalibrationResult, fresh: list[Reading]
     )
 
 
-def measured_and_verified(plan: PlanName, robot: Robot, memory: Remembered | None = None) -> Procedure:
+def measured_and_verified(
+    plan: PlanName, robot: Robot, memory: Remembered | None = None, wanted_mm: float | None = None
+) -> Procedure:
     """The measurement model on a chosen plan, then fresh positions that took no part in the fit."""
     readings: list[Reading] = yield MeasurementSequence("Measuring", 1, make_plan(plan, robot).stops)
-    age_days = memory.age_days if memory else 0.0
-    try:
-        fit = fit_of(robot, readings, memory, age_days)
-    except InputRefused as refusal:
-        return without_jump(not_identified(str(refusal)), robot, readings)
-    fresh: list[Reading] = yield MeasurementSequence("Verifying at fresh positions", 2, fresh_stops(fit))
-    result = result_of(fit, readings, fresh).model_copy(update={"lasting": fit.lasting.record()})
-    result = without_jump(result, robot, [*readings, *fresh])
-    if memory is None or fit.gate is None:
-        return result
-    use = MemoryUse(**dict(gate_record(fit.gate)), from_calibration=memory.calibration_id, age_days=age_days)
-    return result.model_copy(update={"memory": use})
+    return (yield from identified_and_verified(robot, readings, memory, wanted_mm))
 
 
-def fit_of(
-    robot: Robot, readings: list[Reading], memory: Remembered | None, age_days: float
-) -> Identification[FiveBar]:
-    """The measurement model on readings, with what is remembered as it was at that age.
-
-    :raises InputRefused: as `identify`.
-    """
-    measurements = from_readings(readings)
-    if memory is None:
-        return identify(robot, measurements)
-    parameters = FiveBar(robot, measurements).parameters
-    return identify(
-        robot,
-        measurements,
-        Memory.of(memory.memory).aged(parameters, age_days / DAYS_PER_YEAR),
-    )
-
-
+GUIDED = {"reference": reference, "two_mounts": two_mounts}
+"""Plans that need a person once."""
 CALIBRATE = register(RunKind("calibrate", calibrate, offsets=True))

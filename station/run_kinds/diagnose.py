@@ -10,35 +10,46 @@ import numpy as np
 
 from station.diagnosis import Context, Findings, diagnose, findings_of
 from station.five_bar import Robot
+from station.identification import PLAN_ENDED, with_accuracy
 from station.plans import diagnostic_fresh_stops, make_plan
 from station.records import (
     Accuracy,
+    AccuracyReached,
     CalibrationResult,
     DataSource,
     Measurements,
     MeasurementSequence,
+    Procedure,
     Reading,
+    ReferenceUse,
     StageAccuracy,
     from_readings,
     readings_to_csv,
     residual_rows,
 )
-from station.run_kinds.kind import RunKind, register
+from station.run_kinds.kind import RunKind, Start, register
 
 METHOD = "diagnosis"
 
 
-def diagnostic(robot: Robot) -> Generator[MeasurementSequence, list[Reading], CalibrationResult]:
+def start_diagnostic(start: Start) -> Procedure:
+    """The procedure, not yet started."""
+    return diagnostic(start.robot, start.wanted_mm)
+
+
+def diagnostic(
+    robot: Robot, wanted_mm: float | None = None
+) -> Generator[MeasurementSequence, list[Reading], CalibrationResult]:
     """Find the cause of what the model leaves over, then judge it by fresh readings.
 
     :raises InputRefused: the readings are not enough to judge, or not of this robot.
     """
     readings = yield MeasurementSequence("Looking for the cause", 1, make_plan("diagnostic", robot).stops)
-    return (yield from judged(robot, readings))
+    return (yield from judged(robot, readings, wanted_mm))
 
 
 def judged(
-    robot: Robot, readings: list[Reading]
+    robot: Robot, readings: list[Reading], wanted_mm: float | None = None
 ) -> Generator[MeasurementSequence, list[Reading], CalibrationResult]:
     """What readings tell of the cause, judged by fresh ones at other places.
 
@@ -50,7 +61,11 @@ def judged(
     fresh = yield MeasurementSequence(
         "Confirming at fresh positions", 2, diagnostic_fresh_stops(robot, zeros, _seed(sequence))
     )
-    return result_of(diagnosed(robot, [*readings, *fresh]), readings, _described(readings))
+    found = diagnosed(robot, [*readings, *fresh])
+    result = result_of(found, readings, _described(readings), robot)
+    after = result.after.predicted_position_error_mm if result.after else None
+    bound_mm, model_mm = found.zeros_only_bound_mm, after.bound_95 if after else None
+    return with_accuracy(result, AccuracyReached.of(bound_mm, model_mm, wanted_mm, PLAN_ENDED))
 
 
 def diagnosed(robot: Robot, readings: list[Reading], context: Context | None = None) -> Findings:
@@ -65,7 +80,9 @@ def diagnosed(robot: Robot, readings: list[Reading], context: Context | None = N
     return findings_of(diagnose(robot, from_readings(learned), later, context))
 
 
-def result_of(findings: Findings, readings: list[Reading], data: DataSource) -> CalibrationResult:
+def result_of(
+    findings: Findings, readings: list[Reading], data: DataSource, robot: Robot | None = None
+) -> CalibrationResult:
     """What the run ends with; `readings` are those that were learned from, `data` says where from.
 
     A pass only where the robot may be used as it is: nothing is missing, and fresh readings confirm it.
@@ -73,6 +90,7 @@ def result_of(findings: Findings, readings: list[Reading], data: DataSource) -> 
     document = findings.document(data)
     by_id = {r.reading: r for r in readings}
     kept = [by_id[int(number)] for number in findings.measurements.ids]
+    references = robot.references if robot else ()
     outcome, residual = findings.decision.outcome, findings.residual
     return CalibrationResult(
         verdict="pass" if outcome == "good" else "fail",
@@ -85,6 +103,9 @@ def result_of(findings: Findings, readings: list[Reading], data: DataSource) -> 
         before=_errors(document.before),
         after=_errors(document.after),
         residuals=residual_rows(kept, residual.after_mm, residual.limit_mm),
+        references=tuple(
+            ReferenceUse(reference=r, residual=None, sd=None, unit=r.unit, p_value=None) for r in references
+        ),
         findings=document.findings,
         diagnosis=document,
     )
@@ -110,4 +131,4 @@ def _seed(sequence: Measurements) -> int:
     return zlib.crc32(np.ascontiguousarray(sequence.distance).tobytes())
 
 
-DIAGNOSE = register(RunKind("diagnose", lambda start: diagnostic(start.robot)))
+DIAGNOSE = register(RunKind("diagnose", start_diagnostic))

@@ -7,12 +7,14 @@ and, in `station.messages`, its texts.  The orchestrator knows none by name.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
+from datetime import datetime
 from types import MappingProxyType
 
 from station.five_bar import Robot
-from station.plans import PLANS
-from station.records import CalibrationRequest, PlanName, Procedure, Reading
+from station.plans import PLANS, Pace
+from station.records import Asked, Calibration, CalibrationRequest, PlanName, Procedure, Reading
+from station.settings import LimitSettings
 from station.store import Store
 
 
@@ -23,6 +25,15 @@ class Start:
     store: Store
     request: CalibrationRequest
     robot: Robot
+    began_at: datetime | None = None
+    """The station's clock when the run was created; None is now."""
+    limits: LimitSettings = field(default_factory=LimitSettings)
+    """Of this station."""
+
+    @property
+    def pace(self) -> Pace:
+        """How fast this station is."""
+        return Pace.of(self.limits)
 
     @property
     def of(self) -> int:
@@ -37,6 +48,12 @@ class Start:
         if self.request.plan is None:
             raise ValueError(f"a run of kind {self.request.kind} names no plan")
         return self.request.plan
+
+    @property
+    def wanted_mm(self) -> float | None:
+        """Largest position error that is wanted; None where nobody said."""
+        request = self.request
+        return request.until_mm or request.accuracy_mm or self.robot.accuracy_mm
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,6 +98,16 @@ class RunKind:
         return tuple(plan.name for plan in PLANS.values() if plan.run_kind == self.name)
 
 
+def robot_as_measured(store: Store, calibration: Calibration) -> Robot:
+    """The robot file of an ended run, with the references that it was started with.
+
+    :raises NotFound: no such run.
+    """
+    robot = store.robot_of(calibration.id)
+    own = [use.reference for use in calibration.references if use.reference not in robot.references]
+    return robot.informed(own)
+
+
 _KINDS: dict[str, RunKind] = {}
 RUN_KINDS: Mapping[str, RunKind] = MappingProxyType(_KINDS)
 """Every kind by its name."""
@@ -97,3 +124,23 @@ def register(kind: RunKind) -> RunKind:
 def kind_of_plan(plan: PlanName) -> str:
     """The name of the kind that measures by a plan."""
     return PLANS[plan].run_kind
+
+
+def request_of(store: Store, run: int) -> CalibrationRequest:
+    """The request that a run was started with.  :raises NotFound: no such run."""
+    known = store.calibration(run)
+    plan = known.plan if RUN_KINDS[known.kind].plans else None
+    asked = next((event.data for event in store.events(run) if event.kind == "asked"), {})
+    more = Asked.model_validate(asked)
+    return CalibrationRequest(
+        known.robot_serial,
+        known.kind,
+        known.operator,
+        plan=plan,
+        of=known.of,
+        work_order=known.work_order,
+        metadata=known.metadata,
+        references=more.references,
+        until_mm=more.until_mm,
+        accuracy_mm=more.accuracy_mm,
+    )

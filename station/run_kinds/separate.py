@@ -18,7 +18,7 @@ from station.five_bar import Robot
 from station.plans import FRESH_PLACES
 from station.records import CalibrationRequest, CalibrationResult, MeasurementSequence, Procedure, Reading
 from station.run_kinds.diagnose import diagnosed, judged
-from station.run_kinds.kind import Continued, RunKind, Start, register
+from station.run_kinds.kind import Continued, RunKind, Start, register, robot_as_measured
 from station.store import Store
 
 _NOT_CONTINUED = {
@@ -48,7 +48,7 @@ def planned(store: Store, calibration_id: int) -> Planned:
     if run.kind != "diagnose":
         what = _NOT_CONTINUED.get(run.kind, "is no diagnostic run; find the cause first")
         raise NotApplicable(f"Run {calibration_id} {what}.")
-    robot = store.robot_of(calibration_id)
+    robot = robot_as_measured(store, store.calibration(calibration_id))
     if robot.to_json() != store.robot(robot.serial).to_json():
         raise NotApplicable(f"The file of robot {robot.serial} has changed since; find the cause again.")
     if writes := store.zero_writes(robot.serial, since=calibration_id):
@@ -70,7 +70,8 @@ def check_separate(store: Store, request: CalibrationRequest) -> None:
 
 def separate(start: Start) -> Procedure:
     """The procedure that continues an earlier run, not yet started."""
-    return separating(start.store.robot_of(start.of), start.store.readings(start.of))
+    robot = robot_as_measured(start.store, start.store.calibration(start.of))
+    return separating(robot, start.store.readings(start.of))
 
 
 def separating(

@@ -20,6 +20,7 @@ from station.records import (
     ZeroWrite,
 )
 from station.run_kinds.kind import RUN_KINDS
+from station.run_kinds.lock import check_not_locked
 from station.store import Store
 
 _TEXTS: dict[ApplicationState, str] = {
@@ -65,6 +66,7 @@ def check_roll_back(store: Store, request: CalibrationRequest) -> None:
 
 def _check_apply(store: Store, calibration_id: int) -> None:
     calibration = _applicable(store, calibration_id)
+    check_not_locked(store, calibration_id)
     serial = calibration.robot_serial
     if store.robot_of(calibration_id).to_json() != store.robot(serial).to_json():
         raise NotApplicable(f"The file of robot {serial} has changed since this run; calibrate again.")

@@ -4,16 +4,21 @@ from __future__ import annotations
 
 from station.service.entrance import check_entrance, listens_on_loopback
 from station.service.orchestrator import LiveEvent, Orchestrator, Submitted
+from station.service.procedures import follow_procedure
+from station.service.replaying import Replayed, replay
 from station.service.runtime import Runtime, holding
 from station.service.timer import Timer
 
 __all__ = [
     "LiveEvent",
     "Orchestrator",
+    "Replayed",
     "Runtime",
     "Submitted",
     "Timer",
     "check_entrance",
+    "follow_procedure",
     "holding",
     "listens_on_loopback",
+    "replay",
 ]

@@ -10,13 +10,22 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from queue import Empty, Queue
 from threading import Lock, Thread
-from typing import Any
+
+from pydantic import JsonValue
 
 from drivers.errors import DeviceError
-from station.errors import Busy, InputRefused, KeyReused, NotFound, StepFailed, StoreUnavailable
+from station.errors import (
+    Busy,
+    InputRefused,
+    KeyReused,
+    NotApplicable,
+    NotFound,
+    StepFailed,
+    StoreUnavailable,
+)
 from station.five_bar import Robot
 from station.messages import display_name
 from station.motion import (
@@ -26,33 +35,29 @@ from station.motion import (
     Listeners,
     LiveEvent,
     Machine,
-    Positioner,
-    Retracting,
-    Zeroing,
 )
 from station.plans import PLANS
 from station.records import (
     STATION,
     Actor,
+    CalibrationHolds,
     CalibrationRequest,
-    CalibrationResult,
-    MeasurementSequence,
-    Reading,
+    Prompt,
     Reason,
-    Retract,
-    SetZeros,
     State,
     StationInfo,
     StationView,
-    Step,
     Submitted,
     Workspace,
     because,
     uid7,
 )
-from station.run_kinds import RUN_KINDS, RunKind, Start
+from station.run_kinds import RUN_KINDS, RunKind, calibration_holds, clear_failed_check
+from station.service.carrying_out import CarryingOut, Unanswered
 from station.service.clock_watch import ClockWatch
-from station.service.procedures import follow_procedure
+from station.service.ending import Ending
+from station.service.interlock_record import InterlockRecord
+from station.service.recording import Recording
 from station.service.run import Run
 from station.settings import Settings
 from station.store import Store, request_hash, too_full
@@ -63,13 +68,6 @@ log = logging.getLogger(__name__)
 
 IDLE_S = 0.5
 SHUTDOWN_LIMIT_S = 10.0
-
-
-@dataclass(frozen=True, slots=True)
-class _Ending:
-    state: State
-    reason: Reason | None = None
-    result: CalibrationResult | None = None
 
 
 class Orchestrator:
@@ -87,6 +85,7 @@ class Orchestrator:
         self._kinds = kinds
         self._listeners = Listeners()
         self._machine = Machine(devices, settings.limits, self._listeners)
+        self._listeners.subscribe(InterlockRecord(store, lambda: self._run.id if self._run else None))
         self._submitting = Lock()
         self._lock = Lock()
         self._run: Run | None = None
@@ -94,6 +93,7 @@ class Orchestrator:
         self._clock = ClockWatch(store)
         if self._last is not None:
             self._machine.robot = store.robot_or_nominal(self._last.robot_serial)
+        self._holds = self._calibration_holds()
         self._closing = False
         self._stop_records: list[Thread] = []
         self._queue: Queue[Run | None] = Queue()
@@ -129,12 +129,13 @@ class Orchestrator:
             if trouble := self.no_room():
                 raise StoreUnavailable(trouble)
             robot = self._robot(request.robot_serial)
+            measured = robot.informed(request.references)
             kind.check(self._store, request)
             uid = uid7()
             calibration_id = self._store.create(
                 request, robot, key=idempotency_key, body_hash=body_hash, uid=uid, by=by
             )
-            run = Run(calibration_id, uid, request, robot)
+            run = Run(calibration_id, uid, request, measured)
             with self._lock:
                 self._run = run
         self._listeners.publish("run", run.brief())
@@ -217,6 +218,43 @@ class Orchestrator:
         """Names of what `stop` stops."""
         return tuple(axis.name for axis in self._machine.devices.axes)
 
+    def clear_failed_check(self, serial: str, who: str, reason: str) -> CalibrationHolds:
+        """Let calibrated work go on after a failed check.
+
+        :raises NotFound: no such robot.
+        :raises NotApplicable: nothing is locked.
+        """
+        clear_failed_check(self._store, serial, who, reason)
+        with self._lock:
+            self._holds = self._calibration_holds()
+        return calibration_holds(self._store, serial)
+
+    def _calibration_holds(self) -> CalibrationHolds:
+        """Of the robot measured last; kept, so that a snapshot asks nothing."""
+        serial = self._machine.robot.serial
+        try:
+            return calibration_holds(self._store, serial)
+        except StoreUnavailable as error:
+            return CalibrationHolds(robot_serial=serial, locked=True, text=f"Not known: {error}")
+
+    def prompt(self, calibration_id: int) -> Prompt | None:
+        """What a run asks at this moment."""
+        run = self._run
+        return run.prompt if run is not None and run.id == calibration_id else None
+
+    def answer(self, calibration_id: int, prompt: str, value: float | None, who: str) -> None:
+        """Answer what a run asks.
+
+        :raises NotFound: there is no such run.
+        :raises NotApplicable: it asks nothing, or something else.
+        :raises FieldRefused: the value is missing or impossible; the run goes on waiting.
+        """
+        run = self._run
+        if run is None or run.id != calibration_id:
+            self._store.summary(calibration_id)
+            raise NotApplicable(f"Run {calibration_id} does not ask anything.")
+        run.answer(prompt, value, who)
+
     def stop(self, who: str) -> dict[str, str | None]:
         """Quick stop of both axes, now, whatever else happens; a run that is under way is aborted.
 
@@ -280,7 +318,7 @@ class Orchestrator:
     def snapshot(self) -> StationView:
         """Everything a page needs.  Never waits for a device."""
         with self._lock:
-            run, last = self._run, self._last
+            run, last, holds = self._run, self._last, self._holds
         robot = run.robot if run else self._machine.robot
         return StationView(
             station=StationInfo(
@@ -294,6 +332,7 @@ class Orchestrator:
             machine=self._machine.view(),
             workspace=Workspace(x=robot.workspace_x, y=robot.workspace_y),
             retract=self._machine.retract(),
+            calibration=holds,
             run=run.view() if run else None,
             last=last,
         )
@@ -320,125 +359,84 @@ class Orchestrator:
         self._clock.look()
 
     def _execute(self, run: Run) -> None:
-        ending = self._perform(run)
+        recording = Recording(self._machine.devices, self._settings)
+        ending = self._perform(run, recording)
+        failed_s = time.monotonic()
         ending = self._bring_to_rest(run, ending)
+        reason = ending.reason
+        if run.has_moved and reason is not None and reason.code == "step_failed":
+            self._record_trip(run, reason, time.monotonic() - failed_s)
+        self._keep_wire(run, recording)
         judged = self._kinds[run.request.kind].judged
         run.state = self._store.finish(run.id, ending.state, ending.result, ending.reason, judged=judged)
         try:
             summary = self._store.summary(run.id)
         except StoreUnavailable as error:
             log.exception("The end of run %d cannot be read back", run.id)
-            summary = run.as_ended(because("store_failed", text=str(error)))
+            summary = run.unread(because("store_failed", text=str(error)))
         with self._lock:
-            self._last, self._run = summary, None
+            self._last, self._run, self._holds = summary, None, self._calibration_holds()
         run.ended.set()
         self._listeners.publish("ended", summary)
 
-    def _perform(self, run: Run) -> _Ending:
+    def _record_trip(self, run: Run, reason: Reason, standstill_after_s: float) -> None:
+        """What ended a motion, and how long after it was noticed both axes were seen to stand."""
+        data: dict[str, JsonValue] = {
+            "text": reason.text,
+            "standstill_after_ms": round(standstill_after_s * 1000, 1),
+        }
         try:
-            result = self._calibrate(run)
+            self._store.add_event(run.id, "trip", data)
+        except StoreUnavailable:
+            log.exception("What stopped run %d could not be recorded as an event", run.id)
+
+    def _keep_wire(self, run: Run, recording: Recording) -> None:
+        try:
+            self._store.add_wire(run.id, recording.end())
+        except StoreUnavailable:
+            log.exception("The end of the wire log of run %d cannot be stored", run.id)
+
+    def _perform(self, run: Run, recording: Recording) -> Ending:
+        kind = self._kinds[run.request.kind]
+        try:
+            result = CarryingOut(
+                run,
+                kind,
+                self._machine,
+                self._store,
+                self._settings,
+                self._listeners,
+                recording.begin,
+                recording.take,
+            ).result()
         except Cancelled:
-            return _Ending(State.ABORTED)
+            return Ending(State.ABORTED)
+        except Unanswered as error:
+            return Ending(State.ABORTED, because("prompt_expired", text=error.text, limit_s=error.limit_s))
         except (DeviceError, StepFailed, InputRefused) as error:
-            return _Ending(State.FAILED, because("step_failed", text=str(error)))
+            return Ending(State.FAILED, because("step_failed", text=str(error)))
         except StoreUnavailable as error:
             log.exception("Run %d cannot be stored", run.id)
-            return _Ending(State.FAILED, because("store_failed", text=str(error)))
+            return Ending(State.FAILED, because("store_failed", text=str(error)))
         except Exception as error:  # the worker must outlive any mistake in a procedure
             log.exception("Run %d failed unexpectedly", run.id)
-            return _Ending(State.FAILED, because("unexpected", type=type(error).__name__, text=str(error)))
-        if not self._kinds[run.request.kind].judged:
-            return _Ending(State.SUCCEEDED, result.reason)
-        return _Ending(State.SUCCEEDED, result.reason, result)
+            return Ending(State.FAILED, because("unexpected", type=type(error).__name__, text=str(error)))
+        if not kind.judged:
+            return Ending(State.SUCCEEDED, result.reason)
+        return Ending(State.SUCCEEDED, result.reason, result)
 
-    def _bring_to_rest(self, run: Run, ending: _Ending) -> _Ending:
+    def _bring_to_rest(self, run: Run, ending: Ending) -> Ending:
         """Always: standstill is seen, or the run says that it was not.  A stop pressed late counts."""
         if ending.state is State.SUCCEEDED and not run.cancel.is_set():
             doubt = self._machine.standstill()
             if doubt is None:
                 return ending
-            ending = _Ending(State.FAILED)
+            ending = Ending(State.FAILED)
             self._machine.make_safe()
         else:
             doubt = self._machine.make_safe(insist=run.has_moved)
             if not run.has_moved:
                 doubt = None
         if run.cancel.is_set():
-            ending = _Ending(State.ABORTED, because("stopped", by=run.stopped_by or "somebody"))
-        return _Ending(ending.state, _with_doubt(ending.reason, doubt))
-
-    def _calibrate(self, run: Run) -> CalibrationResult:
-        if run.cancel.is_set():
-            raise Cancelled
-        self._set_state(run, State.RUNNING)
-        kind = self._kinds[run.request.kind]
-        assert kind.procedure is not None
-        elapsed_s = self._continue(run, kind)
-        positioner = Positioner(
-            self._machine, run.robot, self._settings.joints, run.cancel, time.monotonic() - elapsed_s
-        )
-        positioner.prepare(from_outside=kind.from_outside)
-        zeroing = Zeroing(run.id, self._machine, positioner, self._store)
-        zeroing.settle()
-        procedure = kind.procedure(Start(self._store, run.request, run.robot))
-
-        def carry_out(step: Step) -> Any:
-            match step:
-                case MeasurementSequence():
-                    return self._sequence(run, positioner, step)
-                case SetZeros():
-                    self._begin(run, step)
-                    return zeroing.carry_out(step)
-                case Retract():
-                    self._begin(run, step)
-                    return Retracting(self._machine, positioner).carry_out()
-
-        try:
-            result = follow_procedure(procedure, carry_out)
-        finally:
-            procedure.close()
-        self._listeners.publish("residuals", run.add_result(result))
-        return result
-
-    def _continue(self, run: Run, kind: RunKind) -> float:
-        """Take over the readings of an earlier run; real time since it started, 0 where there is none."""
-        if kind.continues is None:
-            return 0.0
-        earlier = kind.continues(self._store, run.request)
-        self._store.add_readings(run.id, earlier.readings)
-        run.inherit(len(earlier.readings))
-        return max(earlier.elapsed_s, earlier.readings[-1].t_s / self._machine.devices.speed)
-
-    def _begin(self, run: Run, step: SetZeros | Retract) -> None:
-        """A step without readings."""
-        self._listeners.publish("walk", run.begin_sequence(MeasurementSequence(step.title, step.number, ())))
-        self._listeners.publish("run", run.brief())
-
-    def _sequence(self, run: Run, positioner: Positioner, sequence: MeasurementSequence) -> list[Reading]:
-        self._listeners.publish("walk", run.begin_sequence(sequence))
-        self._set_state(run, State.RUNNING)
-        readings = []
-        for index, stop in enumerate(sequence.stops):
-            try:
-                reading = positioner.measure(stop, run.step + 1, sequence.number)
-            except DeviceError as error:
-                raise StepFailed(f"At position {stop.position}: {error}") from error
-            self._store.add_reading(run.id, reading)
-            readings.append(reading)
-            row = run.add_reading(index, reading, self._machine.shown_place(reading.theta_deg))
-            self._listeners.publish("reading", row)
-            self._listeners.publish("run", run.brief())
-        return readings
-
-    def _set_state(self, run: Run, state: State) -> None:
-        self._store.set_state(run.id, state, steps=run.steps)
-        run.state = state
-        self._listeners.publish("run", run.brief())
-
-
-def _with_doubt(reason: Reason | None, doubt: str | None) -> Reason | None:
-    """A reason with what could not be confirmed about standstill."""
-    if doubt is None:
-        return reason
-    said = [reason.text] if reason else []
-    return because("step_failed", text=" ".join([*said, doubt]))
+            ending = Ending(State.ABORTED, because("stopped", by=run.stopped_by or "somebody"))
+        return ending.without_result(doubt)

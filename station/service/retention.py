@@ -14,11 +14,19 @@ EVERY_S = 24 * 3600.0
 
 def retention_timer(store: Store, settings: RetentionSettings) -> AbstractContextManager[object]:
     """Applies the rules at the start and once a day."""
-    days = settings.samples_days
-    if days is None:
+    rules = [
+        (days, drop)
+        for days, drop in (
+            (settings.samples_days, store.drop_samples),
+            (settings.wire_days, store.drop_wire),
+        )
+        if days is not None
+    ]
+    if not rules:
         return nullcontext()
 
     def apply() -> None:
-        store.drop_samples(datetime.now(UTC) - timedelta(days=days))
+        for days, drop in rules:
+            drop(datetime.now(UTC) - timedelta(days=days))
 
     return Timer("retention", apply, EVERY_S)

@@ -8,13 +8,16 @@ from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from threading import Event, Lock
 
+from station.errors import NotApplicable
 from station.five_bar import Robot
 from station.records import (
+    Ask,
     CalibrationRequest,
     CalibrationResult,
     CalibrationSummary,
     Iteration,
     MeasurementSequence,
+    Prompt,
     Reading,
     Reason,
     ResidualOfReading,
@@ -28,6 +31,15 @@ from station.records import (
 )
 
 Place = tuple[float, float] | None
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What somebody answered a prompt."""
+
+    prompt: str
+    value: float | None
+    by: str
 
 
 @dataclass
@@ -47,6 +59,11 @@ class Run:
     """Steps that an earlier run made."""
     steps: int = 0
     iterations: tuple[Iteration, ...] = ()
+    prompt: Prompt | None = None
+    """What the run waits to be told."""
+    answered: Event = field(default_factory=Event)
+    _asked: Ask | None = None
+    _answer: Answer | None = None
     _sequence: MeasurementSequence | None = None
     _stops: list[RunStop] = field(default_factory=list)
     _readings: list[RunReading] = field(default_factory=list)
@@ -62,6 +79,27 @@ class Run:
     def inherit(self, steps: int) -> None:
         """Continue after the steps of an earlier run."""
         self.inherited = self.step = self.steps = steps
+
+    def ask(self, prompt: Prompt, step: Ask) -> None:
+        """Wait for an answer from now on."""
+        with self._lock:
+            self.answered.clear()
+            self.prompt, self._asked = prompt, step
+
+    def answer(self, prompt: str, value: float | None, who: str) -> None:
+        """:raises NotApplicable: this is not what is asked.  :raises FieldRefused: the value cannot be."""
+        with self._lock:
+            if self.prompt is None or self._asked is None or self.prompt.id != prompt:
+                raise NotApplicable(f"Run {self.id} does not ask this (any more).")
+            self._answer = Answer(prompt, self._asked.checked(value), who)
+            self.prompt = self._asked = None
+            self.answered.set()
+
+    def take_answer(self) -> Answer:
+        """What was answered.  Only after `answered`."""
+        with self._lock:
+            assert self._answer is not None
+            return self._answer
 
     def begin_sequence(self, sequence: MeasurementSequence) -> SequenceView:
         """Returns the `walk` event."""
@@ -108,30 +146,6 @@ class Run:
                 for r in self._readings
             ]
 
-    def as_ended(self, reason: Reason) -> CalibrationSummary:
-        """How it ended, where the store does not give that back."""
-        brief = self.brief()
-        return CalibrationSummary(
-            id=self.id,
-            uid=self.uid,
-            robot_serial=brief.robot_serial,
-            kind=brief.kind,
-            plan=brief.plan,
-            of=brief.of,
-            operator=brief.operator,
-            work_order=brief.work_order,
-            state=self.state,
-            verdict=None,
-            outcome="failed" if self.state is State.FAILED else None,
-            step=brief.step,
-            steps=brief.steps,
-            started_at=brief.started_at,
-            reason=reason.text,
-            reason_code=reason.code,
-            reason_params=reason.params,
-            created_at=brief.started_at or datetime.now(UTC),
-        )
-
     def brief(self) -> RunBrief:
         """The `run` event: without stops and readings."""
         with self._lock:
@@ -164,4 +178,29 @@ class Run:
             step=self.step,
             steps=self.steps,
             iterations=self.iterations,
+            prompt=self.prompt,
+        )
+
+    def unread(self, reason: Reason) -> CalibrationSummary:
+        """How it ended, where the store does not give it back."""
+        brief = self.brief()
+        return CalibrationSummary(
+            id=self.id,
+            uid=self.uid,
+            robot_serial=brief.robot_serial,
+            kind=brief.kind,
+            plan=brief.plan,
+            of=brief.of,
+            operator=brief.operator,
+            work_order=brief.work_order,
+            state=self.state,
+            verdict=None,
+            outcome="failed" if self.state is State.FAILED else None,
+            step=brief.step,
+            steps=brief.steps,
+            started_at=brief.started_at,
+            reason=reason.text,
+            reason_code=reason.code,
+            reason_params=reason.params,
+            created_at=brief.started_at or datetime.now(UTC),
         )

@@ -13,7 +13,7 @@ from typing import Self, cast
 
 from station import __version__
 from station.errors import InputRefused, StoreUnavailable
-from station.motion import EmulatedRig, build_devices
+from station.motion import EmulatedRig, equipment
 from station.outbox import Alarms, couriers
 from station.records import BackupMade, DeviceView, Interlock
 from station.service.backups import backup_timer, make_backup
@@ -56,18 +56,9 @@ class Runtime:
             (home / LAST_HISTORY).write_text(str(path.resolve()), encoding="utf-8")
             for calibration_id in store.interrupt_unfinished():
                 log.warning("Run %d was cut off by the last stop of the station: interrupted", calibration_id)
-            emulated = emulate is not None or settings.scale is None
-            speed = 1.0
-            rig: EmulatedRig | None = None
-            if emulated:
-                rig = EmulatedRig(
-                    emulate or settings.emulated.rig, home / "emulated-rig.json", settings.emulated.speed
-                )
-                opened.callback(rig.close)
-                settings, speed = rig.settings(settings), rig.speed
-            devices = build_devices(settings, emulated=emulated, speed=speed)
-
-            orchestrator = Orchestrator(devices, store, settings)
+            with_it = opened.enter_context(equipment(settings, home, emulate))
+            settings, rig = with_it.settings, with_it.rig
+            orchestrator = Orchestrator(with_it.devices, store, settings)
             opened.callback(orchestrator.shutdown)
             opened.enter_context(backup_timer(store, backup_folder(settings, home), settings.backup))
             opened.enter_context(retention_timer(store, settings.retention))

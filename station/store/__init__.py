@@ -4,14 +4,19 @@ from __future__ import annotations
 
 from station.store.health import too_full
 from station.store.opening import restore
+from station.store.rewinding import found, rewind
 from station.store.rows import Page, compact, request_hash
 from station.store.store import Store
+from station.store.tables import Columns
 
 __all__ = [
+    "Columns",
     "Page",
     "Store",
     "compact",
+    "found",
     "request_hash",
     "restore",
+    "rewind",
     "too_full",
 ]

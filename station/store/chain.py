@@ -2,8 +2,8 @@
 
 Whoever changes, removes or adds a finished run breaks the chain from there on, unless all later hashes are
 made again; the last hash, noted elsewhere, shows that too.  A record is canonical JSON (RFC 8785), so that
-another program can make it as well.  The single samples count by a hash of their own, since retention may
-drop them.
+another program can make it as well.  The single samples and the wire log count by hashes of their own, since
+retention may drop them.
 """
 
 from __future__ import annotations
@@ -56,25 +56,25 @@ class Verified:
 def append(ask: Ask, run: int) -> None:
     """Chain a run that has just ended, in the same transaction."""
     previous = next((row[0] for row in ask("SELECT hash FROM chain ORDER BY n DESC LIMIT 1", [])), _START)
-    samples = samples_hash(ask, run)
-    record = record_of(ask, run, samples)
+    samples, wire = samples_hash(ask, run), wire_hash(ask, run)
+    record = record_of(ask, run, samples, wire)
     ask(
-        "INSERT INTO chain (run_id, uid, samples_sha256, hash) VALUES (?, ?, ?, ?)",
-        [run, record["uid"], samples, _link(previous, record)],
+        "INSERT INTO chain (run_id, uid, samples_sha256, wire_sha256, hash) VALUES (?, ?, ?, ?, ?)",
+        [run, record["uid"], samples, wire, _link(previous, record)],
     )
 
 
 def verify(ask: Ask) -> Verified:
     """Make every record again and compare, in the order in which the runs ended."""
-    links = ask("SELECT run_id, uid, samples_sha256, hash FROM chain ORDER BY n", [])
+    links = ask("SELECT run_id, uid, samples_sha256, wire_sha256, hash FROM chain ORDER BY n", [])
     first = min((link[0] for link in links), default=None)
-    ended = "state NOT IN ('queued', 'running')"
+    ended = "state NOT IN ('queued', 'running', 'waiting')"
     (older,) = ask(f"SELECT count(*) FROM calibrations WHERE {ended} AND (? IS NULL OR id < ?)", [first] * 2)[
         0
     ]
     head = _START
-    for count, (run, uid, samples, expected) in enumerate(links):
-        if why := _broken(ask, run, samples, head, expected):
+    for count, (run, uid, samples, wire, expected) in enumerate(links):
+        if why := _broken(ask, run, samples, wire, head, expected):
             return Verified(count, older, head, Broken(run, uid, why))
         head = expected
     loose = ask(
@@ -86,8 +86,11 @@ def verify(ask: Ask) -> Verified:
     return Verified(len(links), older, head, broken)
 
 
-def record_of(ask: Ask, run: int, samples_sha256: str) -> dict[str, Any]:
-    """Everything that is kept of a finished run.  :raises LookupError: there is no such run."""
+def record_of(ask: Ask, run: int, samples_sha256: str, wire_sha256: str | None = None) -> dict[str, Any]:
+    """Everything that is kept of a finished run; of version 2 where it has a wire log.
+
+    :raises LookupError: there is no such run.
+    """
     rows = ask(f"SELECT {', '.join(_RUN)}, robot_id FROM calibrations WHERE id = ?", [run])
     if not rows:
         raise LookupError(run)
@@ -98,7 +101,7 @@ def record_of(ask: Ask, run: int, samples_sha256: str) -> dict[str, Any]:
         f"SELECT {', '.join(_READING)} FROM readings WHERE calibration_id = ? ORDER BY reading", [run]
     )
     return {
-        "version": 1,
+        **({"version": 1} if wire_sha256 is None else {"version": 2, "wire_sha256": wire_sha256}),
         **dict(zip(_RUN, values, strict=True)),
         "robot_sha256": _sha256(robot[0][0].encode()) if robot else None,
         "readings": [dict(zip(_READING, reading, strict=True)) for reading in readings],
@@ -114,9 +117,15 @@ def samples_hash(ask: Ask, run: int) -> str:
     return _sha256(rfc8785.dumps([row[0] for row in rows]))
 
 
-def _broken(ask: Ask, run: int, samples: str, previous: str, expected: str) -> str | None:
+def wire_hash(ask: Ask, run: int) -> str | None:
+    """Of all pieces of the wire log of a run, in order; None where there is none."""
+    pieces = ask("SELECT piece FROM wire_logs WHERE run_id = ? ORDER BY n", [run])
+    return _sha256(b"".join(piece[0] for piece in pieces)) if pieces else None
+
+
+def _broken(ask: Ask, run: int, samples: str, wire: str | None, previous: str, expected: str) -> str | None:
     try:
-        record = record_of(ask, run, samples)
+        record = record_of(ask, run, samples, wire)
     except LookupError:
         return "it is gone"
     if _link(previous, record) != expected:
@@ -124,6 +133,9 @@ def _broken(ask: Ask, run: int, samples: str, previous: str, expected: str) -> s
     dropped = ask("SELECT 1 FROM events WHERE calibration_id = ? AND kind = 'samples_dropped'", [run])
     if not dropped and samples_hash(ask, run) != samples:
         return "its samples are not as they were taken"
+    dropped = ask("SELECT 1 FROM events WHERE calibration_id = ? AND kind = 'wire_dropped'", [run])
+    if not dropped and wire_hash(ask, run) != wire:
+        return "its wire log is not as it was recorded"
     return None
 
 

@@ -27,10 +27,13 @@ class KeptFile:
         :raises InputRefused: not a database, not the station's, or from a newer station.
         """
         self.path = path
+        self.opened = path
+        """Where it is read; for an older one that is read only, a copy."""
         self._lock = RLock()  # what is written in several steps, whole or not at all, takes it again
         self._closing = ExitStack()
         if read_only:
             path = self._up_to_date(path)
+            self.opened = path
             self._writer = Database(connect_read_only(path))  # refuses to write, in words
             self._readers = Readers(path, connect_read_only)
         else:

@@ -181,6 +181,17 @@ def filters(db: Database) -> None:
 
 
 @migrations()
+def wire_logs(db: Database) -> None:
+    """What crossed the wires during a run, in pieces of one zlib stream; the chain has its hash."""
+    db.execute(
+        """CREATE TABLE wire_logs (
+            run_id INTEGER NOT NULL REFERENCES calibrations (id), n INTEGER NOT NULL, piece BLOB NOT NULL,
+            PRIMARY KEY (run_id, n)) WITHOUT ROWID"""
+    )
+    db.execute("ALTER TABLE chain ADD COLUMN wire_sha256 TEXT")
+
+
+@migrations()
 def people(db: Database) -> None:
     """Users, keys, sessions; only hashes of what they show."""
     db.execute(

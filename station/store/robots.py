@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sqlite3
+from dataclasses import replace
 from datetime import UTC, datetime
 
 from station.errors import NotFound
@@ -82,8 +83,11 @@ class RobotFiles(AuditTrail):
 class Memories(RobotFiles):
     """Geometry and mechanism as passed runs found them; the newest that was not cleared counts."""
 
-    def memory(self, serial: str) -> Remembered | None:
-        """What the robot's next run may use: of its newest pass, not cleared, under the same robot file."""
+    def memory(self, serial: str, as_of: datetime | None = None) -> Remembered | None:
+        """What the robot's next run may use: of its newest pass, not cleared, under the same robot file.
+
+        :param as_of: when the run began, from which its age is counted; None is now
+        """
         row = self._readers.one(
             "SELECT calibration_id, at_ms, memory, robot_id, cleared_ms FROM memories"
             " JOIN calibrations ON id = calibration_id WHERE memories.robot_serial = ?"
@@ -93,7 +97,7 @@ class Memories(RobotFiles):
         latest = self._readers.one("SELECT max(id) AS id FROM robots WHERE serial = ?", [serial])
         if row is None or latest is None or row["cleared_ms"] is not None or row["robot_id"] != latest["id"]:
             return None
-        return _remembered(row)
+        return replace(_remembered(row), as_of=as_of)
 
     def memory_left_by(self, calibration_id: int) -> Remembered:
         """What one run left to the next, cleared or not.  :raises NotFound:"""

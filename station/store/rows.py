@@ -158,8 +158,19 @@ def request_hash(request: CalibrationRequest) -> bytes:
         "work_order": request.work_order,
         "metadata": dict(sorted(request.metadata.items())),
         "of": request.of,
+        **asked_more(request),
     }
     return hashlib.sha256(compact(fields).encode()).digest()[:16]
+
+
+def asked_more(request: CalibrationRequest) -> dict[str, JsonValue]:
+    """What a request says of accuracy and references, if it says anything."""
+    more: dict[str, JsonValue] = {
+        "references": [reference.model_dump() for reference in request.references],
+        "until_mm": request.until_mm,
+        "accuracy_mm": request.accuracy_mm,
+    }
+    return {key: value for key, value in more.items() if value}
 
 
 def reading_row(reading: Reading) -> tuple[object, ...]:

@@ -33,7 +33,6 @@ from station.records import (
 )
 from station.store.chain import Verified, append, verify
 from station.store.ends import End, UnstoredEnds, end_of
-from station.store.events import StationEvents
 from station.store.outbox import Outbox
 from station.store.people import People
 from station.store.robots import Memories
@@ -41,6 +40,7 @@ from station.store.rows import (
     LIST_COLUMNS,
     READING_COLUMNS,
     Page,
+    asked_more,
     calibration_from_row,
     compact,
     document_from,
@@ -53,19 +53,22 @@ from station.store.rows import (
     row_id,
     summary_from_row,
 )
+from station.store.stored_events import StoredEvents
+from station.store.tables import Tables
 from station.store.times import RunTimes, now, now_ms
 from station.store.trends import Trends
+from station.store.wire_logs import WireLogs
 from station.store.zero_journal import ZeroJournal
 
 log = logging.getLogger(__name__)
 
 S = TypeVar("S", bound=CalibrationSummary)
-_UNFINISHED = (State.QUEUED, State.RUNNING)
+_UNFINISHED = (State.QUEUED, State.RUNNING, State.WAITING)
 _DEEDS = {"apply": "run.applied", "rollback": "run.rolled_back"}
 """What the audit calls the start of a run of this kind."""
 
 
-class Store(Memories, ZeroJournal, Trends, People, Outbox, StationEvents):
+class Store(StoredEvents, Memories, ZeroJournal, WireLogs, Trends, Tables, People, Outbox):
     """Thread safe.  Order is by number: the clock that gives the times may jump.
 
     Every method may raise `StoreUnavailable`, unless it says otherwise.
@@ -126,7 +129,12 @@ class Store(Memories, ZeroJournal, Trends, People, Outbox, StationEvents):
             asked = {"kind": request.kind, "plan": request.label, "robot_serial": robot.serial}
             told = {**asked, "operator": request.operator, "work_order": request.work_order, "of": request.of}
             self.record(by, _DEEDS.get(request.kind, "run.started"), f"run {calibration_id}", after=told)
-            self.announce("run.started", self._written(db.conn, calibration_id))
+            told_now = self._written(db.conn, calibration_id)
+            self.announce("run.started", {k: v for k, v in told_now.items() if v not in (None, [], {})})
+                "run.started", {name: value for name, value in known if value not in (None, [], {})}
+            )
+            if more := asked_more(request):
+                self.add_event(calibration_id, "asked", more)
         self._times.begin(calibration_id, created_ms)
         return calibration_id
 
@@ -175,7 +183,7 @@ class Store(Memories, ZeroJournal, Trends, People, Outbox, StationEvents):
         with self._writing() as db:
             db.execute(
                 "UPDATE calibrations SET state = ?, steps = coalesce(?, steps),"
-                " started_ms = coalesce(started_ms, ?) WHERE id = ? AND state IN (?, ?)",
+                " started_ms = coalesce(started_ms, ?) WHERE id = ? AND state IN (?, ?, ?)",
                 [state, steps, self._times.now_ms(calibration_id), calibration_id, *_UNFINISHED],
             )
 
@@ -215,7 +223,7 @@ class Store(Memories, ZeroJournal, Trends, People, Outbox, StationEvents):
             ended = db.execute(
                 "UPDATE calibrations SET state = ?, verdict = ?, outcome = ?, reason = ?, reason_code = ?,"
                 " reason_params = ?, ended_ms = max(?, created_ms, coalesce(started_ms, 0))"
-                " WHERE id = ? AND state IN (?, ?)",
+                " WHERE id = ? AND state IN (?, ?, ?)",
                 [
                     end.state,
                     end.verdict,
@@ -259,7 +267,7 @@ class Store(Memories, ZeroJournal, Trends, People, Outbox, StationEvents):
 
         Where the last process knew how such a run had ended, that is stored.  Returns the ids.
         """
-        rows = self._readers.all("SELECT id FROM calibrations WHERE state IN (?, ?)", list(_UNFINISHED))
+        rows = self._readers.all("SELECT id FROM calibrations WHERE state IN (?, ?, ?)", list(_UNFINISHED))
         known = self._unstored.left_behind()
         ids = [int(row["id"]) for row in rows]
         for run in ids:
@@ -389,9 +397,11 @@ class Store(Memories, ZeroJournal, Trends, People, Outbox, StationEvents):
 
     # Readings and events -----------------------------------------------------------------------
 
-    def add_reading(self, calibration_id: int, reading: Reading) -> None:
-        """Committed and on the disk when this returns."""
-        self.add_readings(calibration_id, [reading])
+    def add_reading(self, calibration_id: int, reading: Reading, *, wire: bytes = b"") -> None:
+        """Committed and on the disk when this returns, with the piece of the wire log up to it."""
+        with self._writing():
+            self.add_readings(calibration_id, [reading])
+            self.add_wire(calibration_id, wire)
 
     def add_readings(self, calibration_id: int, readings: Sequence[Reading]) -> None:
         """Several in one transaction, as an import does."""

@@ -9,10 +9,10 @@ from station.records import TrendPoint
 from station.store.kept_file import KeptFile
 from station.store.rows import millis, moment
 
-_POSITION_ERROR = """CASE WHEN json_extract(result, '$.after.fresh_reading_rms_mm') IS NOT NULL THEN coalesce(
+POSITION_ERROR = """CASE WHEN json_extract(result, '$.after.fresh_reading_rms_mm') IS NOT NULL THEN coalesce(
     json_extract(result, '$.accuracy.bound_95_mm'),
     json_extract(result, '$.after.predicted_position_error_mm.bound_95'),
-    json_extract(result, '$.after.predicted_position_error_mm.max')) END AS position_error_mm"""
+    json_extract(result, '$.after.predicted_position_error_mm.max')) END"""
 
 
 class Trends(KeptFile):
@@ -41,7 +41,7 @@ class Trends(KeptFile):
             bounds.append(millis(since))
         rows = self._readers.all(
             "SELECT id, uid, robot_serial, kind, plan, state, verdict, outcome, reason_code, ended_ms,"
-            f" zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg, {_POSITION_ERROR}"
+            f" zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg, {POSITION_ERROR} AS position_error_mm"
             " FROM calibrations LEFT JOIN results ON calibration_id = id"
             f" WHERE {' AND '.join(conditions)} ORDER BY id DESC LIMIT ?",
             [*values, *bounds, limit],

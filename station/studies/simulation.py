@@ -6,12 +6,14 @@ its readings.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import Any, Literal
 
 import numpy as np
 
+from drivers.emulated.machine import lower_meeting_point
 from drivers.emulated.spec import MachineSpec
 from drivers.emulated.virtual import VirtualReading, VirtualRig
 from station.five_bar import Robot, inverse
@@ -137,3 +139,21 @@ class SimulatedMachine:
 def known_to(servo: Servo) -> float | None:
     """`feedback_sd_deg` of a robot whose servos rest so: what feedback leaves open of a joint angle."""
     return None if servo == "continuous" else 0.0
+
+
+def true_positions(robot: Robot, truth: Real, theta: Real) -> Complex:
+    """(K,) mm, where P of a machine with errors `truth` (12,) stands at drive angles theta (K, 2), rad.
+
+    By the emulated machine's own geometry, without the pulses and the scatter of a servo.
+    """
+    places = []
+    for angles in theta + truth[:2]:
+        elbows = [
+            (x + truth[2 + 2 * i] + length * math.cos(a), y + truth[3 + 2 * i] + length * math.sin(a))
+            for i, ((x, y), length, a) in enumerate(
+                zip(robot.e, np.array(robot.L) + truth[6:8], angles, strict=True)
+            )
+        ]
+        links = np.array(robot.l) + truth[8:10]
+        places.append(complex(*lower_meeting_point(elbows[0], links[0], elbows[1], links[1])))
+    return np.array(places)

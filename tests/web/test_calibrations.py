@@ -93,7 +93,7 @@ def test_a_wrong_body_names_the_field(service: Service, changes: dict[str, Any],
 
 def test_every_plan_that_is_offered_is_accepted(service: Service) -> None:
     plans = service.client.get("/api/v1/station").json()["station"]["plans"]
-    assert plans == ["paper", "rapid", "full", "diagnostic"]
+    assert plans == ["paper", "rapid", "full", "diagnostic", "adaptive", "check", "reference", "two_mounts"]
     for plan in plans:
         run = service.complete(plan=plan)
         assert service.client.get(f"{LIST}/{run}").json()["plan"] == plan
@@ -148,3 +148,20 @@ def test_the_list_is_filtered(service: Service) -> None:
 def test_a_wrong_filter_names_the_field(service: Service, name: str, value: str) -> None:
     answer = service.client.get(LIST, params={name: value})
     assert (answer.status_code, answer.json()["field"]) == (422, name)
+
+
+@pytest.mark.parametrize(
+    ("field", "value"),
+    [
+        ("robot_serial", ".."),
+        ("robot_serial", "\uff26\uff22-1"),
+        ("robot_serial", "F\u0412-1"),
+        ("operator", "a\x00b"),
+        ("operator", "a\x1b[2Jb"),
+        ("work_order", "a\nb"),
+    ],
+)
+def test_what_cannot_be_told_apart_or_printed_is_refused(service: Service, field: str, value: str) -> None:
+    answer = service.start(**{field: value})
+    assert (answer.status_code, answer.json()["field"]) == (422, field)
+    assert service.client.get("/api/v1/calibrations").json()["items"] == []

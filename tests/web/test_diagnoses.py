@@ -47,7 +47,10 @@ def test_the_report_is_one_page_that_loads_nothing(service: Service) -> None:
     assert answer.status_code == 200
     assert answer.headers["content-type"].startswith("text/html")
     assert "default-src 'none'" in answer.headers["content-security-policy"]
-    assert f"Diagnosis of run {number}, robot R1" in answer.text
+    uid = service.client.get(f"{LIST}/{number}").json()["uid"]
+    assert f"Diagnosis of run {number}, uid {uid}, robot R1" in answer.text
+    known = {"If-None-Match": answer.headers["etag"]}
+    assert service.client.get(f"{LIST}/{number}/report.html", headers=known).status_code == 304
     assert service.client.get(f"{LIST}/{number}/diagnosis").json()["sentence"] in answer.text
     assert "<script" not in answer.text
 

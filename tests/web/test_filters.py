@@ -66,3 +66,11 @@ def test_metadata_in_another_order_is_the_same_request(service: Service) -> None
     again = service.start(key="k", metadata={"b": 2, "a": 1})
     assert (again.status_code, again.json()["id"]) == (202, first.json()["id"])
     assert service.start(key="k", metadata={"a": 1, "b": 3}).status_code == 409
+
+
+@pytest.mark.parametrize("name", ["since", "until", "ended_since"])
+@pytest.mark.parametrize("value", ["2026", "0.5", "nan", "-1"])
+def test_a_number_is_no_time(service: Service, name: str, value: str) -> None:
+    answer = service.client.get("/api/v1/calibrations", params={name: value})
+    assert (answer.status_code, answer.json()["field"]) == (422, name)
+    assert "date or time" in answer.json()["detail"]

@@ -11,7 +11,8 @@ import pytest
 from starlette.websockets import WebSocketDisconnect
 
 from station.motion.events import LiveEvent
-from station.records import MachineView, RetractView, StationInfo, StationView, Workspace
+from station.plans import PLANS
+from station.records import CalibrationHolds, MachineView, RetractView, StationInfo, StationView, Workspace
 from station.service.orchestrator import Orchestrator
 from tests.web.conftest import Service
 from web.live import LiveFeed
@@ -32,7 +33,7 @@ def test_a_snapshot_first_then_numbered_events_to_the_end_of_the_run(service: Se
         snapshot = socket.receive_json()
         assert snapshot["type"] == "snapshot"
         assert snapshot["data"].keys() == service.client.get("/api/v1/station").json().keys()
-        assert snapshot["data"]["station"]["plans"] == ["paper", "rapid", "full", "diagnostic"]
+        assert snapshot["data"]["station"]["plans"] == list(PLANS)
         service.start()
         events = [m for m in until(socket, "ended") if m["type"] != "beat"]
     first = snapshot["number"] + 1
@@ -104,6 +105,7 @@ class Source:
             ),
             workspace=Workspace(x=(-240, 240), y=(-782, -632)),
             retract=RetractView(needed=False, excess_mm=None, text=""),
+            calibration=CalibrationHolds(robot_serial="FB-1", locked=False, text=""),
             run=None,
             last=None,
         )

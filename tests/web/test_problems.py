@@ -26,12 +26,6 @@ def test_what_is_not_there(service: Service, path: str) -> None:
     problem_of(service.client.get(path), 404)
 
 
-def test_a_wrong_method_says_which_are_allowed(service: Service) -> None:
-    answer = service.client.delete(RUNS)
-    problem_of(answer, 405)
-    assert answer.headers["allow"]
-
-
 def test_a_body_that_is_no_json(service: Service) -> None:
     headers = {"Content-Type": "application/json"}
     problem_of(service.client.post(RUNS, content=b"{", headers=headers), 422)

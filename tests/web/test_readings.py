@@ -25,6 +25,8 @@ def test_the_csv_reads_back_as_a_measurement_file(service: Service) -> None:
     assert answer.headers["content-type"].startswith("text/csv")
     assert f"calibration-{run}-readings.csv" in answer.headers["content-disposition"]
     assert len(parse_measurements(answer.content)) == 6
+    uid = service.client.get(f"/api/v1/calibrations/{run}").json()["uid"]
+    assert answer.headers["run-uid"] == uid
 
 
 def test_a_run_that_is_not_there_has_no_readings(service: Service) -> None:

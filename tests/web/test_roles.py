@@ -23,7 +23,7 @@ def name_of(need: RouteNeed) -> str:
 @pytest.mark.parametrize("need", HTTP, ids=name_of)
 def test_every_cell_of_the_table(closed: Service, need: RouteNeed) -> None:
     """A refusal names the role; whoever may pass gets past the guard, whatever the route then says."""
-    path = re.sub(r"{\w*id}", "999", need.path).replace("{serial}", "FB-1")
+    path = re.sub(r"{\w*id}", "999", need.path).replace("{serial}", "FB-1").replace("{name}", "paper")
     assert "{" not in path
     for role in ROLES:
         answer = closed.client.request(need.method, path, headers=closed.key(role))

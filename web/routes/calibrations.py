@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from datetime import datetime
 from typing import Annotated, Any, Literal
 
 from fastapi import BackgroundTasks, Query, Response
@@ -19,13 +18,20 @@ from station.records import (
     State,
     Submitted,
 )
-from station.run_kinds import application, kind_of_plan
+from station.run_kinds import application, change_of, kind_of_plan, translated
 from station.service import Runtime
 from web.aside import aside, record_later
-from web.bodies import ApplyBody, CalibrationBody, CalibrationList
+from web.bodies import (
+    AnswerBody,
+    ApplyBody,
+    CalibrationBody,
+    CalibrationList,
+    TranslateBody,
+    TranslatedList,
+)
 from web.guarded import Router, needs
 from web.problems import documented
-from web.routes.parts import LOCATION, CalibrationId, IdempotencyKey, TheRuntime
+from web.routes.parts import LOCATION, CalibrationId, CallerName, IdempotencyKey, Moment, TheRuntime
 
 ABORT_TIMEOUT_S = 5.0
 
@@ -46,7 +52,7 @@ def start_calibration(
     idempotency_key: IdempotencyKey = None,
 ) -> CalibrationSummary:
     """Start a run.  The same `Idempotency-Key` with the same body answers the same run."""
-    request = CalibrationRequest(kind=kind_of_plan(body.plan), **body.model_dump())
+    request = CalibrationRequest(kind=kind_of_plan(body.plan), **dict(body))
     submitted = runtime.orchestrator.submit(request, idempotency_key=idempotency_key, by=by)
     return _started(submitted, runtime, response)
 
@@ -61,9 +67,9 @@ def list_calibrations(
     verdict: Literal["pass", "fail"] | None = None,
     plan: Annotated[str | None, Query(description="as in the run, also `apply` or `dataset`")] = None,
     work_order: str | None = None,
-    since: Annotated[datetime | None, Query(description="created at or after")] = None,
-    until: Annotated[datetime | None, Query(description="created before")] = None,
-    ended_since: Annotated[datetime | None, Query(description="ended at or after")] = None,
+    since: Annotated[Moment | None, Query(description="created at or after")] = None,
+    until: Annotated[Moment | None, Query(description="created before")] = None,
+    ended_since: Annotated[Moment | None, Query(description="ended at or after")] = None,
 ) -> CalibrationList:
     """Newest first, page by page."""
     page = runtime.store.calibrations(
@@ -92,6 +98,7 @@ def read_calibration(calibration_id: CalibrationId, runtime: TheRuntime) -> Cali
     calibration = runtime.store.calibration(calibration_id)
     known = {
         "application": application(runtime.store, calibration),
+        "prompt": runtime.orchestrator.prompt(calibration_id),
         "zero_offset_tolerance_deg": runtime.store.robot_of(calibration_id).tolerances.zero_offset_deg,
     }
     return calibration.model_copy(update=known)
@@ -124,6 +131,35 @@ async def abort_calibration(
         raise HTTPException(
             504, "The abort was sent but not confirmed; use the stop or the emergency stop."
         ) from late
+
+
+@router.post(
+    "/{calibration_id}/answer",
+    response_model=CalibrationSummary,
+    responses=documented(404, 409),
+)
+def answer_prompt(
+    calibration_id: CalibrationId,
+    body: AnswerBody,
+    by: Annotated[Actor, needs(Permission.OPERATE)],
+    runtime: TheRuntime,
+    operator: CallerName = None,
+) -> CalibrationSummary:
+    """Answer what a run in state `waiting` asks.  After a value that cannot be it goes on waiting."""
+    runtime.orchestrator.answer(calibration_id, body.prompt, body.value, by.name)
+    return runtime.store.summary(calibration_id)
+
+
+@router.post(
+    "/{calibration_id}/translate",
+    response_model=TranslatedList,
+    responses=documented(404, 409),
+    dependencies=[needs(Permission.READ)],
+)
+def translate(calibration_id: CalibrationId, body: TranslateBody, runtime: TheRuntime) -> TranslatedList:
+    """Taught joint positions as the same physical positions under the zeros of this run."""
+    change = change_of(runtime.store, calibration_id, body.taught_under)
+    return TranslatedList(items=list(translated(change, body.positions, runtime.settings.joints)))
 
 
 @router.post(

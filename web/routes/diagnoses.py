@@ -11,7 +11,7 @@ from station.diagnosis import Findings, learned_model, page, range_text, residua
 from station.errors import NotApplicable
 from station.people import Permission
 from station.records import DiagnosisDocument, Reading
-from station.run_kinds import diagnosed, planned
+from station.run_kinds import check_not_locked, diagnosed, planned
 from station.service import Runtime
 from web.bodies import (
     JointCommand,
@@ -91,12 +91,13 @@ def read_separating(calibration_id: CalibrationId, runtime: TheRuntime) -> Separ
 def read_report(calibration_id: CalibrationId, runtime: TheRuntime) -> HTMLResponse:
     """The diagnosis as a page with drawings, computed again from the stored readings."""
     findings, _ = _again(runtime, calibration_id)
-    report = page(findings, f"run {calibration_id}, robot {findings.robot.serial}")
+    uid = runtime.store.summary(calibration_id).uid
+    report = page(findings, f"run {calibration_id}, uid {uid}, robot {findings.robot.serial}")
     return HTMLResponse(report.to_html(), headers={"Content-Security-Policy": REPORT_POLICY})
 
 
 @router.post(
-    "/solve", response_model=Solution, responses=documented(404), dependencies=[needs(Permission.READ)]
+    "/solve", response_model=Solution, responses=documented(404, 409), dependencies=[needs(Permission.READ)]
 )
 def solve(calibration_id: CalibrationId, body: SolveBody, runtime: TheRuntime) -> Solution:
     """Joint commands that bring P to the targets under the run's model, with every effect on the position.
@@ -104,6 +105,7 @@ def solve(calibration_id: CalibrationId, body: SolveBody, runtime: TheRuntime) -
     Refused are targets out of reach or beyond what an effect was learned on, and those without the
     approach, temperature or payload that an effect needs; the problem names target and field.
     """
+    check_not_locked(runtime.store, calibration_id)
     model = learned_model(runtime.store.diagnosis(calibration_id).model, f"of run {calibration_id}")
     theta_deg = np.degrees(solve_targets(model, targets_of([t.model_dump() for t in body.targets])))
     return Solution(

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from datetime import datetime
 from typing import Annotated
 
 from fastapi import Depends, Header, Path, Response
+from pydantic import BeforeValidator
 from starlette.requests import HTTPConnection
 
 from station.people import Access
@@ -33,3 +35,15 @@ IdempotencyKey = Annotated[str | None, Header(alias="Idempotency-Key", min_lengt
 LOCATION = {"Location": {"description": "the run's address", "schema": {"type": "string"}}}
 """The header of an answer that made a run, for OpenAPI."""
 CalibrationId = Annotated[int, Path(ge=1, le=LARGEST_ID)]
+
+
+def _no_number(text: object) -> object:
+    try:
+        float(str(text))
+    except ValueError:
+        return text
+    raise ValueError("must be a date or time as 2026-03-31T14:00:00Z")
+
+
+Moment = Annotated[datetime, BeforeValidator(_no_number)]
+"""A number is refused: `2026` would be taken for seconds since 1970, and the filter would let all pass."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from datetime import datetime
 from typing import Annotated
 
 from fastapi import Query
@@ -12,7 +11,7 @@ from station.quality import Quality, Trend, quality, trend
 from web.bodies import Serial
 from web.guarded import Router, needs
 from web.problems import documented
-from web.routes.parts import TheRuntime
+from web.routes.parts import Moment, TheRuntime
 
 router = Router(tags=["quality"])
 IN_TREND = ("calibrate", "apply", "rollback")
@@ -22,7 +21,7 @@ IN_TREND = ("calibrate", "apply", "rollback")
 def read_quality(
     runtime: TheRuntime,
     robot_serial: Serial | None = None,
-    since: Annotated[datetime | None, Query(description="ended then or later")] = None,
+    since: Annotated[Moment | None, Query(description="ended then or later")] = None,
 ) -> Quality:
     """Capability, run rules and a Pareto of outcomes over the newest finished calibrations.
 
@@ -42,7 +41,7 @@ def read_quality(
 def read_trend(
     serial: Serial,
     runtime: TheRuntime,
-    since: Annotated[datetime | None, Query(description="ended then or later")] = None,
+    since: Annotated[Moment | None, Query(description="ended then or later")] = None,
     limit: Annotated[int, Query(ge=1, le=5000)] = 200,
 ) -> Trend:
     """The newest finished runs of one robot, oldest first, with control charts."""

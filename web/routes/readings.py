@@ -12,6 +12,9 @@ from web.routes.parts import CalibrationId, CsvResponse, TheRuntime
 router = Router(prefix="/calibrations/{calibration_id}", tags=["readings"])
 
 
+RUN_UID = "Run-Uid"
+
+
 @router.get(
     "/readings", response_model=ReadingList, responses=documented(404), dependencies=[needs(Permission.READ)]
 )
@@ -29,9 +32,10 @@ def list_readings(calibration_id: CalibrationId, runtime: TheRuntime) -> Reading
     dependencies=[needs(Permission.READ)],
 )
 def download_readings(calibration_id: CalibrationId, runtime: TheRuntime) -> CsvResponse:
-    """The measurement file itself."""
+    """The measurement file itself, an imported one as it was sent; the header `Run-Uid` says of which run."""
     name = f"calibration-{calibration_id}-readings.csv"
+    uid = runtime.store.summary(calibration_id).uid
     return CsvResponse(
         readings_to_csv(runtime.store.readings(calibration_id)),
-        headers={"Content-Disposition": f'attachment; filename="{name}"'},
+        headers={"Content-Disposition": f'attachment; filename="{name}"', RUN_UID: uid},
     )

@@ -32,7 +32,7 @@ EDGE = 2
 LAST = (0, 2, 3)
 """Columns of `Situation.slider` that the last motion may be."""
 MOST_DOUBTFUL = 30
-HEALING = (4, 8, 16, 32)
+HEALING = (4, 8, 16, 32, 64)
 """Lengths of a step that heals, in readings."""
 
 
@@ -156,11 +156,28 @@ def _healing(s: Situation, target: str, joint: int | None) -> Family:
         for length in HEALING
         for k in range(EDGE, len(t) - length - EDGE, every if length > HEALING[0] else 2)
     )
-    return _step("healing step", 0.3 if joint is None else 0.15, target, joint, hidden)
+
+    def neighbours(h: Hidden, share: float) -> list[Hidden]:
+        begin, end = (int(k) for k in np.searchsorted(t, (h["from_s"], h["until_s"])))
+        later, longer = max(1, round(share * every)), max(1, round(share * (end - begin) / 2))
+        moved = [(begin + k * later, end + n * longer) for k in (-1, 0, 1) for n in (-1, 0, 1)]
+        moved += [(begin + k, end + k) for k in (-later, later)]
+        return [
+            {"from_s": float(t[b]), "until_s": float(t[e])}
+            for b, e in moved
+            if EDGE <= b < e - 1 and e < len(t)
+        ]
+
+    return _step("healing step", 0.3 if joint is None else 0.15, target, joint, hidden, neighbours)
 
 
 def _step(
-    name: str, weight: float, target: str, joint: int | None, hidden: tuple[dict[str, float], ...]
+    name: str,
+    weight: float,
+    target: str,
+    joint: int | None,
+    hidden: tuple[dict[str, float], ...],
+    neighbours: Callable[[Hidden, float], list[Hidden]] | None = None,
 ) -> Family:
     """A step of the reading (no joint) or of one joint's counts, at the moments that are tried."""
 
@@ -175,6 +192,7 @@ def _step(
         sizes(0.002, 5.0) if joint is None else sizes(5e-4 * DEG, 2.0 * DEG),
         hidden,
         actions,
+        neighbours=neighbours,
     )
 
 

@@ -107,6 +107,12 @@ class Findings(ABC):
         """Verdict, confirmation, and what follows."""
 
     @property
+    def zeros_only_bound_mm(self) -> float | None:
+        """No position error is larger, with 95 % probability, if the drives get the zero offsets and nothing
+        else is compensated; None where that is not known."""
+        return None
+
+    @property
     @abstractmethod
     def noise(self) -> Noise:
         """What the readings were judged by."""

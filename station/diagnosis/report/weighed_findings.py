@@ -26,7 +26,7 @@ from station.diagnosis.tests_of_fit import whitened_residual
 from station.diagnosis.weighed_loop import WeighedDiagnosis
 from station.effects import five_bar_catalogue
 from station.fitting import MINIMUM_DOF, Noise, NotConvergedError, Solution, pure_error, tolerance_prior
-from station.five_bar import describe_weak_direction
+from station.five_bar import GRID, describe_weak_direction, inverse
 from station.model import Fit, Model, fit
 from station.records import (
     LIMIT_SDS,
@@ -67,6 +67,14 @@ class WeighedFindings(Findings):
     def origin(self) -> str:
         """Of the whole set."""
         return "Mean over all explanations; the standard uncertainty covers their differences."
+
+    @cached_property
+    def zeros_only_bound_mm(self) -> float | None:
+        """Of the whole set."""
+        mixture = self.found.mixture
+        place = mixture.mechanism.robot.workspace_grid(*GRID)
+        theta = inverse(mixture.mechanism.nominal, place) - mixture.mean[:2]
+        return mixture.position_error(theta, place).bound_95
 
     @cached_property
     def curves(self) -> tuple[Curve, ...]:

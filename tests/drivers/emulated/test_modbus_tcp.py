@@ -8,7 +8,8 @@ import subprocess
 
 import pytest
 
-from drivers.emulated.modbus_tcp import DriveReply, DropLink, ModbusTcpGateway
+from drivers.emulated.link import DriveReply, DropLink
+from drivers.emulated.modbus_tcp import ModbusTcpGateway
 from drivers.emulated.rig import EmulatedRig
 
 

@@ -104,7 +104,7 @@ def test_quick_stop_halts_a_move() -> None:
 def test_a_stop_gets_through_although_nobody_is_connected(rig: EmulatedRig) -> None:
     bus = ModbusBus(rig.servo_url)
     sent: list[bytes] = []
-    bus.trace = lambda direction, data: sent.append(data) if direction == "tx" else None
+    bus.line.recorder = lambda what, data: sent.append(data) if what == "tx" else None
     axis = LeadshineEL7(bus, 1, JointScaling(10_000, 20, 0.0, 1), name="servo axis 1")
     axis.make_safe()
     stop, look = bytes.fromhex("01 06 6002 0040"), bytes.fromhex("01 03 0B05 0001")
@@ -280,7 +280,7 @@ def test_a_move_whose_reply_is_lost_runs_once(rig: EmulatedRig) -> None:
     axis.connect()
     axis.enable()
     sent: list[bytes] = []
-    bus.trace = lambda direction, data: sent.append(data) if direction == "tx" else None
+    bus.line.recorder = lambda what, data: sent.append(data) if what == "tx" else None
     rig.inject(Fault(kind="drive_late", joint=1, after=2, delay_s=0.12))  # two reads precede the move
     axis.move_to(10.0, 20.0)
     wait_for(lambda: axis.status().in_position)
@@ -332,7 +332,7 @@ def test_stops_faults_and_readers_at_once(rig: EmulatedRig, axes: Axes, scale: H
 # -- as a program of its own -----------------------------------------------------------------------
 
 
-def start(*arguments: str) -> tuple[subprocess.Popen[str], dict[str, str]]:
+def start(*arguments: str) -> tuple[subprocess.Popen[str], dict[str, dict[str, str]]]:
     process = subprocess.Popen(
         [sys.executable, "-m", "drivers.emulated", *arguments],
         stdin=subprocess.PIPE,
@@ -340,7 +340,7 @@ def start(*arguments: str) -> tuple[subprocess.Popen[str], dict[str, str]]:
         text=True,
     )
     assert process.stdout is not None
-    addresses: dict[str, str] = json.loads(process.stdout.readline())
+    addresses: dict[str, dict[str, str]] = json.loads(process.stdout.readline())
     return process, addresses
 
 
@@ -351,7 +351,7 @@ def end(process: subprocess.Popen[str]) -> int:
 
 def test_program_serves_until_its_input_ends() -> None:
     process, addresses = start(str(DEFAULT_RIG), "--speed", "500")
-    scale = HeidenhainND(addresses["scale_url"])
+    scale = HeidenhainND(addresses["scale"]["url"])
     scale.connect()
     assert scale.read_mm() == pytest.approx(111.65, abs=0.02)
     scale.close()
@@ -367,7 +367,7 @@ def test_program_ends_when_terminated() -> None:
 def test_program_killed_finds_its_drives_where_they_were(tmp_path: Path) -> None:
     state_file = tmp_path / "place.json"
     process, addresses = start("--speed", "500", "--state", str(state_file))
-    bus = ModbusBus(addresses["servo_url"])
+    bus = ModbusBus(addresses["servo"]["url"])
     axis = LeadshineEL7(bus, 1, JointScaling(10_000, 20, 0.0, 1), name="servo axis 1")
     axis.connect()
     axis.enable()
@@ -379,7 +379,7 @@ def test_program_killed_finds_its_drives_where_they_were(tmp_path: Path) -> None
     os.kill(process.pid, signal.SIGKILL)
     end(process)
     process, addresses = start("--state", str(state_file))
-    bus = ModbusBus(addresses["servo_url"])
+    bus = ModbusBus(addresses["servo"]["url"])
     axis = LeadshineEL7(bus, 1, JointScaling(10_000, 20, 0.0, 1), name="servo axis 1")
     axis.connect()
     assert axis.feedback_deg() == left_deg

@@ -62,7 +62,7 @@ def test_sign_number_and_sorting() -> None:
 def test_the_flight_recorder_sees_both_directions() -> None:
     seen = []
     with connected(VALUE) as scale:
-        scale.trace = lambda direction, data: seen.append((direction, data))
+        scale.line.recorder = lambda what, data: seen.append((what, data))
         scale.read_mm()
     assert b"".join(data for way, data in seen if way == "tx") == VALUE[0]
     assert b"".join(data for way, data in seen if way == "rx") == VALUE[1]
@@ -73,7 +73,7 @@ def test_value_over_the_network() -> None:
         scale = HeidenhainND(f"socket://127.0.0.1:{end.port}", timeout_s=0.5)
         scale.connect()
         assert scale.read_mm() == 121.975
-        assert scale.notice is None
+        assert scale.line.notice is None
         scale.close()
 
 
@@ -220,7 +220,7 @@ def test_parity_on_a_pseudo_terminal_needs_the_override() -> None:
 def test_the_override_is_told() -> None:
     with PtyEnd([]) as end:
         scale = HeidenhainND(f"serial://{end.port}?format=7E2&override=8N1")
-    assert scale.notice == f"{end.port} runs as 8N1 instead of 7E2, as its URL asks."
+    assert scale.line.notice == f"{end.port} runs as 8N1 instead of 7E2, as its URL asks."
 
 
 def test_a_missing_port_is_a_lost_link() -> None:
@@ -236,8 +236,8 @@ def test_a_port_that_is_held_is_a_lost_link() -> None:
 
 
 def scale_url(scale: HeidenhainND) -> str:
-    assert scale.notice is not None
-    return f"serial://{scale.notice.split()[0]}?override=8N1"
+    assert scale.line.notice is not None
+    return f"serial://{scale.line.notice.split()[0]}?override=8N1"
 
 
 def test_reading_before_connect_and_closing_twice() -> None:

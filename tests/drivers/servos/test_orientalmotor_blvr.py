@@ -119,7 +119,7 @@ def test_a_drive_that_does_not_know_its_position_is_refused() -> None:
 
 def test_a_move_is_one_frame_and_in_position_means_this_move() -> None:
     with axis(
-        READY, MOVE_TO_200_DEG, MOVING, ARRIVED, FEEDBACK_AT_180_DEG, ARRIVED, FEEDBACK_AT_200_DEG
+        READY, SERVO_ON, MOVE_TO_200_DEG, MOVING, ARRIVED, FEEDBACK_AT_180_DEG, ARRIVED, FEEDBACK_AT_200_DEG
     ) as drive:
         drive.move_to(200.0, 10.0)
         assert drive.status() == AxisStatus(enabled=True, moving=True, in_position=False, alarm=None)
@@ -128,11 +128,12 @@ def test_a_move_is_one_frame_and_in_position_means_this_move() -> None:
 
 
 def test_a_move_whose_reply_is_lost_is_not_sent_again_if_it_runs() -> None:
-    with axis(READY, unanswered(MOVE_TO_200_DEG), ask("005C", "0000 2B67"), MOVING) as drive:
+    with axis(READY, SERVO_ON, unanswered(MOVE_TO_200_DEG), ask("005C", "0000 2B67"), MOVING) as drive:
         drive.move_to(200.0, 10.0)
 
 
 def test_a_stop_is_held_until_the_next_move() -> None:
+    """A stop that somebody sent before this connection, too: the first move takes it back."""
     with axis(STOP, READY, READY, SERVO_ON, MOVE_TO_200_DEG) as drive:
         drive.quick_stop()
         drive.move_to(200.0, 10.0)

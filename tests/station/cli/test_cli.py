@@ -13,6 +13,7 @@ import sys
 import time
 from collections.abc import Iterator
 from contextlib import contextmanager
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -80,6 +81,16 @@ def test_show_tells_one_run(home: Path) -> None:
 def test_export_writes_the_measurement_file(home: Path) -> None:
     row = next(csv.DictReader(io.StringIO(station(home, "export", "1").output)))
     assert (row["reading"], float(row["scale_mm"]), row["approach2"]) == ("1", 12.3456, "-1")
+    assert row["run_uid"] == json.loads(station(home, "show", "1", "--json").output)["uid"]
+
+
+def test_a_table_of_runs_holds_no_formulas(tmp_path: Path) -> None:
+    store = Store(tmp_path / "station.db")
+    request = replace(asked("R1", "paper"), operator="=cmd()", work_order="@SUM(A1)")
+    store.create(request, Robot.default("R1"))
+    store.close()
+    (row,) = csv.DictReader(io.StringIO(station(tmp_path, "runs", "--csv").output))
+    assert (row["operator"], row["work_order"], row["id"]) == ("'=cmd()", "'@SUM(A1)", "1")
 
 
 def test_import_keeps_a_file_as_a_run_and_a_robot_with_a_defect_is_no_pass(tmp_path: Path) -> None:
@@ -117,6 +128,8 @@ def test_a_backup_is_a_station_database_and_never_overwrites(home: Path, tmp_pat
         ("runs", "--state", "napping"),
         ("import", "none.csv"),
         ("calibrate", "--plan", "guess"),
+        ("calibrate", "--serial", ".."),
+        ("calibrate", "--operator", "a\x1b[2J"),
         ("calibrate", "--config", "none.toml"),
         ("calibrate", "--robot", "none.toml"),
         ("calibrate", "--emulate", "none.toml"),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 import logging
 from pathlib import Path
 
@@ -128,6 +130,25 @@ def test_what_was_written_is_read_back() -> None:
     assert back.distance.tolist() == [10, 11, 12, 13, 14]
     assert back.approach[0].tolist() == [1, -1]
     assert back.temperature_c is None
+
+
+def test_the_uid_of_an_export_is_read_over_in_silence(caplog: pytest.LogCaptureFixture) -> None:
+    readings = [Reading(k + 1, 1.0 * k, (0.1 * k, 180.0 - k), (0, 0), 10.0, f"P{k}") for k in range(5)]
+    exported = readings_to_csv(readings, run_uid="0193-uid")
+    assert {row["run_uid"] for row in csv.DictReader(io.StringIO(exported))} == {"0193-uid"}
+    assert len(parse_measurements(exported.encode())) == 5
+    assert not caplog.records
+
+
+def test_labels_that_would_be_formulas_are_written_as_text() -> None:
+    labels = ("=1+1", "-1", "@A1", "P1", "+x")
+    readings = [
+        Reading(k + 1, 1.0 * k, (0.1 * k, 180.0 - k), (0, 0), 10.0, label, mount=label)
+        for k, label in enumerate(labels)
+    ]
+    rows = list(csv.DictReader(io.StringIO(readings_to_csv(readings))))
+    for column in ("position", "mount"):
+        assert [row[column] for row in rows] == ["'=1+1", "-1", "'@A1", "P1", "'+x"]
 
 
 def test_ids_may_be_words_and_quotes_are_allowed() -> None:

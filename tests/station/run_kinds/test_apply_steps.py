@@ -17,6 +17,7 @@ from station.identification.verification import fresh_stops, verify
 from station.records import (
     LIMIT_SDS,
     Accuracy,
+    Ask,
     CalibrationResult,
     MeasurementSequence,
     Procedure,
@@ -62,7 +63,7 @@ class Drives:
         try:
             step = next(procedure)
             while True:
-                assert not isinstance(step, Retract)
+                assert not isinstance(step, Retract | Ask)
                 self.steps.append(step)
                 if isinstance(step, MeasurementSequence):
                     step = procedure.send(self._read(step))

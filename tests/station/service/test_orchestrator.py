@@ -224,7 +224,7 @@ def test_all_devices_that_do_not_connect_are_named_at_once(start: Start, store: 
 def test_a_store_that_takes_nothing_more_fails_the_run_and_stops_the_machine(
     start: Start, store: Store, rig: Rig, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    def full(*_: object) -> None:
+    def full(*_: object, **__: object) -> None:
         raise StoreUnavailable("database or disk is full")
 
     monkeypatch.setattr(store, "add_reading", full)

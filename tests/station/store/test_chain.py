@@ -14,6 +14,7 @@ import rfc8785
 from click.testing import CliRunner
 
 from station.cli import main
+from station.errors import NotFound
 from station.five_bar.robot_file import Robot
 from station.records import Quantity, Reading, State
 from station.store.store import Store
@@ -126,6 +127,28 @@ def test_retention_is_no_tampering(three: Store) -> None:
     assert three.verify().broken is None
     change(three, "UPDATE readings SET scale_mm = 0 WHERE calibration_id = 3")
     assert three.verify().broken is not None
+
+
+def with_wire(store: Store) -> int:
+    run = store.create(asked("R1", "rapid"), Robot.default("R1"))
+    for piece in (b"first ", b"second"):
+        store.add_wire(run, piece)
+    store.finish(run, State.ABORTED)
+    return run
+
+
+def test_a_changed_wire_log_is_noticed_and_a_dropped_one_is_no_tampering(three: Store) -> None:
+    run = with_wire(three)
+    assert three.verify().broken is None
+    assert three.drop_wire(datetime.now(UTC) + timedelta(days=1)) == 1
+    assert three.verify().broken is None
+    with pytest.raises(NotFound, match=f"No wire log of run {run}"):
+        three.wire_log(run)
+    changed = with_wire(three)
+    change(three, f"UPDATE wire_logs SET piece = x'00' WHERE run_id = {changed} AND n = 2")
+    broken = three.verify().broken
+    assert broken is not None
+    assert (broken.id, broken.why) == (changed, "its wire log is not as it was recorded")
 
 
 def test_a_record_can_be_made_by_another_program(store: Store) -> None:

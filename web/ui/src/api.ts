@@ -5,6 +5,7 @@ import type {
   CalibrationBody,
   CalibrationList,
   Diagnosis,
+  PlanDocument,
   Problem,
   ResidualList,
   Robot,
@@ -51,6 +52,15 @@ export const start = (body: CalibrationBody, key: string) =>
   call<Summary>("POST", "/calibrations", {
     headers: { "Content-Type": "application/json", "Idempotency-Key": key },
     body: JSON.stringify(body),
+  });
+
+export const plan = (name: string, serial: string) =>
+  call<PlanDocument>("GET", `/plans/${name}${serial && `?robot_serial=${encodeURIComponent(serial)}`}`);
+
+export const answer = (id: number, prompt: string, value: number | null, who: string) =>
+  call<Summary>("POST", `/calibrations/${id}/answer`, {
+    headers: { "Content-Type": "application/json", "X-Operator": encodeURIComponent(who) },
+    body: JSON.stringify({ prompt, value }),
   });
 
 export const abort = (id: number) => call<Summary>("POST", `/calibrations/${id}/abort`);

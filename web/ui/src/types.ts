@@ -19,6 +19,7 @@ export type Calibration = Schemas["Calibration"];
 export type CalibrationBody = Schemas["CalibrationBody"];
 export type CalibrationList = Schemas["CalibrationList"];
 export type Plan = CalibrationBody["plan"];
+export type PlanDocument = Schemas["PlanDocument"];
 export type ApplicationState = Schemas["Application"]["state"];
 export type Quantity = Schemas["Quantity"];
 export type Residual = Schemas["Residual"];
@@ -37,7 +38,15 @@ export type LiveEvent = LiveMessage extends infer M
     : never
   : never;
 
-export type RunKind = "calibrate" | "diagnose" | "separate" | "apply" | "rollback" | "import" | "retract";
+export type RunKind =
+  | "calibrate"
+  | "check"
+  | "diagnose"
+  | "separate"
+  | "apply"
+  | "rollback"
+  | "import"
+  | "retract";
 export type Outcome = NonNullable<Summary["outcome"]>;
 
 /** An effect of the catalogue, or an unnamed error, and where it acts. */

@@ -69,6 +69,7 @@ export const run = (given: Partial<Run> = {}): Run => ({
   stops: [],
   readings: [],
   iterations: [],
+  prompt: null,
   ...given,
 });
 
@@ -78,6 +79,7 @@ export const stationNow = (given: Partial<Station> = {}): Station => ({
   interlocks: [],
   machine: null,
   workspace: { x: [-200, 200], y: [300, 500] },
+  calibration: { robot_serial: "FB-1", locked: false, text: "", check: null, calibration_valid_until: null },
   retract: { needed: false, excess_mm: 0, text: "" },
   run: null,
   last: null,
@@ -178,6 +180,11 @@ export const calibration = (given: Partial<Calibration> = {}): Calibration => ({
   application: null,
   memory: null,
   lack_of_fit: null,
+  accuracy: null,
+  advice: [],
+  check: null,
+  references: [],
+  prompt: null,
   before: null,
   after: null,
   iterations: [],

@@ -11,6 +11,7 @@ interface Look {
 const STATES: Record<State, Look> = {
   queued: { shape: "○", alarm: "" },
   running: { shape: "▶", alarm: "" },
+  waiting: { shape: "◆", alarm: "warn" },
   succeeded: { shape: "◆", alarm: "warn" },
   failed: { shape: "▲", alarm: "act" },
   aborted: { shape: "◆", alarm: "warn" },

@@ -5,6 +5,7 @@ import { t } from "../../messages";
 import { BeforeAfter } from "../../parts/before-after";
 import { useLoaded } from "../../parts/load";
 import type { Calibration } from "../../types";
+import { Accuracy } from "./accuracy";
 import { Application } from "./application";
 import { FindCause } from "./find-cause";
 import { FoundCauses } from "./found-causes";
@@ -50,9 +51,12 @@ function Result({ id }: { id: number }) {
       {result.zero_offsets.length ? (
         <Identified result={result} />
       ) : (
-        <section class="panel">
-          <p>{result.ended_at ? t.result.noOffsets : t.result.pending}</p>
-        </section>
+        <>
+          <Accuracy result={result} />
+          <section class="panel">
+            <p>{result.ended_at ? t.result.noOffsets : t.result.pending}</p>
+          </section>
+        </>
       )}
       {!misfit && offer}
     </div>
@@ -65,6 +69,7 @@ function Identified({ result }: { result: Calibration }) {
   return (
     <>
       {diagnosed && <FoundCauses id={result.id} serial={result.robot_serial} />}
+      <Accuracy result={result} />
       <Application result={result} />
       <ZeroOffsets result={result} />
       <BeforeAfter result={result} />

@@ -4,6 +4,7 @@ import { t } from "../../messages";
 import { AbortButton } from "./abort";
 import { WorkspaceMap } from "./map";
 import { Outcome, outcome } from "./outcome";
+import { Prompt } from "./prompt";
 
 /** Values older than this are marked as old. */
 const STALE_S = 3;
@@ -25,6 +26,7 @@ export function RunPanel() {
         </div>
         <AbortButton />
       </div>
+      <Prompt />
       <WorkspaceMap run={run ?? finished.value} />
       <LiveValues />
     </section>

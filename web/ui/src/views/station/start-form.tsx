@@ -9,6 +9,7 @@ import { operator } from "../../operator";
 import { MotionWarning } from "../../parts/motion-warning";
 import type { Plan } from "../../types";
 import { dismissOutcome } from "./outcome";
+import { PlanPromise } from "./plan-promise";
 import {
   arm,
   armed,
@@ -21,6 +22,7 @@ import {
   serial,
   trouble,
 } from "./start";
+import { WishFields } from "./wish-fields";
 
 export function StartForm() {
   const serialField = useRef<HTMLInputElement>(null);
@@ -72,11 +74,13 @@ export function StartForm() {
         <TextField name="robot_serial" label={t.station.serial} input={serialField} value={serial} />
         <TextField name="operator" label={t.shared.operator} input={operatorField} value={operator} />
         <PlanField />
+        <WishFields />
         <button type="submit" class="hidden" tabIndex={-1} aria-hidden="true" />
       </form>
       <p id="plan-explanation" class="note">
         {t.plans[plan.value].text}
       </p>
+      <PlanPromise />
       <p id="trouble" class={trouble.value ? "trouble" : ""} role="alert">
         {trouble.value && `▲ ${trouble.value.text}`}
       </p>

@@ -5,6 +5,7 @@ import { t } from "../../messages";
 import { keepOperator, operator } from "../../operator";
 import type { Plan } from "../../types";
 import { dismissOutcome } from "./outcome";
+import { forgetWishes, said } from "./wishes";
 
 export type StartField = "robot_serial" | "operator";
 
@@ -26,8 +27,11 @@ export function arm(): StartField | null {
   const field = emptyField();
   const text = field === "robot_serial" ? t.station.serialMissing : t.station.operatorMissing;
   trouble.value = field && { text, field };
-  if (!field) armed.value = newKey();
-  return field;
+  if (field) return field;
+  const { wrong } = said();
+  if (wrong) trouble.value = { text: t.station.wishWrong, field: wrong };
+  else armed.value = newKey();
+  return null;
 }
 
 export function disarm(): void {
@@ -40,9 +44,15 @@ export async function confirm(): Promise<boolean> {
   if (!key || sending.value) return false;
   sending.value = true;
   try {
-    const body = { robot_serial: serial.value.trim(), plan: plan.value, operator: operator.value.trim() };
+    const body = {
+      robot_serial: serial.value.trim(),
+      plan: plan.value,
+      operator: operator.value.trim(),
+      ...said().body,
+    };
     await start(body, key);
     keepOperator();
+    forgetWishes();
     trouble.value = null;
     disarm();
     dismissOutcome();

@@ -1,4 +1,5 @@
 import { t } from "../../messages";
+import { CalibrationHolds } from "./calibration-holds";
 import { Devices } from "./devices";
 import { Readings } from "./readings";
 import { Retract } from "./retract";
@@ -10,6 +11,7 @@ export function StationView() {
     <div class="station">
       <h1 class="hidden">{t.station.title}</h1>
       <div class="side">
+        <CalibrationHolds />
         <StartForm />
         <Devices />
         <Retract />

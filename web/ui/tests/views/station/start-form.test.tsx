@@ -181,4 +181,7 @@ describe("an armed start", () => {
 });
 
 it("offers the plans that the station can run", () =>
-  expect([...place.querySelectorAll("option")].map((one) => one.textContent)).toEqual(["Paper", "Full"]));
+  expect([...place.querySelectorAll("#plan option")].map((one) => one.textContent)).toEqual([
+    "Paper",
+    "Full",
+  ]));

@@ -1,4 +1,4 @@
-"""Events of runs and of the station itself: who aborted, what a device said."""
+"""Events: what is worth remembering of a run, or of the station itself."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ from station.store.rows import compact, moment
 from station.store.times import now_ms
 
 
-class StationEvents(KeptFile):
-    """What is worth remembering beside readings and results."""
+class StoredEvents(KeptFile):
+    """Rows that are only ever added."""
 
     def add_event(
         self, calibration_id: int | None, kind: str, data: dict[str, JsonValue] | None = None

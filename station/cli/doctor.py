@@ -1,0 +1,68 @@
+"""`station doctor`: what is wrong with ports, lines and devices, and what to do about it."""
+
+from __future__ import annotations
+
+import logging
+from pathlib import Path
+
+import click
+from rich.console import Console
+from rich.text import Text
+from rich.tree import Tree
+
+from station.cli.machine_options import logging_to, machine_options, read_settings
+from station.doctor import Condition, Finding, examine
+from station.five_bar import Robot
+from station.motion import equipment
+from station.service import holding
+from station.settings import database_path
+from station.store import Store
+
+_MARKS: dict[Condition, tuple[str, str]] = {
+    "ok": ("ok", "green"),
+    "note": ("note", "yellow"),
+    "trouble": ("trouble", "bold red"),
+}
+
+
+@click.command("doctor")
+@machine_options
+@click.pass_obj
+def doctor_command(home: Path, config: Path | None, emulate: Path | None, speed: float | None) -> None:
+    """Look at every device and its line, and say what to do; nothing moves.
+
+    Exit status 1: something does not work.
+    """
+    settings = read_settings(config, speed)
+    robot = _robot_measured_last(database_path(settings, home))
+    with holding(home), logging_to(home, terminal=logging.ERROR), equipment(settings, home, emulate) as found:
+        tree = examine(found.settings, found.devices, robot)
+    Console(highlight=False).print(_drawn(tree))
+    if not tree.healthy:
+        raise SystemExit(1)
+
+
+def _robot_measured_last(database: Path) -> Robot:
+    if not database.exists():
+        return Robot.default()
+    store = Store(database, read_only=True)
+    try:
+        last = store.last_on_rig()
+        return Robot.default() if last is None else store.robot_or_nominal(last.robot_serial)
+    finally:
+        store.close()
+
+
+def _drawn(finding: Finding) -> Tree:
+    tree = Tree(_line(finding))
+    for part in finding.parts:
+        tree.children.append(_drawn(part))
+    return tree
+
+
+def _line(finding: Finding) -> Text:
+    if finding.parts and finding.condition == "ok":
+        return Text(finding.text)
+    mark, style = _MARKS[finding.condition]
+    line = Text.assemble((mark, style), f"  {finding.text}")
+    return line.append(f"\n→ {finding.do}", "bold") if finding.do else line

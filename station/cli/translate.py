@@ -1,0 +1,41 @@
+"""`station translate`: taught joint positions under new zeros."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import click
+
+from station.cli.files import existing, write_text
+from station.cli.kept import config_option, kept
+from station.errors import InputRefused, NotApplicable
+from station.records import read_taught, translated_to_csv
+from station.run_kinds import change_of, translated
+from station.settings import load_settings
+
+
+@click.command("translate")
+@click.argument("taught", type=existing)
+@click.option("--from", "run", type=click.IntRange(1), required=True, help="The run that was applied.")
+@click.option("--taught-under", type=click.IntRange(1), help="The run under whose zeros they were taught.")
+@click.option("--csv", "csv_file", type=existing, help="Write the positions here instead of printing them.")
+@config_option
+@click.pass_obj
+def translate_command(
+    home: Path, taught: Path, run: int, taught_under: int | None, csv_file: Path | None, config: Path | None
+) -> None:
+    """Taught joint positions as the same physical positions under the present zeros."""
+    try:
+        positions = read_taught(taught.read_text(encoding="utf-8"), taught.name)
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputRefused(f"{taught} cannot be read: {error}.") from error
+    with kept(home, config) as store:
+        try:
+            change = change_of(store, run, taught_under)
+        except NotApplicable as refusal:
+            raise InputRefused(str(refusal)) from refusal
+    text = translated_to_csv(translated(change, positions, load_settings(config).joints))
+    if csv_file:
+        write_text(csv_file, text)
+    else:
+        click.echo(text, nl=False)

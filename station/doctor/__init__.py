@@ -1,0 +1,8 @@
+"""`station doctor`: all devices examined at once, nothing moved."""
+
+from __future__ import annotations
+
+from station.doctor.examination import examine
+from station.doctor.finding import Condition, Finding
+
+__all__ = ["Condition", "Finding", "examine"]

@@ -1,0 +1,106 @@
+"""All devices looked at, one after another, without moving anything."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from drivers.errors import DeviceError
+from drivers.lines import SerialLine, line_of
+from drivers.protocols import Device, LinearScale, ServoAxis
+from station.doctor.finding import Finding
+from station.doctor.ports import examine_port
+from station.doctor.round_trips import RoundTrips
+from station.doctor.swapped import axes_exchanged, lines_exchanged
+from station.five_bar import Robot
+from station.motion import Devices, outside_mm
+from station.settings import Settings
+
+_LOOKS = 5
+
+
+def examine(settings: Settings, devices: Devices, robot: Robot) -> Finding:
+    """A tree with one branch for each device.  Every device is closed afterwards."""
+    tree = Finding(settings.name + (", emulated" if devices.emulated else ""))
+    scale = tree.add(f"{devices.scale.name} at {devices.addresses[0]}")
+    scale_mm = _examine_device(devices.scale, scale, devices.emulated)
+    angles: list[float | None] = []
+    for axis, address in zip(devices.axes, devices.addresses[1:], strict=True):
+        angles.append(_examine_device(axis, tree.add(f"{axis.name} at {address}"), devices.emulated))
+    if None not in (scale_mm, *angles):
+        _examine_arm(settings, robot, [angle for angle in angles if angle is not None], tree)
+    elif not devices.emulated and (text := lines_exchanged(settings)):
+        tree.add(text, "trouble", "exchange the two addresses in the station file, or the plugs")
+    return tree
+
+
+def _examine_device(device: Device, branch: Finding, emulated: bool) -> float | None:
+    """Its value, mm or deg; None where it cannot be read."""
+    line = line_of(device)
+    if line is None or not examine_port(line, branch, emulated=emulated):
+        return None
+    try:
+        device.connect()
+    except DeviceError as error:
+        branch.add(str(error), "trouble")  # a driver's sentence says what to check
+        return None
+    try:
+        return _look(device, line, branch)
+    except DeviceError as error:
+        branch.add(str(error), "trouble", "this device was there and failed: look at its line for noise")
+        return None
+    finally:
+        device.close()
+
+
+def _look(device: Device, line: SerialLine, branch: Finding) -> float:
+    if identity := getattr(device, "identity", ""):
+        branch.add(f"is {identity if isinstance(identity, str) else ' '.join(identity)}")
+    value = math.nan
+    with RoundTrips(line) as trips:
+        for _ in range(_LOOKS):
+            if isinstance(device, LinearScale):
+                value = device.read_mm()
+            elif isinstance(device, ServoAxis):
+                value = device.feedback_deg()
+    branch.add(f"answers: {trips.text}")
+    if isinstance(device, ServoAxis):
+        branch.add(f"stands at {value:.4f} deg")
+        _tell_status(device, branch)
+    else:
+        branch.add(f"reads {value:.4f} mm")
+    return value
+
+
+def _tell_status(axis: ServoAxis, branch: Finding) -> None:
+    status = axis.status()
+    if status.alarm is not None:
+        branch.add(
+            f"shows alarm {status.alarm:X}h",
+            "trouble",
+            "find its cause in the maker's manual; the next run resets it",
+        )
+    if status.moving:
+        branch.add("moves, although this program moves nothing", "trouble", "find out who moves it")
+    branch.add("is powered" if status.enabled else "is not powered; a run powers it")
+
+
+def _examine_arm(settings: Settings, robot: Robot, theta_deg: Sequence[float], tree: Finding) -> None:
+    arm = tree.add("the arm")
+    here = (theta_deg[0], theta_deg[1])
+    excess_mm = outside_mm(robot, here)
+    if excess_mm <= 0:
+        arm.add("stands within its workspace")
+        return
+    far = excess_mm > settings.limits.swing_mm
+    where = f"stands {excess_mm:.1f} mm outside its workspace"
+    if not math.isfinite(excess_mm):
+        where = "cannot stand where the drives say: the linkage does not close"
+    if axes_exchanged(settings, robot, here):
+        arm.add(
+            f"{where}; with the drives exchanged it would be within",
+            "trouble" if far else "note",
+            "compare with the arm; if it stands elsewhere, exchange the units of the two [[servo.joint]]",
+        )
+    else:
+        arm.add(where, "trouble" if far else "note", "compare with the arm; `station retract` brings it back")

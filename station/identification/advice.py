@@ -1,0 +1,73 @@
+"""What would make a calibration better, by how much, and how long it takes: millimetres and minutes.
+
+Each is information added to the posterior, linear about the fit.  What does not help is not named.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from station.fitting import largest_error_bound
+from station.five_bar import KNOWN_DRM_SD_MM, SECOND_MOUNT_MM, FiveBar, with_second_mount
+from station.identification.estimate import Identification
+from station.records import Advice, Real
+
+LEVEL_SD_DEG = 0.005
+LEAST_SHARE = 0.03
+"""Of the bound; a smaller gain is not worth a sentence."""
+READING_S = 0.4
+MINUTES = {"joint_angle": 3.0, "drm_x": 10.0, "second_mount": 15.0}
+GEOMETRY = slice(2, 10)
+
+
+def advice_of(found: Identification[FiveBar]) -> tuple[Advice, ...]:
+    """Best gain per minute first."""
+    now = _bound(found, found.covariance)
+    advice = []
+    for kind, text, minutes, covariance in _possible(found):
+        gain_mm = now - _bound(found, covariance)
+        if np.isfinite(gain_mm) and gain_mm > LEAST_SHARE * now:
+            advice.append(Advice(kind=kind, text=text, gain_mm=float(gain_mm), minutes=minutes))
+    return tuple(sorted(advice, key=lambda one: one.gain_mm / one.minutes, reverse=True))
+
+
+def _possible(found: Identification[FiveBar]) -> Iterator[tuple[str, str, float, Real]]:
+    """Kind, text, minutes, and the covariance (P, P) that it would leave."""
+    information = np.linalg.inv(found.covariance)
+    names = [p.name for p in found.mechanism.parameters]
+    readings = len(found.measurements)
+    J = found.solution.jacobian / found.sd_factor
+    again = np.linalg.inv(information + J.T @ J)
+    yield "repeat", f"Measure the same {readings} readings once more.", readings * READING_S / 60.0, again
+    level = float(np.radians(np.hypot(LEVEL_SD_DEG, found.mechanism.robot.joint_sd_deg)))
+    for joint in (1, 2):
+        text = f"Read the angle of joint {joint} from a level, to {LEVEL_SD_DEG} deg (plan reference)."
+        covariance = _told(information, names.index(f"dtheta{joint}"), level)
+        yield "joint_angle", text, MINUTES["joint_angle"], covariance
+    text = f"Measure the mechanism's mounting error sideways, to {KNOWN_DRM_SD_MM} mm."
+    yield "drm_x", text, MINUTES["drm_x"], _told(information, names.index("rMx"), KNOWN_DRM_SD_MM)
+    if len(found.measurements.mounts) == 1:
+        text = f"Measure from a second mounting point, {SECOND_MOUNT_MM:.0f} mm aside (plan two_mounts)."
+        covariance = with_second_mount(
+            found.mechanism, found.noise.row_sd * found.sd_factor, found.dtheta, information
+        )
+        yield "second_mount", text, MINUTES["second_mount"], covariance[: len(names), : len(names)]
+
+
+def _told(information: Real, index: int, sd: float) -> Real:
+    """(P, P) covariance with one unknown measured."""
+    told = information.copy()
+    told[index, index] += 1.0 / sd**2
+    return np.asarray(np.linalg.inv(told))
+
+
+def _bound(found: Identification[FiveBar], covariance: Real) -> float:
+    """With the zeros in the drives only: what is learned of the geometry later moves nothing."""
+    p = found.p.copy()
+    p[:2] = 0.0
+    error, jacobian = found.mechanism.position_errors(p)
+    left = covariance.copy()
+    left[GEOMETRY, GEOMETRY] = found.covariance[GEOMETRY, GEOMETRY]
+    return largest_error_bound(error, jacobian, left)

@@ -1,0 +1,57 @@
+"""The 95 % bound on the largest position error over the workspace, and whether it is what was wanted."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from station.fitting import largest_error_bound
+from station.five_bar import FiveBar
+from station.identification.estimate import Identification
+from station.records import AccuracyReached, CalibrationResult, Real, because
+
+PLAN_ENDED = "the plan has ended"
+
+
+def bounds_mm(found: Identification[FiveBar], zeros: Real | None = None) -> tuple[float, float]:
+    """With the zeros in the drives only, and with the commands of the identified model.
+
+    :param zeros: (2,) rad, taken out of the drives; by default as identified
+    """
+    p = found.p.copy()
+    p[:2] -= found.dtheta if zeros is None else zeros
+    error, jacobian = found.mechanism.position_errors(p)
+    by_drives = largest_error_bound(error, jacobian, found.covariance)
+    by_model = largest_error_bound(np.zeros_like(error), jacobian, found.covariance)
+    return by_drives, by_model
+
+
+def accuracy_of(
+    found: Identification[FiveBar],
+    wanted_mm: float | None,
+    *,
+    stopped: str = PLAN_ENDED,
+    zeros: Real | None = None,
+) -> AccuracyReached:
+    """What a fit promises, beside the wish."""
+    by_drives, by_model = bounds_mm(found, zeros)
+    return AccuracyReached.of(by_drives, by_model, wanted_mm, stopped)
+
+
+def with_accuracy(
+    result: CalibrationResult, accuracy: AccuracyReached, possible_mm: float | None = None
+) -> CalibrationResult:
+    """The result, no pass where the wish is not met: what nobody could compute is not met either.
+
+    :param possible_mm: what further readings could reach; by default what was reached
+    """
+    result = result.model_copy(update={"accuracy": accuracy})
+    if result.verdict != "pass" or accuracy.reached is not False:
+        return result
+    wanted_mm = accuracy.wanted_mm or 0.0
+    if accuracy.bound_95_mm is None:
+        reason = because("accuracy_unknown", wanted_mm=wanted_mm)
+    else:
+        reason = because(
+            "not_accurate_enough", wanted_mm=wanted_mm, possible_mm=possible_mm or accuracy.bound_95_mm
+        )
+    return result.model_copy(update={"verdict": "fail", "outcome": "not_accurate_enough", "reason": reason})

@@ -1,0 +1,42 @@
+"""The devices of a station, real or emulated, for as long as they are wanted."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from station.motion.devices import Devices, build_devices
+from station.motion.emulated_rig import EmulatedRig
+from station.settings import Settings
+
+
+@dataclass(frozen=True, slots=True)
+class Equipment:
+    """Devices, nothing of them opened yet, and what they were made from."""
+
+    settings: Settings
+    """With the addresses of the emulated rig where there is one."""
+    devices: Devices
+    rig: EmulatedRig | None
+    """The emulated machine; None with real devices."""
+
+
+@contextmanager
+def equipment(settings: Settings, home: Path, emulate: Path | None) -> Iterator[Equipment]:
+    """What the station file names, else the emulated rig, which ends with the block.
+
+    :param emulate: rig file of the emulated machine, even when the station file names devices.
+    :raises InputRefused: the rig does not start, or an address cannot be used.
+    """
+    if emulate is None and settings.scale is not None:
+        yield Equipment(settings, build_devices(settings), None)
+        return
+    rig = EmulatedRig(emulate or settings.emulated.rig, home / "emulated-rig.json", settings.emulated.speed)
+    try:
+        settings = rig.settings(settings)
+        devices = build_devices(settings, emulated=True, speed=rig.speed)
+        yield Equipment(settings, replace(devices, remount=rig.remount), rig)
+    finally:
+        rig.close()

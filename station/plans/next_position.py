@@ -1,0 +1,95 @@
+"""Which position next: what one more reading is worth there, for each second that it takes.
+
+A reading with whitened derivatives a (P,) changes the covariance C of all unknowns by the rank-one update
+C - C a a' C / (1 + a' C a).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.special import chdtri, chndtr
+
+from station.records import Index, Real
+
+ALONE = 0.3
+"""A direction of which readings say less than this share of what is remembered cannot contradict it."""
+
+
+def gains(covariance: Real, rows: Real, weight: Real) -> Real:
+    """(N,) by how much a reading with derivatives rows (N, P) lowers trace(C M), M = weight (P, P)."""
+    spread = rows @ covariance
+    gain = np.einsum("ni,ni->n", spread @ weight, spread)
+    return np.asarray(gain / (1.0 + np.einsum("ni,ni->n", spread, rows)))
+
+
+def with_readings(covariance: Real, rows: Real) -> Real:
+    """(P, P) covariance after readings with derivatives rows (R, P)."""
+    spread = rows @ covariance
+    told = np.eye(len(rows)) + spread @ rows.T
+    return np.asarray(covariance - spread.T @ np.linalg.solve(told, spread))
+
+
+@dataclass(frozen=True)
+class Contradiction:
+    """How well readings could contradict what is remembered, if that had changed."""
+
+    remembered: Real
+    """(M, M) covariance of what is remembered."""
+    lasting: Index
+    """(M,) where it stands among the unknowns."""
+    passing: Index
+    """(P - M,) unknowns that nothing is remembered of."""
+    known: Real
+    """(P - M,) information about those beforehand; 0 for none."""
+    p_value: float
+    """Below it the memory is dropped."""
+
+    def noncentrality(self, information: Real, changes: Real) -> Real:
+        """(..., D) of the test for each change (D, M) of what is remembered, from the information of the
+        readings (..., P, P) alone.
+
+        The misfit of the memory has the covariance of the memory and that of the readings, unknowns that
+        nothing is remembered of projected out.
+        """
+        kept, p = self.lasting, self.passing
+        own = information[..., kept[:, None], kept]
+        cross = information[..., kept[:, None], p]
+        rest = information[..., p[:, None], p] + np.diag(self.known)
+        told = own - cross @ np.linalg.solve(rest, np.swapaxes(cross, -1, -2))
+        # (A^-1 + C)^-1 = A (1 + C A)^-1, which needs no inverse of A
+        test = told @ np.linalg.inv(np.eye(len(kept)) + self.remembered @ told)
+        return np.asarray(np.einsum("di,...ij,dj->...d", changes, test, changes))
+
+    def directions(self, information: Real) -> int:
+        """In how many directions readings say enough to contradict anything."""
+        kept, p = self.lasting, self.passing
+        rest = information[np.ix_(p, p)] + np.diag(self.known)
+        cross = information[np.ix_(kept, p)]
+        told = information[np.ix_(kept, kept)] - cross @ np.linalg.solve(rest, cross.T)
+        root = np.linalg.cholesky(self.remembered)
+        return int(np.sum(np.linalg.eigvalsh(root.T @ told @ root) > ALONE**2))
+
+    def power(self, noncentrality: Real, directions: int) -> Real:
+        """(D,) probability that the memory is dropped."""
+        if directions == 0:
+            return np.zeros_like(noncentrality)
+        return np.asarray(1.0 - chndtr(chdtri(directions, self.p_value), directions, noncentrality))
+
+
+def turned(size_mm: float, count: int = 72) -> Real:
+    """(count, 2) displacements of one size in all directions."""
+    angle = 2.0 * np.pi * np.arange(count) / count
+    return size_mm * np.column_stack([np.cos(angle), np.sin(angle)])
+
+
+def changes_of(names: Sequence[str], remount_mm: float, link_mm: float) -> Real:
+    """(D, M) what may have happened to what is remembered: the mechanism mounted anew in some direction, one
+    link changed."""
+    around = turned(remount_mm)
+    out = np.zeros((len(around), len(names)))
+    out[:, [names.index("rMx"), names.index("rMy")]] = around
+    links = [k for k, name in enumerate(names) if name in ("L1", "L2", "l1", "l2")]
+    return np.vstack([out, link_mm * np.eye(len(names))[links]])

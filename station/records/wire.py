@@ -1,0 +1,23 @@
+"""What a wire log begins with: the station that it was recorded at."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import JsonValue
+
+from station.records.record import Record
+
+
+class WireHeader(Record):
+    """First line of a wire log, as JSON."""
+
+    version: Literal[1] = 1
+    scale: dict[str, JsonValue]
+    """`[scale]` of the station file, with every option."""
+    servo: dict[str, JsonValue]
+    """`[servo]`, likewise."""
+    limits: dict[str, JsonValue]
+    """`[limits]`, likewise."""
+    speed: float
+    """How much faster than real time the machine lived."""

@@ -1,0 +1,300 @@
+"""Plan `adaptive`: the next position is the one that serves the wanted accuracy most for each second.
+
+It stops when the bound is met and the readings could have contradicted a wrong memory; when the wish cannot
+be met it says so early.  Each reading is predicted before it is used: that is its verification.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Literal
+
+import numpy as np
+
+from station.errors import InputRefused
+from station.fitting import NotConvergedError, largest_error_bound
+from station.five_bar import HOME, FiveBar, Robot, inverse
+from station.identification import (
+    GATE_P,
+    Identification,
+    Known,
+    accuracy_of,
+    advice_of,
+    bounds_mm,
+    not_identified,
+    predicted_result,
+    with_accuracy,
+    without_jump,
+)
+from station.plans import (
+    Contradiction,
+    Pace,
+    Quickest,
+    candidates,
+    changes_of,
+    full_positions,
+    gains,
+    inset_grid,
+    with_readings,
+)
+from station.records import (
+    CalibrationResult,
+    Complex,
+    MeasurementSequence,
+    Procedure,
+    Reading,
+    Real,
+    Remembered,
+    Stop,
+)
+from station.run_kinds.fits import aged, with_memory_use
+
+FEWEST = 4
+"""Readings: two zero offsets, the offset of the readout, and one that is predicted."""
+FEWEST_WITHOUT_MEMORY = 6
+"""The same where geometry and mechanism are known by their tolerances alone."""
+MOST_AT_ONCE = 6
+MOST = 60
+FIRST_GRID = (7, 4)
+RECENT, APART_DEG = 12, 1.0
+"""A position must be that far from those of so many readings before: elsewhere tells more."""
+NEAR, NEARER = 1.06, 1.02
+"""Share of the best bound that readings can reach at which further ones are not worth their time, and the one
+that the first readings aim at."""
+CLEARLY = 1.15
+"""Share of the wish above which the best bound must lie before a run gives up early."""
+POWER = 0.985
+CONTRADICTED_P = 1e-4
+"""Of a memory that is dropped before the run would stop."""
+REMOUNT_MM, LINK_MM = 1.0, 0.3
+"""Changes since the last run that must be noticed."""
+VISIBLE_SDS = 5.0
+"""If a full run would see them so clearly."""
+FULL_VISITS = 5
+
+Stopped = Literal[
+    "the wanted accuracy is reached",
+    "readings cannot reach the wanted accuracy",
+    "further readings would not help",
+    "the most readings are taken",
+]
+
+
+@dataclass(frozen=True)
+class Aim:
+    """What a run is to reach, and what it may choose from."""
+
+    wanted_mm: float | None
+    pace: Pace
+    places: Complex
+    """(N,) mm, candidates."""
+    first: Complex
+    """(28,) mm, candidates of the first readings."""
+    of_full: Complex
+    """(24,) mm, what a full run would measure."""
+
+    @classmethod
+    def of(cls, robot: Robot, wanted_mm: float | None, pace: Pace) -> Aim:
+        """:raises InputRefused: the scale's travel does not cover the workspace."""
+        first = inset_grid(robot, *FIRST_GRID)
+        return cls(wanted_mm, pace, candidates(robot), first, full_positions(robot))
+
+
+@dataclass(frozen=True)
+class Situation:
+    """What is known, and what follows for the next step."""
+
+    known: Known
+    aim: Aim
+    here_deg: Real
+    """(2,) where the joints stand."""
+
+    @cached_property
+    def bound_mm(self) -> float:
+        """With the zeros in the drives only."""
+        return bounds_mm(self.known.found)[0]
+
+    @cached_property
+    def best_mm(self) -> float:
+        """The bound that as many readings as a full run takes could reach, on average."""
+        left = with_readings(self.known.covariance, self._rows_of_full)
+        geometry = slice(2, 10)
+        now = self.known.covariance[geometry, geometry]
+        left[geometry, geometry] = now
+        error, jacobian = self.known.position_jacobian()
+        return largest_error_bound(error, jacobian, _positive(left))
+
+    @cached_property
+    def _rows_of_full(self) -> Real:
+        """(120, P) of as many readings as a full run takes."""
+        return np.repeat(self.known.rows(self.aim.of_full), FULL_VISITS, axis=0)
+
+    @cached_property
+    def trusted(self) -> bool:
+        """Whether the readings could have contradicted a memory that is wrong."""
+        if self.known.memory is None:
+            return len(self.known.readings) >= FEWEST_WITHOUT_MEMORY
+        if len(self.known.readings) < FEWEST:
+            return False
+        test, changes = self._test
+        information = self._information
+        found = test.power(test.noncentrality(information, changes), test.directions(information))
+        return not len(found) or float(found.mean()) >= POWER
+
+    def stops_because(self) -> Stopped | None:
+        """None: go on."""
+        if not self.trusted:
+            return "the most readings are taken" if len(self.known.readings) >= MOST else None
+        if self.aim.wanted_mm is not None:
+            if self.bound_mm <= self.aim.wanted_mm:
+                return "the wanted accuracy is reached"
+            if self.best_mm > CLEARLY * self.aim.wanted_mm:
+                return "readings cannot reach the wanted accuracy"
+        elif self.bound_mm <= NEAR * self.best_mm:
+            return "further readings would not help"
+        return "the most readings are taken" if len(self.known.readings) >= MOST else None
+
+    def first_places(self) -> list[complex]:
+        """The quickest few positions that should do, before anything is known of the zero offsets."""
+        places, known = self.aim.first, self.known
+        test, changes = self._test if known.memory else (None, np.zeros((0, 0)))
+        best = float(np.trace(with_readings(known.covariance, self._rows_of_full) @ self._weight))
+        wanted = self.aim.wanted_mm
+        spare = NEARER if wanted is None else max(NEARER, wanted / self.best_mm)
+        chosen = Quickest(
+            covariance=known.covariance,
+            rows=known.rows(places),
+            weight=self._weight,
+            enough=best * spare**2,
+            theta_deg=self._commands(places),
+            here_deg=self.here_deg,
+            pace=self.aim.pace,
+            test=test,
+            changes=changes,
+            power=POWER,
+        ).choose(FEWEST if known.memory else FEWEST_WITHOUT_MEMORY, MOST_AT_ONCE)
+        return [complex(places[k]) for k in chosen]
+
+    def next_place(self) -> complex:
+        """Where one more reading is worth most for each second."""
+        places = self.aim.places
+        theta_deg = self._commands(places)
+        duration_s = self.aim.pace.duration_s(self.here_deg[None], theta_deg, np.zeros_like(theta_deg))
+        recent = np.array([r.theta_deg for r in self.known.readings[-RECENT:]])
+        apart_deg = np.abs(theta_deg[:, None] - recent[None]).max(axis=2)
+        fresh = (apart_deg > APART_DEG).all(axis=1)
+        return complex(places[int(np.argmax(np.where(fresh, self._worth(places) / duration_s, -np.inf)))])
+
+    def stop_at(self, place: complex) -> Stop:
+        """Commanded with the zero offsets as known now."""
+        theta_deg = self._commands(np.array([place]))[0]
+        return Stop(
+            position=f"A{len(self.known.readings) + 1}",
+            target_mm=(place.real, place.imag),
+            theta_deg=(float(theta_deg[0]), float(theta_deg[1])),
+        )
+
+    def _commands(self, places: Complex) -> Real:
+        return np.degrees(inverse(self.known.robot.geometry, places) - self.known.estimate[:2])
+
+    @cached_property
+    def _weight(self) -> Real:
+        """(P, P) M: trace(C M) is the mean square position error."""
+        jacobian = self.known.position_jacobian()[1]
+        return np.asarray(np.einsum("gdi,gdj->ij", jacobian, jacobian) / len(jacobian))
+
+    def _worth(self, places: Complex) -> Real:
+        """(N,) of a reading at each place."""
+        rows = self.known.rows(places)
+        if not self.trusted and self.known.memory is not None:
+            test, changes = self._test
+            information = self._information + rows[:, :, None] * rows[:, None, :]
+            return np.asarray(np.log1p(test.noncentrality(information, changes)).mean(axis=1))
+        return gains(self.known.covariance, rows, self._weight)
+
+    @cached_property
+    def _information(self) -> Real:
+        """(P, P) of the readings alone."""
+        J = self.known.found.solution.jacobian
+        return np.asarray(J.T @ J)
+
+    @cached_property
+    def _test(self) -> tuple[Contradiction, Real]:
+        """Of the memory, and the changes (D, M) that a full run would see."""
+        memory = self.known.memory
+        assert memory is not None
+        parameters = self.known.parameters
+        names = [p.name for p in parameters]
+        lasting = np.array([names.index(name) for name in memory.names])
+        passing = np.array([k for k in range(len(names)) if k not in lasting])
+        sd = np.array([parameters[k].prior_sd for k in passing])
+        known = np.where(np.isfinite(sd), 1.0 / np.where(np.isfinite(sd), sd, 1.0) ** 2, 0.0)
+        test = Contradiction(memory.covariance, lasting, passing, known, GATE_P)
+        changes = changes_of(memory.names, REMOUNT_MM, LINK_MM)
+        full = self._rows_of_full
+        seen = test.noncentrality(full.T @ full, changes) >= VISIBLE_SDS**2
+        return test, changes[seen]
+
+
+def _positive(covariance: Real) -> Real:
+    """The same with what rounding or an exchanged block made negative taken out."""
+    values, vectors = np.linalg.eigh(covariance)
+    return np.asarray((vectors * np.maximum(values, 0.0)) @ vectors.T)
+
+
+def adaptive(robot: Robot, remembered: Remembered | None, wanted_mm: float | None, pace: Pace) -> Procedure:
+    """Reading after reading until there is a reason to stop."""
+    age_days = remembered.age_days if remembered else 0.0
+    memory = aged(remembered, robot, age_days).informed(robot)[0] if remembered else None
+    aim = Aim.of(robot, wanted_mm, pace)
+    known, here_deg, gate = Known(robot, memory=memory), np.degrees(HOME), None
+    first = Situation(known, aim, here_deg).first_places()
+    while True:
+        number = len(known.readings) + 1
+        now = Situation(known, aim, here_deg)
+        stop = now.stop_at(first[number - 1] if number <= len(first) else now.next_place())
+        readings: list[Reading] = yield MeasurementSequence(f"Measuring, reading {number}", 1, (stop,))
+        known, here_deg = known.absorb(readings[0]), np.array(readings[0].theta_deg)
+        try:
+            stopped = Situation(known, aim, here_deg).stops_because()
+            if known.memory is not None:
+                gate = known.found.gate
+                assert gate is not None
+                if gate.p_value < (CONTRADICTED_P if stopped is None else GATE_P):
+                    known, gate = known.without_memory(), replace(gate, used=False)
+                    stopped = Situation(known, aim, here_deg).stops_because()
+        except NotConvergedError as error:
+            return not_identified(f"The readings do not determine the machine: {error}.")
+        if stopped is not None:
+            break
+    result = _result(known, wanted_mm, stopped, Situation(known, aim, here_deg))
+    return with_memory_use(result, gate, remembered, age_days)
+
+
+def _result(known: Known, wanted_mm: float | None, stopped: Stopped, last: Situation) -> CalibrationResult:
+    found, readings = known.found, list(known.readings)
+    if impossible := found.mechanism.implausible(found.p):
+        return without_jump(not_identified(f"Impossible result: {impossible}."), known.robot, readings)
+    result = predicted_result(found, readings).model_copy(
+        update={"lasting": found.lasting.record(), "advice": advice_of(found)}
+    )
+    result = without_jump(result, known.robot, readings)
+    accuracy = accuracy_of(found, wanted_mm, stopped=stopped)
+    return with_accuracy(result, accuracy, possible_mm=min(last.best_mm, last.bound_mm))
+
+
+def fit_in_sequence(
+    robot: Robot, readings: list[Reading], memory: Remembered | None, age_days: float
+) -> Identification[FiveBar]:
+    """The fit of an ended run again, from its readings.
+
+    :raises InputRefused: they do not determine the machine.
+    """
+    known = Known(
+        robot, tuple(readings), aged(memory, robot, age_days).informed(robot)[0] if memory else None
+    )
+    try:
+        return known.found
+    except NotConvergedError as error:
+        raise InputRefused(f"The readings do not determine the machine: {error}.") from error

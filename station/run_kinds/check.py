@@ -1,0 +1,119 @@
+"""Plan `check`: is the robot still as its last calibration left it?
+
+Four readings against what that calibration predicts of them, its uncertainty and the noise included.  The
+offset of the readout is left open: it may have been switched off since.
+"""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime, timedelta
+
+import numpy as np
+
+from station.errors import NotApplicable, NotFound
+from station.five_bar import FiveBar
+from station.identification import Identification
+from station.motion import shift_of
+from station.plans import REST_P, SHIFT_P, ShiftTest, make_plan
+from station.records import (
+    LIMIT_SDS,
+    CalibrationRequest,
+    CalibrationResult,
+    CalibrationSummary,
+    CheckFound,
+    MeasurementSequence,
+    Procedure,
+    Reading,
+    because,
+    from_readings,
+    residual_rows,
+)
+from station.run_kinds.apply import source_of
+from station.run_kinds.fits import wandered
+from station.run_kinds.kind import RUN_KINDS, RunKind, Start, register
+from station.run_kinds.zero_state import application
+from station.store import Store
+
+MOST_LOOKED_AT = 500
+
+
+def compared_with(store: Store, serial: str) -> CalibrationSummary | None:
+    """The last applied run of a robot, else its last pass; None where there is neither."""
+    passes = store.calibrations(limit=MOST_LOOKED_AT, robot_serial=serial, verdict="pass").items
+    offsets = [run for run in passes if RUN_KINDS[run.kind].offsets]
+    for run in passes:
+        if run.kind == "apply" and run.of is not None:
+            applied = store.summary(run.of)
+            known = application(store, applied)
+            if known is not None and known.state == "applied":
+                return applied
+    return offsets[0] if offsets else None
+
+
+def check_check(store: Store, request: CalibrationRequest) -> None:
+    """:raises NotApplicable: there is nothing to compare with."""
+    if compared_with(store, request.robot_serial) is None:
+        raise NotApplicable(
+            f"Robot {request.robot_serial} has no passed calibration to be checked against; calibrate first."
+        )
+
+
+def start_check(start: Start) -> Procedure:
+    """The procedure, not yet started.  :raises NotFound: no calibration to compare with."""
+    run = compared_with(start.store, start.robot.serial)
+    if run is None:
+        raise NotFound(f"Robot {start.robot.serial} has no passed calibration.")
+    source = source_of(start.store, run.id)
+    shift_deg = shift_of(start.store.zero_writes(start.robot.serial, since=run.id))
+    age_days = (datetime.now(UTC) - (run.ended_at or run.created_at)).total_seconds() / 86_400.0
+    return check(source.fit.moved(shift_deg), max(age_days, 0.0), start.limits.check_valid_h)
+
+
+def check(fit: Identification[FiveBar], age_days: float, valid_h: float) -> Procedure:
+    """Four readings, and whether they are as predicted."""
+    robot = fit.mechanism.robot
+    stops = make_plan("check", robot, fit.dtheta).stops
+    readings: list[Reading] = yield MeasurementSequence("Checking", 1, stops)
+    mechanism = FiveBar(robot, from_readings(readings, fit.measurements.mounts))
+    at = mechanism.observe(fit.p, mechanism.theta)
+    sd = mechanism.row_sd * fit.lasting.noise_ratio * fit.sd_factor
+    rows = at.by_parameter / sd[:, None]
+    test = ShiftTest(rows[:, :2], rows @ wandered(fit, age_days) @ rows.T + np.eye(len(rows)))
+    difference = mechanism.measured - at.value
+    difference = difference - difference.mean()
+    shift, shift_p, rest_p = test.shift(difference / sd)
+    smallest_deg, shift_deg = np.degrees(test.smallest()), np.degrees(shift)
+    direction, blind = test.blind()
+    together = "both arms together" if direction[0] * direction[1] > 0 else "one arm against the other"
+    passed = bool(shift_p >= SHIFT_P and rest_p >= REST_P)
+    if passed:
+        reason = because("still_calibrated", smallest_deg=float(smallest_deg.max()))
+    elif shift_p < SHIFT_P:
+        reason = because(
+            "zero_shifted",
+            shift1_deg=float(shift_deg[0]),
+            shift2_deg=float(shift_deg[1]),
+            smallest_deg=float(smallest_deg.max()),
+        )
+    else:
+        reason = because("not_as_calibrated", p=rest_p)
+    return CalibrationResult(
+        verdict="pass" if passed else "fail",
+        outcome="good" if passed else "repair" if shift_p < SHIFT_P else "unexplained",
+        reason=reason,
+        method="check",
+        zero_offsets=(),
+        check=CheckFound(
+            smallest_shift_deg=float(smallest_deg.max()),
+            smallest_by_joint_deg=(float(smallest_deg[0]), float(smallest_deg[1])),
+            shift_deg=(float(shift_deg[0]), float(shift_deg[1])),
+            p_value=min(shift_p, rest_p),
+            blind=together,
+            blind_shift_deg=float(np.degrees(blind)),
+            valid_until=datetime.now(UTC) + timedelta(hours=valid_h) if passed else None,
+        ),
+        residuals=residual_rows(readings, difference, LIMIT_SDS * sd * np.sqrt(np.diag(test.covariance))),
+    )
+
+
+CHECK = register(RunKind("check", start_check, check=check_check))

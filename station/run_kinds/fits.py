@@ -1,0 +1,54 @@
+"""Readings of a run and what earlier runs know, fitted together: during the run and ever after."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from station.five_bar import FiveBar, Robot
+from station.identification import Gate, Identification, Memory, gate_record, identify
+from station.records import CalibrationResult, MemoryUse, Reading, Real, Remembered, from_readings
+
+DAYS_PER_YEAR = 365.25
+UNKNOWN_OFFSET_MM = 1e4
+
+
+def aged(memory: Remembered, robot: Robot, age_days: float) -> Memory:
+    """What is remembered, less sure by what may have changed since."""
+    mechanism = FiveBar(robot, from_readings([]))
+    return Memory.of(memory.memory).aged(mechanism.parameters, age_days / DAYS_PER_YEAR)
+
+
+def fit_of(
+    robot: Robot, readings: list[Reading], memory: Remembered | None, age_days: float
+) -> Identification[FiveBar]:
+    """The measurement model on readings, with what is remembered as it was at that age.
+
+    :raises InputRefused: as `identify`.
+    """
+    known = None if memory is None else aged(memory, robot, age_days)
+    return identify(robot, from_readings(readings), known)
+
+
+def wandered(fit: Identification[FiveBar], age_days: float) -> Real:
+    """(P, P) covariance of a fit that is so old; of the readout's offsets nothing is known any more."""
+    parameters = fit.mechanism.parameters
+    names = [p.name for p in parameters]
+    covariance = fit.covariance.copy()
+    old = fit.lasting.aged(parameters, age_days / DAYS_PER_YEAR)
+    kept = [names.index(name) for name in old.names]
+    covariance[np.ix_(kept, kept)] = old.covariance
+    for i, parameter in enumerate(parameters):
+        if parameter.role == "reading_offset":
+            covariance[i] = covariance[:, i] = 0.0
+            covariance[i, i] = UNKNOWN_OFFSET_MM**2
+    return covariance
+
+
+def with_memory_use(
+    result: CalibrationResult, gate: Gate | None, memory: Remembered | None, age_days: float
+) -> CalibrationResult:
+    """The result, with what became of the memory."""
+    if memory is None or gate is None:
+        return result
+    use = MemoryUse(**dict(gate_record(gate)), from_calibration=memory.calibration_id, age_days=age_days)
+    return result.model_copy(update={"memory": use})

@@ -1,0 +1,59 @@
+"""Plans that need a person once: an angle is read, or the mechanism moved to its second mounting point."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from station.plans import make_plan
+from station.records import (
+    Ask,
+    JointAngle,
+    MeasurementSequence,
+    Procedure,
+    Reading,
+    Remembered,
+)
+from station.run_kinds.kind import Start
+from station.run_kinds.verified import identified_and_verified
+
+JOINT: Literal[1] = 1
+
+
+def reference(start: Start, memory: Remembered | None) -> Procedure:
+    """Six positions, then the angle of one arm as a level sees it, where the arm stands last."""
+    stops = make_plan("reference", start.robot).stops
+    readings: list[Reading] = yield MeasurementSequence("Measuring", 1, stops)
+    at_deg = readings[-1].theta_deg[JOINT - 1]
+    reach_deg = 4.0 * start.robot.tolerances.zero_offset_deg
+    seen_deg: float = yield Ask(
+        "Reading the level",
+        1,
+        f"Put the level on the arm of joint {JOINT} and read its angle from the horizontal, positive when the"
+        f" elbow is higher. The drive says {at_deg:.3f} deg.",
+        "number",
+        "deg",
+        low=at_deg - reach_deg,
+        high=at_deg + reach_deg,
+    )
+    seen = JointAngle(joint=JOINT, at_deg=at_deg, reads_deg=seen_deg, sd_deg=start.limits.level_sd_deg)
+    return (
+        yield from identified_and_verified(start.robot.informed([seen]), readings, memory, start.wanted_mm)
+    )
+
+
+def two_mounts(start: Start, memory: Remembered | None) -> Procedure:
+    """The same positions from two mounting points; each has a mounting error and an offset of its own."""
+    robot = start.robot
+    label, c = robot.second_mount
+    stops = make_plan("two_mounts", robot).stops
+    readings: list[Reading] = yield MeasurementSequence("Measuring at the first mounting point", 1, stops)
+    yield Ask(
+        "Moving the mechanism",
+        1,
+        f"Mount the mechanism at its second mounting point, ({c[0]:g}, {c[1]:g}) mm, then confirm."
+        " After the run mount it back.",
+        "confirm",
+        mounted_at=c,
+    )
+    readings += yield MeasurementSequence("Measuring at the second mounting point", 1, stops, mount=label)
+    return (yield from identified_and_verified(robot, readings, memory, start.wanted_mm, mount=label))

@@ -1,0 +1,76 @@
+"""A failed check locks calibrated work: commands and offsets of a calibration that holds no longer."""
+
+from __future__ import annotations
+
+from station.errors import NotApplicable
+from station.records import CalibrationHolds, CalibrationSummary
+from station.run_kinds.kind import RUN_KINDS
+from station.store import Store
+
+CLEARED = "check_cleared"
+MOST_LOOKED_AT = 500
+
+
+def calibration_holds(store: Store, serial: str) -> CalibrationHolds:
+    """Whether calibrated work of a robot may go on, as its checks and calibrations say."""
+    newest = _newest(store, serial)
+    if newest is None:
+        return CalibrationHolds(robot_serial=serial, locked=False, text="Not checked yet.")
+    if newest.verdict == "fail":
+        return CalibrationHolds(
+            robot_serial=serial,
+            locked=True,
+            text=f"Locked: check {newest.id} failed. {newest.reason} An engineer can clear it.",
+            check=newest.id,
+        )
+    found = store.calibration(newest.id).check
+    until = found.valid_until if found else None
+    return CalibrationHolds(
+        robot_serial=serial,
+        locked=False,
+        text=f"Check {newest.id} passed.",
+        check=newest.id,
+        calibration_valid_until=until,
+    )
+
+
+def _newest(store: Store, serial: str) -> CalibrationSummary | None:
+    """The failed check that still counts, else the last passed one; None where there is neither.
+
+    A failed check counts until a calibration has passed or somebody has cleared it; a check that passes later
+    does not clear it.
+    """
+    passed = None
+    for run in store.calibrations(limit=MOST_LOOKED_AT, robot_serial=serial).items:
+        if run.verdict == "pass" and RUN_KINDS[run.kind].offsets:
+            return passed
+        if run.kind == "check" and run.verdict == "pass" and passed is None:
+            passed = run
+        if run.kind == "check" and run.verdict == "fail" and not _cleared(store, run.id):
+            return run
+    return passed
+
+
+def check_not_locked(store: Store, calibration_id: int) -> None:
+    """:raises NotApplicable: a check after this run has failed; :raises NotFound: no such run."""
+    run = store.summary(calibration_id)
+    holds = calibration_holds(store, run.robot_serial)
+    if holds.locked and holds.check is not None and holds.check > calibration_id:
+        raise NotApplicable(f"{holds.text} Run {calibration_id} was made before it: calibrate again.")
+
+
+def clear_failed_check(store: Store, serial: str, who: str, reason: str) -> None:
+    """Let calibrated work go on; who and why stay on record.
+
+    :raises NotFound: no such robot.
+    :raises NotApplicable: nothing is locked.
+    """
+    holds = calibration_holds(store, serial)
+    if not holds.locked or holds.check is None:
+        store.robot(serial)
+        raise NotApplicable(f"Nothing is locked for robot {serial}.")
+    store.add_event(holds.check, CLEARED, {"by": who, "reason": reason})
+
+
+def _cleared(store: Store, check_id: int) -> bool:
+    return any(event.kind == CLEARED for event in store.events(check_id))

@@ -1,0 +1,115 @@
+"""Taught positions survive new zeros: joint angles of the same physical positions under the present ones.
+
+The actual angle of a joint is what its drive says plus what the drive's zero is off.  What is known of that
+before and now, each with its uncertainty, gives the new angle and how far off the platform may then stand.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from station.errors import NotApplicable
+from station.five_bar import Robot, pose, position_jacobian
+from station.motion import shift_of
+from station.records import Real, TaughtPosition, TranslatedPosition
+from station.run_kinds.apply import source_of
+from station.run_kinds.lock import check_not_locked
+from station.run_kinds.zero_state import application
+from station.settings import JointSettings
+from station.store import Store
+
+NEAR_SINGULAR = 0.15
+"""Sine of the angle between the distal links below which the platform is hardly held."""
+MARGIN_MM = 5.0
+K95 = 2.4477
+"""Radius that holds 95 % of two-dimensional normal errors, in standard deviations of the larger axis."""
+
+
+@dataclass(frozen=True)
+class Change:
+    """From the frame in which positions were taught to the one that the drives have now."""
+
+    robot: Robot
+    shift: Real
+    """(2,) rad, to be added to taught angles."""
+    covariance: Real
+    """(2, 2) rad^2, of what the actual angles then differ by."""
+
+
+def change_of(store: Store, run_id: int, taught_under: int | None = None) -> Change:
+    """:param taught_under: the run after whose application positions were taught; None: before `run_id` was.
+
+    :raises NotFound: no such run.
+    :raises NotApplicable: it is not applied, or what the drives hold is not known; says why.
+    """
+    run = store.calibration(run_id)
+    known = application(store, run)
+    if known is None or known.state != "applied":
+        raise NotApplicable(
+            f"Run {run_id} is not what the drives hold: {known.text if known else 'it has not passed.'}"
+            " Taught positions are as they were."
+        )
+    check_not_locked(store, run_id)
+    robot = store.robot_of(run_id)
+    now = shift_of(store.zero_writes(run.robot_serial, since=run_id))
+    if taught_under is None:
+        # the drives' own frames moved by what was written, and nothing else did
+        return Change(robot, -np.radians(now), np.eye(2) * 2.0 * np.radians(robot.pulse_deg) ** 2 / 12.0)
+    earlier = store.calibration(taught_under)
+    if earlier.robot_serial != run.robot_serial:
+        raise NotApplicable(f"Run {taught_under} is of robot {earlier.robot_serial}, not {run.robot_serial}.")
+    written = store.zero_writes(run.robot_serial, since=taught_under)
+    after = [write for write in written if write.of == taught_under]
+    if not after:
+        raise NotApplicable(f"Run {taught_under} was never applied; nothing was taught under it.")
+    old, new = source_of(store, taught_under).fit, source_of(store, run_id).fit
+    left_then = old.dtheta + np.radians(shift_of(after))
+    left_now = new.dtheta + np.radians(now)
+    return Change(robot, left_then - left_now, old.covariance[:2, :2] + new.covariance[:2, :2])
+
+
+def translated(
+    change: Change, taught: Sequence[TaughtPosition], joints: Sequence[JointSettings]
+) -> tuple[TranslatedPosition, ...]:
+    """The same physical positions in the drives' present frame, marked where a limit is near."""
+    theta = np.radians([[t.theta1_deg, t.theta2_deg] for t in taught]).reshape(-1, 2)
+    new = theta + change.shift
+    with np.errstate(invalid="ignore"):
+        at = pose(change.robot.geometry, new)
+        by_zero = position_jacobian(change.robot.geometry, at)[:, :, :2]
+    spread = by_zero @ change.covariance @ np.swapaxes(by_zero, 1, 2)
+    u95_mm = K95 * np.sqrt(np.linalg.eigvalsh(np.nan_to_num(spread))[:, 1])
+    held = np.abs((at.w[:, 0].conj() * at.w[:, 1]).imag)
+    out = []
+    for k, position in enumerate(taught):
+        degrees = np.degrees(new[k])
+        closes = bool(np.isfinite(at.r[k]))
+        within = (
+            closes and _within(change.robot, complex(at.r[k]), degrees, joints) and held[k] > NEAR_SINGULAR
+        )
+        out.append(
+            TranslatedPosition(
+                position=position.position,
+                theta1_deg=float(degrees[0]),
+                theta2_deg=float(degrees[1]),
+                u95_mm=float(u95_mm[k]) if closes else None,
+                within_limits=bool(within),
+            )
+        )
+    return tuple(out)
+
+
+def _within(robot: Robot, place: complex, degrees: Real, joints: Sequence[JointSettings]) -> bool:
+    (left, right), (low, high) = robot.workspace_x, robot.workspace_y
+    inside = (
+        left - MARGIN_MM <= place.real <= right + MARGIN_MM
+        and low - MARGIN_MM <= place.imag <= high + MARGIN_MM
+    )
+    reach = all(
+        abs(float(angle) - joint.zero_at_deg) <= joint.reach_deg
+        for angle, joint in zip(degrees, joints, strict=True)
+    )
+    return inside and reach

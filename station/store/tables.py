@@ -1,0 +1,109 @@
+"""Finished runs, their readings and findings as plain columns, many at a time, for analysis elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from station.records import State
+from station.store.kept_file import KeptFile
+from station.store.trends import POSITION_ERROR
+
+Columns = dict[str, tuple[object, ...]]
+"""By name, all equally long."""
+
+RUNS = {
+    "id": "id",
+    "uid": "uid",
+    "robot_serial": "robot_serial",
+    "kind": "kind",
+    "plan": "plan",
+    "operator": "operator",
+    "work_order": "work_order",
+    "state": "state",
+    "verdict": "verdict",
+    "outcome": "outcome",
+    "reason_code": "reason_code",
+    "reason": "reason",
+    "created_at": "created_ms",
+    "started_at": "started_ms",
+    "ended_at": "ended_ms",
+    "dtheta1_deg": "zero1_deg",
+    "dtheta1_sd_deg": "zero1_sd_deg",
+    "dtheta2_deg": "zero2_deg",
+    "dtheta2_sd_deg": "zero2_sd_deg",
+    "position_error_mm": POSITION_ERROR,
+}
+READINGS = {
+    "run_id": "calibration_id",
+    "run_uid": "uid",
+    "robot_serial": "robot_serial",
+    "created_at": "created_ms",
+    "reading": "reading",
+    "sequence": "walk",
+    "t_s": "t_s",
+    "theta1_deg": "theta1_deg",
+    "theta2_deg": "theta2_deg",
+    "approach1": "approach1",
+    "approach2": "approach2",
+    "scale_mm": "scale_mm",
+    "position": "position",
+    "temperature_c": "temperature_c",
+    "payload_kg": "payload_kg",
+    "mount": "mount",
+}
+FINDINGS = {
+    "run_id": "calibration_id",
+    "run_uid": "uid",
+    "robot_serial": "robot_serial",
+    "created_at": "created_ms",
+    "effect": "json_extract(finding.value, '$.effect')",
+    "joint": "json_extract(finding.value, '$.joint')",
+    "part": "json_extract(finding.value, '$.part')",
+    "probability": "json_extract(finding.value, '$.probability')",
+    "p_value": "json_extract(finding.value, '$.p_value')",
+    "parameter": "json_extract(parameter.value, '$.name')",
+    "value": "json_extract(parameter.value, '$.value')",
+    "sd": "json_extract(parameter.value, '$.sd')",
+    "unit": "json_extract(parameter.value, '$.unit')",
+}
+
+
+class Tables(KeptFile):
+    """Ranges of run numbers, both ends included."""
+
+    def finished_after(self, run: int, most: int) -> list[tuple[int, int]]:
+        """Number and creation (ms since 1970) of runs after `run`, as far as all have ended."""
+        rows = self._readers.all(
+            "SELECT id, created_ms, state FROM calibrations WHERE id > ? ORDER BY id LIMIT ?", [run, most]
+        )
+        out: list[tuple[int, int]] = []
+        for row in rows:
+            if not State(row["state"]).ended:
+                break
+            out.append((row["id"], row["created_ms"]))
+        return out
+
+    def runs_table(self, first: int, last: int) -> Columns:
+        """One row a run, see `RUNS`; times in ms since 1970."""
+        return self._columns(RUNS, "calibrations LEFT JOIN results ON calibration_id = id", "id", first, last)
+
+    def readings_table(self, first: int, last: int) -> Columns:
+        """One row a reading, see `READINGS`."""
+        return self._columns(
+            READINGS, "readings JOIN calibrations ON id = calibration_id", "calibration_id", first, last
+        )
+
+    def findings_table(self, first: int, last: int) -> Columns:
+        """One row a parameter of an effect that was found, see `FINDINGS`."""
+        tables = (
+            "results JOIN calibrations ON calibrations.id = calibration_id,"
+            " json_each(result, '$.findings') finding, json_each(finding.value, '$.parameters') parameter"
+        )
+        return self._columns(FINDINGS, tables, "calibration_id", first, last)
+
+    def _columns(self, columns: dict[str, str], tables: str, run: str, first: int, last: int) -> Columns:
+        shown = ", ".join(f"{source} AS {name}" for name, source in columns.items())
+        rows: Sequence[Sequence[object]] = self._readers.all(
+            f"SELECT {shown} FROM {tables} WHERE {run} BETWEEN ? AND ? ORDER BY {run}", [first, last]
+        )
+        return dict(zip(columns, zip(*rows, strict=True) if rows else [()] * len(columns), strict=True))

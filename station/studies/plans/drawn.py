@@ -1,0 +1,67 @@
+"""Machines drawn from the tolerances, and how far off they truly stand after a calibration."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from station.five_bar import SIZE, FiveBar, Robot, Tolerances, inverse, perturbed
+from station.identification import Identification
+from station.records import Real
+from station.studies.simulation import SimulatedMachine, true_positions
+
+LARGEST_ZERO_OFFSET_DEG = 3.0
+GRID = (13, 9)
+"""Finer than the one that bounds are computed on."""
+
+
+def robot_of(tolerance_mm: float) -> Robot:
+    """The paper's robot, made to a tolerance."""
+    return Robot(serial="drawn", tolerances=Tolerances(tolerance_mm, tolerance_mm), feedback_sd_deg=0.0)
+
+
+@dataclass(frozen=True)
+class Drawn:
+    """One machine of a study."""
+
+    robot: Robot
+    truth: Real
+    """(12,) errors in the order of `station.five_bar.error_model`, mm and rad."""
+    seed: int
+
+    def machine(self, number: int = 0) -> SimulatedMachine:
+        """Ready to be measured; another `number` has other noise."""
+        return SimulatedMachine(self.robot, self.truth, "whole pulses", 1000 * self.seed + number)
+
+    def struck(self, rng: np.random.Generator) -> Drawn:
+        """The same after a collision: both zero offsets are others."""
+        truth = self.truth.copy()
+        truth[:2] = zero_offsets(rng)
+        return Drawn(self.robot, truth, self.seed)
+
+    def largest_errors_mm(self, fit: Identification[FiveBar]) -> tuple[float, float]:
+        """Over the workspace: with the zeros in the drives only, and with the commands of the model."""
+        target = self.robot.workspace_grid(*GRID)
+        identified = fit.p[:SIZE]
+        largest = []
+        for geometry in (self.robot.geometry, perturbed(self.robot.geometry, identified)):
+            theta = inverse(geometry, target) - fit.dtheta
+            largest.append(float(np.abs(true_positions(self.robot, self.truth, theta) - target).max()))
+        return largest[0], largest[1]
+
+
+def zero_offsets(rng: np.random.Generator) -> Real:
+    """(2,) rad."""
+    return np.radians(rng.uniform(-LARGEST_ZERO_OFFSET_DEG, LARGEST_ZERO_OFFSET_DEG, 2))
+
+
+def drawn(robot: Robot, seed: int) -> tuple[Drawn, np.random.Generator]:
+    """Machine number `seed` of a robot's tolerances, and the generator for what happens to it."""
+    rng = np.random.default_rng([seed, 16])
+    truth = np.zeros(SIZE)
+    truth[:2] = zero_offsets(rng)
+    truth[2:6] = rng.normal(0.0, robot.tolerances.e_mm, 4)
+    truth[6:10] = rng.normal(0.0, robot.tolerances.link_mm, 4)
+    truth[10:] = rng.normal(robot.drm, robot.drm_sd)
+    return Drawn(robot, truth, seed), rng

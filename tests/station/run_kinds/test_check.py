@@ -1,0 +1,104 @@
+"""Plan `check`: what it finds with 99 %, how seldom it errs, what it compares with."""
+
+from __future__ import annotations
+
+from datetime import UTC, datetime, timedelta
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from station.errors import NotApplicable
+from station.five_bar import FiveBar, Robot
+from station.identification import Identification, identify
+from station.plans import make_plan
+from station.records import CalibrationResult, State
+from station.run_kinds import RUN_KINDS
+from station.run_kinds.check import check, compared_with
+from station.store.store import Store
+from station.studies.plans.drawn import Drawn, drawn, robot_of
+from station.studies.plans.walked import walk
+from tests.station.asking import asked
+from tests.station.fakes import result_of
+
+ROBOT = robot_of(0.03)
+
+
+@cache
+def calibrated(seed: int) -> tuple[Drawn, Identification[FiveBar]]:
+    machine, _ = drawn(ROBOT, seed)
+    stops = make_plan("full", ROBOT).stops
+    return machine, identify(ROBOT, machine.machine().run(stops, 5))
+
+
+def checked(seed: int, shift_deg: tuple[float, float] = (0.0, 0.0)) -> CalibrationResult:
+    machine, fit = calibrated(seed)
+    truth = machine.truth.copy()
+    truth[:2] += np.radians(shift_deg)
+    return walk(check(fit, 0.0, 24.0), Drawn(ROBOT, truth, seed).machine(1)).result
+
+
+def test_machines_that_did_not_change_pass() -> None:
+    results = [checked(seed) for seed in range(16)]
+    assert sum(result.verdict == "fail" for result in results) <= 1
+    found = results[0].check
+    assert found is not None
+    assert found.smallest_shift_deg == max(found.smallest_by_joint_deg)
+    assert found.blind_shift_deg >= 0.7 * min(found.smallest_by_joint_deg)
+    assert found.valid_until is not None
+    assert timedelta(hours=23) < found.valid_until - datetime.now(UTC) <= timedelta(hours=24)
+
+
+@pytest.mark.parametrize("joint", [0, 1])
+def test_the_smallest_shift_is_found(joint: int) -> None:
+    stated = checked(0).check
+    assert stated is not None
+    results = []
+    for seed in range(12):
+        shift = [0.0, 0.0]
+        shift[joint] = stated.smallest_by_joint_deg[joint] * (1 if seed % 2 else -1)
+        results.append(checked(seed, (shift[0], shift[1])))
+    assert sum(result.verdict == "fail" for result in results) >= 11
+    failed = results[-1]
+    assert (failed.outcome, failed.reason.code) == ("repair", "zero_shifted")
+    assert failed.check is not None
+    assert failed.check.valid_until is None
+    assert failed.check.shift_deg[joint] > 0.5 * stated.smallest_by_joint_deg[joint]
+
+
+def test_what_no_shift_explains_is_told_apart() -> None:
+    machine, fit = calibrated(1)
+    truth = machine.truth.copy()
+    truth[10] += 1.0
+    result = walk(check(fit, 0.0, 24.0), Drawn(ROBOT, truth, 1).machine(1)).result
+    assert result.verdict == "fail"
+
+
+def test_an_old_calibration_finds_less() -> None:
+    machine, fit = calibrated(0)
+    new, old = (walk(check(fit, days, 24.0), machine.machine(1)).result.check for days in (0.0, 3650.0))
+    assert new is not None
+    assert old is not None
+    assert old.smallest_shift_deg > 1.2 * new.smallest_shift_deg
+
+
+@pytest.fixture
+def store(tmp_path: Path) -> Store:
+    return Store(tmp_path / "station.db")
+
+
+def test_it_needs_a_calibration_and_takes_the_last_pass(store: Store) -> None:
+    start = RUN_KINDS["check"].check
+    with pytest.raises(NotApplicable, match="calibrate first"):
+        start(store, asked("R1", "check"))
+    runs = []
+    for verdict in ("pass", "pass", "fail"):
+        run = store.create(asked("R1", "full"), Robot.default("R1"))
+        store.finish(run, State.SUCCEEDED, result_of([], verdict))
+        runs.append(run)
+    start(store, asked("R1", "check"))
+    found = compared_with(store, "R1")
+    assert found is not None
+    assert found.id == runs[1]
+    store.close()
