@@ -39,6 +39,22 @@ class KeyReused(Exception):
         self.calibration_id = calibration_id
 
 
+class NotSignedIn(Exception):
+    """Whoever asks is not known, or not any more; says why."""
+
+
+class Forbidden(Exception):
+    """Whoever asks is known but may not do this; names the roles that may."""
+
+
+class TooManyTries(Exception):
+    """Too many failed sign-ins; the next is looked at after `after_s`."""
+
+    def __init__(self, after_s: float) -> None:
+        super().__init__(f"Too many failed sign-ins; wait {after_s:.0f} s.")
+        self.after_s = after_s
+
+
 class StoreUnavailable(Exception):
     """The database cannot be read or written at this moment; says why."""
 

@@ -5,14 +5,25 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, Literal, Self
+from urllib.parse import urlsplit
 
-from pydantic import BaseModel, ConfigDict, Field, JsonValue, SerializeAsAny, ValidationError, model_validator
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    IPvAnyNetwork,
+    JsonValue,
+    SerializeAsAny,
+    ValidationError,
+    model_validator,
+)
 from pydantic_core import ErrorDetails
 
 from drivers.driver import DriverSettings
 from drivers.scaling import JointScaling
 from station.errors import InputRefused
+from station.records import EventType
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 
@@ -160,8 +171,17 @@ class ServiceSettings(_Section):
     """File of the history; by default `station.db` in the home folder."""
     least_free_mb: Annotated[float, Field(ge=0, le=1e6)] = 4.0
     """No run starts with less room on the disk of the history, MB."""
-    api_keys: Path | None = None
-    """Not used yet."""
+    open: bool = True
+    """Whether the emulated rig on a loopback address needs no sign-in; any other station always does."""
+    hosts: tuple[Annotated[str, Field(pattern=r"^[A-Za-z0-9.\-:\[\]]+$")], ...] = ()
+    """Names under which browsers reach the station, as `station.plant.example` or with `:port`; the address
+    that it listens at and those of loopback are always among them."""
+    trusted_proxies: tuple[IPvAnyNetwork, ...] = ()
+    """Addresses or networks of reverse proxies whose `X-Forwarded-` headers count."""
+    sign_off_min: Annotated[float, Field(gt=0, le=1440)] = 60.0
+    """After so many minutes without activity somebody is signed off, but never while a run is under way."""
+    body_mb: Annotated[float, Field(gt=0, le=100)] = 4.0
+    """Largest file in a request, MB; JSON may have 1 MB."""
 
 
 class BackupSettings(_Section):
@@ -197,6 +217,61 @@ class QualitySettings(_Section):
     """The newest so many finished runs are looked at."""
 
 
+EventTypes = tuple[EventType, ...]
+
+
+class WebhookSettings(_Section):
+    """`[[outbox.webhook]]`: an address that events are posted to, signed as Standard Webhooks describes."""
+
+    url: Annotated[str, Field(pattern=r"^https?://[^\s@]+$")]
+    """`https://...`; plain `http` to this computer only."""
+    secret_file: Path
+    """File with the secret, `whsec_` and base64 of 24 bytes or more."""
+    events: EventTypes = ("run.ended", "alarm")
+    """Types of event that are sent."""
+
+    @model_validator(mode="after")
+    def _plain_to_loopback_only(self) -> Self:
+        host = urlsplit(self.url).hostname or ""
+        if self.url.startswith("http:") and host not in ("127.0.0.1", "localhost", "::1"):
+            raise ValueError("plain http goes to this computer only; use https")
+        return self
+
+
+class MqttSettings(_Section):
+    """`[[outbox.mqtt]]`: a broker of MQTT 5."""
+
+    url: Annotated[str, Field(pattern=r"^mqtts?://\S+$")]
+    """`mqtt://host:1883` or `mqtts://name:password@host:8883`."""
+    topic: Annotated[str, Field(min_length=1, max_length=200, pattern=r"^[^+#\x00]+$")]
+    """Above all topics of this station: `TOPIC/events/TYPE` and `TOPIC/state`."""
+    events: EventTypes = ("run.ended", "alarm")
+    """Types of event that are sent."""
+
+
+class FolderSettings(_Section):
+    """`[[outbox.folder]]`: a folder where each event becomes a file."""
+
+    path: Path
+    """It is made where there is none."""
+    format: Literal["json", "csv"] = "json"
+    """Of the files."""
+    events: EventTypes = ("run.ended", "alarm")
+    """Types of event that are written."""
+
+
+class OutboxSettings(_Section):
+    """`[outbox]`: who is told of runs and alarms."""
+
+    keep_days: Annotated[float, Field(gt=0, le=3650)] = 7.0
+    """An event that a receiver did not take for so many days is given up, and shown as `expired`."""
+    keep: Annotated[int, Field(ge=1, le=10_000_000)] = 100_000
+    """So many events wait for one receiver at most; the oldest are given up first."""
+    webhook: tuple[WebhookSettings, ...] = ()
+    mqtt: tuple[MqttSettings, ...] = ()
+    folder: tuple[FolderSettings, ...] = ()
+
+
 class EmulatedSettings(_Section):
     """`[emulated]`: the machine that stands in when no devices are named."""
 
@@ -218,6 +293,7 @@ class Settings(_Section):
     backup: BackupSettings = BackupSettings()
     retention: RetentionSettings = RetentionSettings()
     quality: QualitySettings = QualitySettings()
+    outbox: OutboxSettings = OutboxSettings()
     emulated: EmulatedSettings = EmulatedSettings()
 
     @model_validator(mode="after")

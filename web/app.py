@@ -9,16 +9,21 @@ from pathlib import Path
 from fastapi import Depends, FastAPI
 
 from station import __version__
-from station.service import Runtime
-from web import etags, headers, methods, pages, problems
+from station.people import Access
+from station.service import Runtime, Timer, listens_on_loopback
+from web import etags, methods, pages, problems
+from web.borders import Borders, Forwarded
+from web.headers import SecurityHeaders
 from web.known_query import known_query
 from web.live import LiveFeed
 from web.routes import (
+    audit,
     backups,
     calibrations,
     datasets,
     diagnoses,
     emulator,
+    events,
     health,
     live,
     plans,
@@ -26,6 +31,7 @@ from web.routes import (
     readings,
     retract,
     robots,
+    sessions,
     station,
     stop,
 )
@@ -38,12 +44,28 @@ State is pushed on the WebSocket `/api/v1/live`: first a snapshot, then numbered
 Errors are problem documents (RFC 9457)."""
 
 
-def create_app(runtime: Runtime, *, static: Path = pages.STATIC) -> FastAPI:
-    """The ASGI application on top of a running station."""
+JSON_BYTES = 1_000_000
+"""Largest body of JSON."""
+NOTE_USE_S = 60.0
+ROUTES = (
+    station, audit, backups, calibrations, datasets, diagnoses, emulator, events, plans, quality, readings,
+    retract, robots, sessions, stop,
+)  # fmt: skip
+LIVE_ROUTES = (live,)
+
+
+def create_app(runtime: Runtime, *, access: Access | None = None, static: Path = pages.STATIC) -> FastAPI:
+    """The ASGI application on top of a running station.
+
+    :param access: who may do what; by default as the settings of the station have it
+    """
+    service = runtime.settings.service
+    access = access or access_of(runtime, service.host)
 
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
-        with app.state.feed.attached():
+        noting = Timer("use of keys and sessions", access.note_use, NOTE_USE_S, first_s=NOTE_USE_S)
+        with app.state.feed.attached(), noting:
             yield
 
     app = FastAPI(
@@ -54,14 +76,18 @@ def create_app(runtime: Runtime, *, static: Path = pages.STATIC) -> FastAPI:
         docs_url=None,
         redoc_url=None,
         responses=problems.RESPONSES,
+        max_body_size=JSON_BYTES,
     )
+    app.state.access = access
     app.state.runtime = runtime
-    app.state.feed = LiveFeed(runtime.orchestrator, build=pages.build_id(static))
-    for module in (
-        station, backups, calibrations, datasets, diagnoses, emulator, plans, quality, readings, retract,
-        robots, stop,
-    ):  # fmt: skip
-        app.include_router(module.router, prefix=API, dependencies=[Depends(known_query(API))])
+    app.state.feed = LiveFeed(runtime.orchestrator, build=pages.build_id(static), open=access.open)
+    for module in ROUTES:
+        app.include_router(
+            module.router,
+            prefix=API,
+            dependencies=[Depends(known_query(API))],
+            max_body_size=round(service.body_mb * 1e6) if module is datasets else None,
+        )
     app.include_router(live.router, prefix=API)
     app.include_router(health.router)
     pages.add(app, static)
@@ -69,7 +95,19 @@ def create_app(runtime: Runtime, *, static: Path = pages.STATIC) -> FastAPI:
     problems.add_schema(app.openapi())
     app.add_middleware(SlowBodies)
     app.add_middleware(etags.ETags, prefix=f"{API}/calibrations/")
-    app.add_middleware(headers.SameOrigin)
-    app.add_middleware(headers.SecurityHeaders)
+    app.add_middleware(Borders, hosts=service.hosts)
+    app.add_middleware(Forwarded, proxies=service.trusted_proxies)
+    app.add_middleware(SecurityHeaders)
     app.add_middleware(methods.HeadAsGet)
     return app
+
+
+def access_of(runtime: Runtime, host: str) -> Access:
+    """Who may do what at a station that listens at this address."""
+    service, orchestrator = runtime.settings.service, runtime.orchestrator
+    return Access(
+        runtime.store,
+        open=service.open and orchestrator.emulated and listens_on_loopback(host),
+        idle_s=service.sign_off_min * 60,
+        busy=lambda: orchestrator.running is not None,
+    )

@@ -1,13 +1,9 @@
-"""What every request must show and every answer carries."""
+"""What every answer carries."""
 
 from __future__ import annotations
 
-from urllib.parse import urlsplit
-
-from starlette.datastructures import Headers, MutableHeaders
+from starlette.datastructures import MutableHeaders
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
-
-from web.problems import problem
 
 CONTENT_SECURITY_POLICY = (
     "default-src 'self'; style-src-attr 'unsafe-inline'; "
@@ -15,31 +11,16 @@ CONTENT_SECURITY_POLICY = (
 )
 """Own files only.  Style attributes are allowed because the SVG charts are drawn with them."""
 
-SAFE_METHODS = ("GET", "HEAD", "OPTIONS")
-
-
-def same_origin(headers: Headers) -> bool:
-    """True unless a browser says that another site's page is asking."""
-    origin = headers.get("origin")
-    return origin is None or urlsplit(origin).netloc == headers.get("host")
-
-
-class SameOrigin:
-    """Refuses commands sent by other sites' pages: they need no CORS for a plain POST."""
-
-    def __init__(self, app: ASGIApp) -> None:
-        self.app = app
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        if (
-            scope["type"] == "http"
-            and scope["method"] not in SAFE_METHODS
-            and not same_origin(Headers(scope=scope))
-        ):
-            answer = problem(403, "Another site's page may not command this station.", kind="foreign-origin")
-            await answer(scope, receive, send)
-            return
-        await self.app(scope, receive, send)
+POLICIES = {
+    "Content-Security-Policy": CONTENT_SECURITY_POLICY,
+    "X-Content-Type-Options": "nosniff",
+    "X-Frame-Options": "DENY",
+    "Referrer-Policy": "no-referrer",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Permissions-Policy": "camera=(), geolocation=(), microphone=(), usb=(), serial=()",
+    "Cache-Control": "no-store",
+}
 
 
 class SecurityHeaders:
@@ -56,10 +37,8 @@ class SecurityHeaders:
         async def send_with_headers(message: Message) -> None:
             if message["type"] == "http.response.start":
                 headers = MutableHeaders(scope=message)
-                headers.setdefault("Content-Security-Policy", CONTENT_SECURITY_POLICY)
-                headers.setdefault("X-Content-Type-Options", "nosniff")
-                headers.setdefault("Referrer-Policy", "no-referrer")
-                headers.setdefault("Cache-Control", "no-store")
+                for name, value in POLICIES.items():
+                    headers.setdefault(name, value)
             await send(message)
 
         await self.app(scope, receive, send_with_headers)

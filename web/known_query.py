@@ -5,17 +5,17 @@ A filter with a slip in its name must not answer with everybody's runs.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Awaitable, Callable
 
 from fastapi import Request
 
 from station.errors import FieldRefused
 
 
-def known_query(prefix: str) -> Callable[[Request], None]:
+def known_query(prefix: str) -> Callable[[Request], Awaitable[None]]:
     """A dependency for the routes of a router that is included under this prefix."""
 
-    def check(request: Request) -> None:
+    async def check(request: Request) -> None:
         """:raises FieldRefused: a parameter that the OpenAPI document does not have here."""
         path = prefix + request.scope["route"].path_format
         operation = request.app.openapi()["paths"][path][request.method.lower()]

@@ -31,11 +31,12 @@ class LiveFeed:
         orchestrator: Orchestrator,
         *,
         build: str,
+        open: bool = False,
         beat_s: float = BEAT_S,
         queue_length: int = QUEUE_LENGTH,
     ) -> None:
         self.build = build
-        self._orchestrator = orchestrator
+        self._orchestrator, self._open = orchestrator, open
         self._beat_s = beat_s
         self._queue_length = queue_length
         self._number = 0
@@ -84,7 +85,7 @@ class LiveFeed:
     async def _snapshot(self, number: int) -> str:
         # aside: a worker that hangs while it holds the orchestrator must not stop the beats
         station = await aside(self._orchestrator.snapshot)
-        return self._message("snapshot", number, station)
+        return self._message("snapshot", number, station.as_open(self._open))
 
     def _message(self, kind: str, number: int, data: object = None) -> str:
         message = {"type": kind, "number": number, "at": datetime.now(UTC), "build": self.build, "data": data}

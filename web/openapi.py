@@ -6,19 +6,23 @@ import json
 from pathlib import Path
 from typing import cast
 
+from station.people import Access
 from station.service import Runtime
+from station.settings import Settings
+from station.store import Store
 from web.app import create_app
 
 FILE = Path(__file__).with_name("openapi.json")
 
 
-class _NoOrchestrator:
+class _NoStation:
     orchestrator = None
+    settings = Settings()
 
 
 def text() -> str:
     """The OpenAPI document as it is kept: the routes alone decide it, no rig is needed."""
-    app = create_app(cast(Runtime, _NoOrchestrator()))
+    app = create_app(cast(Runtime, _NoStation()), access=Access(cast(Store, None), open=False))
     return json.dumps(app.openapi(), indent=1, ensure_ascii=False) + "\n"
 
 

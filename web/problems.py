@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from http import HTTPStatus
 from typing import Any
@@ -15,11 +16,14 @@ from starlette.exceptions import HTTPException
 from station.errors import (
     Busy,
     FieldRefused,
+    Forbidden,
     InputRefused,
     KeyReused,
     NotApplicable,
     NotFound,
+    NotSignedIn,
     StoreUnavailable,
+    TooManyTries,
 )
 from web.live_messages import LIVE_MESSAGE
 from web.methods import allowed
@@ -83,7 +87,7 @@ def documented(*statuses: int) -> dict[int | str, dict[str, Any]]:
     }
 
 
-RESPONSES = documented(422, 500, 503)
+RESPONSES = documented(401, 403, 422, 500, 503)
 """What any route may answer."""
 
 
@@ -136,6 +140,20 @@ def add(app: FastAPI) -> None:
     async def store_unavailable(request: Request, error: StoreUnavailable) -> ProblemResponse:
         text = f"The history cannot be used at this moment ({error}). Nothing was changed; try again."
         return problem(503, text, kind="store-unavailable", headers=RETRY_AFTER)
+
+    @app.exception_handler(NotSignedIn)
+    async def not_signed_in(request: Request, error: NotSignedIn) -> ProblemResponse:
+        headers = {"WWW-Authenticate": 'Bearer realm="station"'}
+        return problem(401, str(error), kind="not-signed-in", headers=headers)
+
+    @app.exception_handler(Forbidden)
+    async def forbidden(request: Request, error: Forbidden) -> ProblemResponse:
+        return problem(403, str(error), kind="forbidden")
+
+    @app.exception_handler(TooManyTries)
+    async def too_many_tries(request: Request, error: TooManyTries) -> ProblemResponse:
+        headers = {"Retry-After": str(math.ceil(error.after_s))}
+        return problem(429, str(error), kind="too-many-tries", headers=headers)
 
     @app.exception_handler(KeyReused)
     async def key_reused(request: Request, error: KeyReused) -> ProblemResponse:

@@ -17,7 +17,6 @@ from starlette.types import Message
 from station.run_kinds import Upload
 
 CSV, FORM = "text/csv", "multipart/form-data"
-LARGEST_BYTES = 2_000_000
 LONGEST_NAME = 100
 UNNAMED = "measurement file"
 
@@ -54,14 +53,15 @@ async def uploaded(request: Request, *files: str) -> Uploaded:
 
 
 async def _content(request: Request) -> bytes:
+    largest = round(request.app.state.runtime.settings.service.body_mb * 1e6)
     content = bytearray()
     try:
         async for chunk in request.stream():
             content += chunk
-            if len(content) > LARGEST_BYTES:
+            if len(content) > largest:
                 raise HTTPException(
                     413,
-                    f"The upload is larger than {LARGEST_BYTES} bytes; send the readings alone, or fewer.",
+                    f"The upload is larger than {largest} bytes; send the readings alone, or fewer.",
                 )
     except ClientDisconnect as gone:
         raise HTTPException(400, "The upload was cut off; send it again.") from gone

@@ -13,6 +13,7 @@ from station.errors import InputRefused, NotFound, StoreUnavailable
 from station.home import station_home
 
 _COMMANDS = {
+    "audit": ("people", "Who did what; checks that the record is whole."),
     "apply": ("apply", "Write the zero offsets of a passed run to the drives and verify them."),
     "backup": ("archive", "A copy of the whole history in one new file, made while the station works."),
     "bench": ("studies", "Figures of speed and size, beside those of others where they are installed."),
@@ -25,6 +26,7 @@ _COMMANDS = {
     "gauge-study": ("gauge_study", "How much of the scatter of measured parts is the gauge."),
     "identify": ("identify", "Zero offsets with uncertainty from a measurement file."),
     "import": ("importing", "Keep a measurement file as a finished run, with its diagnosis."),
+    "key": ("people", "API keys of programs, such as a MES."),
     "memory": ("history", "What a robot's next run knows of its geometry and mechanism."),
     "plan": ("plan", "The positions of a plan, their order and the accuracy they predict."),
     "quality": ("quality", "Capability, run rules and a Pareto of outcomes over finished runs."),
@@ -40,6 +42,7 @@ _COMMANDS = {
     "serve": ("serve", "The service with the operator's page."),
     "show": ("history", "One run."),
     "solve": ("diagnosis", "Joint commands for target positions under the identified model."),
+    "user": ("people", "People who sign in at the page."),
     "verify": ("archive", "Whether every finished run is as it ended."),
     "wire": ("wire", "Every request and answer of one run, with its time, in plain words."),
     "translate": ("translate", "Taught joint positions under the zeros that the drives have now."),
@@ -72,8 +75,7 @@ class StationGroup(click.Group):
             return None
         module = import_module(f"{__name__}.{_COMMANDS[cmd_name][0]}")
         command: click.Command = getattr(module, f"{cmd_name.replace('-', '_')}_command")
-        if not any(option.name == "home" for option in command.params):
-            command.params.append(_home(expose_value=False, callback=_set_home))
+        _with_home(command)
         return command
 
     def make_context(self, *args: Any, **extra: Any) -> click.Context:
@@ -102,6 +104,15 @@ def _home(**how: Any) -> click.Option:
         help="Folder of database and logs; else STATION_HOME, else the platform's data folder.",
         **how,
     )
+
+
+def _with_home(command: click.Command) -> None:
+    """--home after the command's name, too, and after that of its part."""
+    if not any(option.name == "home" for option in command.params):
+        command.params.append(_home(expose_value=False, callback=_set_home))
+    if isinstance(command, click.Group):
+        for part in command.commands.values():
+            _with_home(part)
 
 
 def _set_home(context: click.Context, _option: click.Parameter, home: Path | None) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import getpass
 import json
 import sys
 from collections.abc import Iterator
@@ -17,7 +16,7 @@ from rich.box import SIMPLE
 from rich.console import Console
 from rich.table import Table
 
-from station.cli.kept import config_option, kept, run_argument
+from station.cli.kept import at_terminal, config_option, kept, run_argument
 from station.records import Reading, State, harmless
 from station.store import Store
 
@@ -172,7 +171,7 @@ def memory_command(home: Path, serial: str, clear: bool, config: Path | None) ->
     with kept(home, config, writing=clear) as store:
         store.robot(serial)
         if clear:
-            store.forget(serial, getpass.getuser())
+            store.forget(serial, at_terminal())
         memory = store.memory(serial)
     if memory is None:
         console.print(f"Nothing is remembered of robot {serial}.")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import getpass
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
@@ -9,7 +10,7 @@ from pathlib import Path
 import click
 
 from station.errors import InputRefused
-from station.records import LARGEST_ID
+from station.records import LARGEST_ID, Actor
 from station.settings import database_path, load_settings
 from station.store import Store
 
@@ -18,6 +19,11 @@ config_option = click.option(
 )
 
 run_argument = click.argument("calibration_id", metavar="ID", type=click.IntRange(1, LARGEST_ID))
+
+
+def at_terminal() -> Actor:
+    """Who types, as the computer knows them."""
+    return Actor(name=getpass.getuser(), via="terminal")
 
 
 @contextmanager
@@ -32,6 +38,19 @@ def kept(home: Path, config: Path | None, *, writing: bool = False) -> Iterator[
             f"There is no history at {path}; check --home, STATION_HOME and --config, or measure first."
         )
     with closing(Store(path, read_only=not writing)) as store:
+        yield store
+
+
+@contextmanager
+def open_or_begin(home: Path, config: Path | None) -> Iterator[Store]:
+    """The store to be written; a new one begins where there is none, so that keys come before the start.
+
+    :raises InputRefused: it cannot be opened.
+    """
+    path = database_path(load_settings(config), home)
+    if new := new_history(path):
+        click.echo(new, err=True)
+    with closing(Store(path)) as store:
         yield store
 
 

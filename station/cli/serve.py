@@ -15,9 +15,9 @@ import uvicorn
 from station.cli.kept import new_history
 from station.cli.machine_options import logging_to, machine_options, read_settings
 from station.errors import InputRefused
-from station.service import Orchestrator, Runtime
+from station.service import Orchestrator, Runtime, check_entrance
 from station.settings import database_path
-from web.app import create_app
+from web.app import access_of, create_app
 
 _GRACE_S = 3
 
@@ -41,16 +41,26 @@ def serve_command(
     settings = read_settings(config, speed)
     new = new_history(database_path(settings, home))
     logs = logging_to(home, terminal=logging.WARNING)
-    listener = _listen(host or settings.service.host, settings.service.port if port is None else port)
+    host = host or settings.service.host
+    emulated = emulate is not None or settings.scale is None
+    check_entrance(database_path(settings, home), host, emulated=emulated)
+    listener = _listen(host, settings.service.port if port is None else port)
     with logs, listener, Runtime.open(settings, home, emulate) as runtime:
         if new:
             click.echo(new, err=True)
-        application = create_app(runtime)
+        access = access_of(runtime, host)
+        application = create_app(runtime, access=access)
         server = _Server(
             uvicorn.Config(
-                application, log_config=None, access_log=False, timeout_graceful_shutdown=_GRACE_S
+                application,
+                log_config=None,
+                access_log=False,
+                timeout_graceful_shutdown=_GRACE_S,
+                proxy_headers=False,  # web.borders believes declared proxies alone
+                server_header=False,
             ),
             runtime.orchestrator,
+            access.offer_first_administrator(),
         )
         # uvicorn raises a signal again once it has ended; by then it has been obeyed.
         for ending in (signal.SIGINT, signal.SIGTERM):
@@ -80,15 +90,23 @@ def _listen(host: str, port: int) -> socket.socket:
 class _Server(uvicorn.Server):
     """Says when it listens, and stops the machine the moment it is told to end."""
 
-    def __init__(self, config: uvicorn.Config, orchestrator: Orchestrator) -> None:
+    def __init__(self, config: uvicorn.Config, orchestrator: Orchestrator, first: str | None) -> None:
+        """
+        :param first: secret of the link that makes the first administrator; None where there is one
+        """
         super().__init__(config)
-        self._orchestrator = orchestrator
+        self._orchestrator, self._first = orchestrator, first
 
     async def startup(self, sockets: list[socket.socket] | None = None) -> None:
         await super().startup(sockets)
         for listener in sockets or ():
             host, port = listener.getsockname()[:2]
             click.echo(f"Station ready: http://{host}:{port}")
+            if self._first is not None:
+                click.echo(
+                    "Nobody can sign in as administrator yet; this link makes the first, once:"
+                    f" http://{host}:{port}/sign-in#first={self._first}"
+                )
 
     def handle_exit(self, sig: int, frame: FrameType | None) -> None:
         # Not here: a signal handler may have interrupted somebody who holds the locks this needs.

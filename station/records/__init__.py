@@ -49,6 +49,7 @@ from station.records.diagnosis_document import (
 )
 from station.records.foreign_table import ForeignTable, read_foreign
 from station.records.guesses import TIME, guesses_in_words, with_guesses
+from station.records.happenings import Delivery, DeliveryCount, DeliveryState, Event, EventType
 from station.records.identification_document import (
     Convergence,
     GateOfMemory,
@@ -91,6 +92,21 @@ from station.records.measurement_file import (
 )
 from station.records.measurements import Measurements, from_readings, number
 from station.records.names import checked_name, checked_serial
+from station.records.people import (
+    STATION,
+    Actor,
+    ApiKey,
+    AuditChecked,
+    AuditEntry,
+    Credentials,
+    PersonName,
+    Role,
+    Session,
+    SignedIn,
+    User,
+    Via,
+)
+from station.records.plain_table import csv_text
 from station.records.plan_document import PlanDocument, PlannedStop, PlanPrediction, PredictedSd
 from station.records.procedure import Procedure
 from station.records.prompt import Prompt
@@ -127,7 +143,15 @@ from station.records.run import (
     Submitted,
     ZeroWrite,
 )
-from station.records.sections import Finite, Positive, Section, Sections, refusal, sections_to_toml
+from station.records.sections import (
+    Finite,
+    Positive,
+    Section,
+    Sections,
+    refusal,
+    sections_of_toml,
+    sections_to_toml,
+)
 from station.records.taught import TaughtPosition, TranslatedPosition, read_taught, translated_to_csv
 from station.records.trend import TrendPoint
 from station.records.types import LARGEST_ID, Angles, Complex, Flags, Index, Real
@@ -142,18 +166,23 @@ __all__ = [
     "LIMIT_SDS",
     "MIXTURE_SCHEMA",
     "MODEL_SCHEMA",
+    "STATION",
     "TIME",
     "Accuracy",
     "AccuracyReached",
+    "Actor",
     "Advice",
     "Angles",
     "AnyModelDocument",
     "AnyReference",
+    "ApiKey",
     "Application",
     "ApplicationRun",
     "ApplicationState",
     "Ask",
     "Asked",
+    "AuditChecked",
+    "AuditEntry",
     "BackupMade",
     "Calibration",
     "CalibrationHolds",
@@ -165,7 +194,11 @@ __all__ = [
     "Columns",
     "Complex",
     "Convergence",
+    "Credentials",
     "DataSource",
+    "Delivery",
+    "DeliveryCount",
+    "DeliveryState",
     "Dependence",
     "DeviceState",
     "DeviceView",
@@ -173,6 +206,8 @@ __all__ = [
     "DiagnosisVerdict",
     "EffectName",
     "ErrorOfModel",
+    "Event",
+    "EventType",
     "ExperimentRecord",
     "ExplainedEffect",
     "ExplanationOfModel",
@@ -205,6 +240,7 @@ __all__ = [
     "NoiseOfReadings",
     "Outcome",
     "OutlierNote",
+    "PersonName",
     "PlanDocument",
     "PlanName",
     "PlanPrediction",
@@ -233,6 +269,7 @@ __all__ = [
     "ResultParts",
     "Retract",
     "RetractView",
+    "Role",
     "RunBrief",
     "RunReading",
     "RunStop",
@@ -241,7 +278,9 @@ __all__ = [
     "Sections",
     "SequenceTitle",
     "SequenceView",
+    "Session",
     "SetZeros",
+    "SignedIn",
     "SmallestVisible",
     "Span",
     "StageAccuracy",
@@ -259,7 +298,9 @@ __all__ = [
     "TermOfModel",
     "TranslatedPosition",
     "TrendPoint",
+    "User",
     "Verdict",
+    "Via",
     "WeakDirection",
     "WireHeader",
     "Workspace",
@@ -269,6 +310,7 @@ __all__ = [
     "because",
     "checked_name",
     "checked_serial",
+    "csv_text",
     "from_readings",
     "guesses_in_words",
     "harmless",
@@ -285,6 +327,7 @@ __all__ = [
     "recorded_columns",
     "refusal",
     "residual_rows",
+    "sections_of_toml",
     "sections_to_toml",
     "translated",
     "translated_to_csv",

@@ -23,6 +23,8 @@ class StationInfo(Record):
     """The options of `[limits]` in the station file."""
     plans: tuple[PlanName, ...]
     """Plans that this station can run."""
+    open: bool = False
+    """Whether anybody at this computer may do everything without signing in."""
 
 
 class DeviceView(Record):
@@ -173,3 +175,7 @@ class StationView(Record):
     """Of the robot measured last."""
     run: RunView | None
     last: CalibrationSummary | None
+
+    def as_open(self, open: bool) -> StationView:
+        """The same of a station that is open, or is not."""
+        return self.model_copy(update={"station": self.station.model_copy(update={"open": open})})

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import tomllib
 from typing import Annotated, Any
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
@@ -19,6 +20,14 @@ class Section(BaseModel):
     """A misspelt option is refused, never ignored."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
+
+
+def sections_of_toml(content: bytes, source: str) -> Sections:
+    """:raises InputRefused: it is not TOML, or holds what no section may hold."""
+    try:
+        return tomllib.loads(content.decode("utf-8"))
+    except (tomllib.TOMLDecodeError, UnicodeDecodeError, RecursionError) as error:
+        raise InputRefused(f"{source} is not valid TOML: {error}.") from error
 
 
 def refusal(error: ValidationError, source: str) -> InputRefused:

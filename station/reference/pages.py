@@ -6,6 +6,7 @@ from station.reference.commands import commands_page
 from station.reference.files import measurement_file_page, robot_file_page, station_file_page
 from station.reference.names import names_page
 from station.reference.rest import rest_page
+from station.reference.roles import roles_page
 
 
 def pages() -> dict[str, str]:
@@ -16,5 +17,6 @@ def pages() -> dict[str, str]:
         "names.md": names_page(),
         "rest.md": rest_page(),
         "robot-file.md": robot_file_page(),
+        "roles.md": roles_page(),
         "station-file.md": station_file_page(),
     }

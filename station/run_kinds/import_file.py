@@ -8,6 +8,8 @@ from dataclasses import dataclass, replace
 from station.diagnosis import Context
 from station.errors import InputRefused
 from station.records import (
+    STATION,
+    Actor,
     CalibrationRequest,
     DataSource,
     Reading,
@@ -42,6 +44,7 @@ def import_dataset(
     fresh: Upload | None = None,
     *,
     idempotency_key: str | None = None,
+    by: Actor = STATION,
 ) -> Submitted:
     """Diagnose the readings of a file and keep both; `fresh` ones, taken afterwards, confirm.
 

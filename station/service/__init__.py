@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from station.service.entrance import check_entrance, listens_on_loopback
 from station.service.orchestrator import LiveEvent, Orchestrator, Submitted
 from station.service.procedures import follow_procedure
 from station.service.replaying import Replayed, replay
 from station.service.runtime import Runtime, holding
+from station.service.timer import Timer
 
 __all__ = [
     "LiveEvent",
@@ -13,7 +15,10 @@ __all__ = [
     "Replayed",
     "Runtime",
     "Submitted",
+    "Timer",
+    "check_entrance",
     "follow_procedure",
     "holding",
+    "listens_on_loopback",
     "replay",
 ]

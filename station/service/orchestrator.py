@@ -10,7 +10,7 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from queue import Empty, Queue
 from threading import Lock, Thread
 
@@ -38,9 +38,10 @@ from station.motion import (
 )
 from station.plans import PLANS
 from station.records import (
+    STATION,
+    Actor,
     CalibrationHolds,
     CalibrationRequest,
-    CalibrationResult,
     Prompt,
     Reason,
     State,
@@ -54,6 +55,7 @@ from station.records import (
 from station.run_kinds import RUN_KINDS, RunKind, calibration_holds, clear_failed_check
 from station.service.carrying_out import CarryingOut, Unanswered
 from station.service.clock_watch import ClockWatch
+from station.service.ending import Ending
 from station.service.interlock_record import InterlockRecord
 from station.service.recording import Recording
 from station.service.run import Run
@@ -66,13 +68,6 @@ log = logging.getLogger(__name__)
 
 IDLE_S = 0.5
 SHUTDOWN_LIMIT_S = 10.0
-
-
-@dataclass(frozen=True, slots=True)
-class _Ending:
-    state: State
-    reason: Reason | None = None
-    result: CalibrationResult | None = None
 
 
 class Orchestrator:
@@ -107,7 +102,9 @@ class Orchestrator:
 
     # Asking for runs -----------------------------------------------------------------------------
 
-    def submit(self, request: CalibrationRequest, *, idempotency_key: str | None = None) -> Submitted:
+    def submit(
+        self, request: CalibrationRequest, *, idempotency_key: str | None = None, by: Actor = STATION
+    ) -> Submitted:
         """Start a run, or find the one that this key started.
 
         :raises Busy: another run holds the rig.
@@ -136,7 +133,7 @@ class Orchestrator:
             kind.check(self._store, request)
             uid = uid7()
             calibration_id = self._store.create(
-                request, robot, key=idempotency_key, body_hash=body_hash, uid=uid
+                request, robot, key=idempotency_key, body_hash=body_hash, uid=uid, by=by
             )
             run = Run(calibration_id, uid, request, measured)
             with self._lock:
@@ -146,7 +143,13 @@ class Orchestrator:
         return Submitted(calibration_id, created=True)
 
     def follow(
-        self, kind: str, calibration_id: int, operator: str, *, idempotency_key: str | None = None
+        self,
+        kind: str,
+        calibration_id: int,
+        operator: str,
+        *,
+        idempotency_key: str | None = None,
+        by: Actor = STATION,
     ) -> Submitted:
         """Start a run that is about an earlier one: apply it, roll it back, distinguish its causes.
 
@@ -159,19 +162,19 @@ class Orchestrator:
             return Submitted(done, created=False)
         serial = self._store.summary(calibration_id).robot_serial
         request = CalibrationRequest(serial, kind, operator, of=calibration_id)
-        return self.submit(request, idempotency_key=idempotency_key)
+        return self.submit(request, idempotency_key=idempotency_key, by=by)
 
     def no_room(self) -> str | None:
         """Why the disk is too full for a run; None when it is not."""
         return too_full(self._store.path, self._settings.service.least_free_mb)
 
-    def retract(self, operator: str, *, idempotency_key: str | None = None) -> Submitted:
+    def retract(self, operator: str, *, idempotency_key: str | None = None, by: Actor = STATION) -> Submitted:
         """Start a run that brings the arm back into the workspace of the robot measured last.
 
         :raises: as `submit`.
         """
         request = CalibrationRequest(self._machine.robot.serial, "retract", operator)
-        return self.submit(request, idempotency_key=idempotency_key)
+        return self.submit(request, idempotency_key=idempotency_key, by=by)
 
     def _robot(self, serial: str) -> Robot:
         """The kept robot file, else the paper's Table 1, checked against the drives' scaling."""
@@ -198,6 +201,17 @@ class Orchestrator:
             self._halt(run, who)
         else:
             self._store.summary(calibration_id)
+
+    @property
+    def emulated(self) -> bool:
+        """Whether the devices are those of the emulated rig."""
+        return self._machine.devices.emulated
+
+    @property
+    def running(self) -> int | None:
+        """The run that holds the rig."""
+        run = self._run
+        return None if run is None else run.id
 
     @property
     def axes(self) -> tuple[str, ...]:
@@ -382,7 +396,7 @@ class Orchestrator:
         except StoreUnavailable:
             log.exception("The end of the wire log of run %d cannot be stored", run.id)
 
-    def _perform(self, run: Run, recording: Recording) -> _Ending:
+    def _perform(self, run: Run, recording: Recording) -> Ending:
         kind = self._kinds[run.request.kind]
         try:
             result = CarryingOut(
@@ -396,41 +410,33 @@ class Orchestrator:
                 recording.take,
             ).result()
         except Cancelled:
-            return _Ending(State.ABORTED)
+            return Ending(State.ABORTED)
         except Unanswered as error:
-            return _Ending(State.ABORTED, because("prompt_expired", text=error.text, limit_s=error.limit_s))
+            return Ending(State.ABORTED, because("prompt_expired", text=error.text, limit_s=error.limit_s))
         except (DeviceError, StepFailed, InputRefused) as error:
-            return _Ending(State.FAILED, because("step_failed", text=str(error)))
+            return Ending(State.FAILED, because("step_failed", text=str(error)))
         except StoreUnavailable as error:
             log.exception("Run %d cannot be stored", run.id)
-            return _Ending(State.FAILED, because("store_failed", text=str(error)))
+            return Ending(State.FAILED, because("store_failed", text=str(error)))
         except Exception as error:  # the worker must outlive any mistake in a procedure
             log.exception("Run %d failed unexpectedly", run.id)
-            return _Ending(State.FAILED, because("unexpected", type=type(error).__name__, text=str(error)))
+            return Ending(State.FAILED, because("unexpected", type=type(error).__name__, text=str(error)))
         if not kind.judged:
-            return _Ending(State.SUCCEEDED, result.reason)
-        return _Ending(State.SUCCEEDED, result.reason, result)
+            return Ending(State.SUCCEEDED, result.reason)
+        return Ending(State.SUCCEEDED, result.reason, result)
 
-    def _bring_to_rest(self, run: Run, ending: _Ending) -> _Ending:
+    def _bring_to_rest(self, run: Run, ending: Ending) -> Ending:
         """Always: standstill is seen, or the run says that it was not.  A stop pressed late counts."""
         if ending.state is State.SUCCEEDED and not run.cancel.is_set():
             doubt = self._machine.standstill()
             if doubt is None:
                 return ending
-            ending = _Ending(State.FAILED)
+            ending = Ending(State.FAILED)
             self._machine.make_safe()
         else:
             doubt = self._machine.make_safe(insist=run.has_moved)
             if not run.has_moved:
                 doubt = None
         if run.cancel.is_set():
-            ending = _Ending(State.ABORTED, because("stopped", by=run.stopped_by or "somebody"))
-        return _Ending(ending.state, _with_doubt(ending.reason, doubt))
-
-
-def _with_doubt(reason: Reason | None, doubt: str | None) -> Reason | None:
-    """A reason with what could not be confirmed about standstill."""
-    if doubt is None:
-        return reason
-    said = [reason.text] if reason else []
-    return because("step_failed", text=" ".join([*said, doubt]))
+            ending = Ending(State.ABORTED, because("stopped", by=run.stopped_by or "somebody"))
+        return ending.without_result(doubt)

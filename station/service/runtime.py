@@ -6,18 +6,20 @@ import fcntl
 import logging
 import os
 from collections.abc import Iterator
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Self
+from typing import Self, cast
 
-from station.errors import InputRefused
+from station import __version__
+from station.errors import InputRefused, StoreUnavailable
 from station.motion import EmulatedRig, equipment
-from station.records import BackupMade
+from station.outbox import Alarms, couriers
+from station.records import BackupMade, DeviceView, Interlock
 from station.service.backups import backup_timer, make_backup
-from station.service.orchestrator import Orchestrator
+from station.service.orchestrator import LiveEvent, Orchestrator
 from station.service.retention import retention_timer
-from station.settings import Settings, backup_folder, database_path
+from station.settings import OutboxSettings, Settings, backup_folder, database_path
 from station.store import Store
 
 log = logging.getLogger(__name__)
@@ -60,6 +62,7 @@ class Runtime:
             opened.callback(orchestrator.shutdown)
             opened.enter_context(backup_timer(store, backup_folder(settings, home), settings.backup))
             opened.enter_context(retention_timer(store, settings.retention))
+            opened.enter_context(_telling(store, orchestrator, settings.outbox))
             return cls(settings, home, store, orchestrator, opened.pop_all(), rig)
 
     def backup(self) -> BackupMade:
@@ -75,6 +78,28 @@ class Runtime:
 
     def __exit__(self, *_: object) -> None:
         self.close()
+
+
+@contextmanager
+def _telling(store: Store, orchestrator: Orchestrator, settings: OutboxSettings) -> Iterator[None]:
+    """Alarms become events, and events go to their receivers, until the station stops."""
+    alarms = Alarms(store)
+
+    def heard(event: LiveEvent) -> None:
+        if isinstance(event.data, DeviceView):
+            alarms.device(event.data)
+        elif event.type == "interlock":
+            alarms.interlocks(cast(tuple[Interlock, ...], event.data))
+
+    with couriers(store, settings):
+        unsubscribe = orchestrator.subscribe(heard)
+        store.announce("station.started", {"version": __version__})
+        try:
+            yield
+        finally:
+            unsubscribe()
+            with suppress(StoreUnavailable):
+                store.announce("station.stopped", {})
 
 
 def _check_still_there(path: Path, home: Path) -> None:

@@ -191,5 +191,65 @@ def wire_logs(db: Database) -> None:
     db.execute("ALTER TABLE chain ADD COLUMN wire_sha256 TEXT")
 
 
+@migrations()
+def people(db: Database) -> None:
+    """Users, keys, sessions; only hashes of what they show."""
+    db.execute(
+        """CREATE TABLE users (
+            id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE COLLATE NOCASE, role TEXT NOT NULL,
+            password_hash TEXT, badge_sha256 BLOB UNIQUE, pin_hash TEXT, created_ms INTEGER NOT NULL)"""
+    )
+    db.execute(
+        """CREATE TABLE api_keys (
+            id INTEGER PRIMARY KEY, name TEXT NOT NULL, role TEXT NOT NULL, sha256 BLOB NOT NULL UNIQUE,
+            created_ms INTEGER NOT NULL, expires_ms INTEGER, revoked_ms INTEGER, used_ms INTEGER)"""
+    )
+    db.execute(
+        """CREATE TABLE sessions (
+            sha256 BLOB PRIMARY KEY, user_id INTEGER NOT NULL REFERENCES users (id) ON DELETE CASCADE,
+            seen_ms INTEGER NOT NULL) WITHOUT ROWID"""
+    )
+    db.execute(
+        """CREATE TABLE run_starters (
+            run_id INTEGER PRIMARY KEY REFERENCES calibrations (id), name TEXT NOT NULL, via TEXT NOT NULL)"""
+    )
+
+
+@migrations()
+def audit(db: Database) -> None:
+    """Who did what; the database itself refuses to change or remove an entry."""
+    # `hash` covers `who_sha256`, the hash of a salt and the name, so that a name can be erased.
+    db.execute(
+        """CREATE TABLE audit (
+            n INTEGER PRIMARY KEY, at_ms INTEGER NOT NULL, who TEXT, salt TEXT, who_sha256 TEXT NOT NULL,
+            via TEXT NOT NULL, role TEXT, action TEXT NOT NULL, subject TEXT NOT NULL, before TEXT,
+            after TEXT, hash TEXT NOT NULL)"""
+    )
+    kept = "at_ms, who_sha256, via, role, action, subject, before, after, hash"
+    for deed in ("DELETE", f"UPDATE OF n, {kept}"):
+        db.execute(
+            f"CREATE TRIGGER audit_{deed.split()[0].lower()} BEFORE {deed} ON audit"
+            " BEGIN SELECT raise(ABORT, 'the audit is append-only'); END"
+        )
+
+
+@migrations()
+def outbox(db: Database) -> None:
+    """What others are told, and how far it got."""
+    db.execute(
+        """CREATE TABLE happenings (
+            n INTEGER PRIMARY KEY AUTOINCREMENT, uid TEXT NOT NULL UNIQUE, type TEXT NOT NULL,
+            at_ms INTEGER NOT NULL, data TEXT NOT NULL)"""
+    )
+    db.execute(
+        """CREATE TABLE deliveries (
+            id INTEGER PRIMARY KEY, receiver TEXT NOT NULL, n INTEGER NOT NULL REFERENCES happenings (n),
+            state TEXT NOT NULL, tries INTEGER NOT NULL DEFAULT 0, detail TEXT NOT NULL DEFAULT '',
+            next_ms INTEGER NOT NULL, ended_ms INTEGER, UNIQUE (receiver, n))"""
+    )
+    db.execute("CREATE INDEX deliveries_waiting ON deliveries (receiver, n) WHERE state = 'waiting'")
+    db.execute("CREATE TABLE receivers (name TEXT PRIMARY KEY, seen INTEGER NOT NULL) WITHOUT ROWID")
+
+
 def _expand(blob: bytes) -> bytes:
     return zlib.decompressobj(zdict=_WORDS).decompress(blob)

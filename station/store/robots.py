@@ -9,13 +9,13 @@ from datetime import UTC, datetime
 
 from station.errors import NotFound
 from station.five_bar import Robot
-from station.records import KeptRobot, LastingParameters, Remembered
-from station.store.kept_file import KeptFile
+from station.records import Actor, KeptRobot, LastingParameters, Remembered
+from station.store.audit import AuditTrail
 from station.store.rows import compact, moment
 from station.store.times import now_ms
 
 
-class RobotFiles(KeptFile):
+class RobotFiles(AuditTrail):
     """A changed robot file is a new version; a run keeps the version it was made with."""
 
     def save_robot(self, robot: Robot) -> int:
@@ -32,6 +32,17 @@ class RobotFiles(KeptFile):
                 [robot.serial, file, now_ms()],
             )
             return int(cursor.lastrowid or 0)
+
+    def change_robot(self, by: Actor, robot: Robot) -> None:
+        """Keep a robot file that somebody gave."""
+        before = self._readers.one(
+            "SELECT file FROM robots WHERE serial = ? ORDER BY id DESC LIMIT 1", [robot.serial]
+        )
+        with self._writing():
+            self.save_robot(robot)
+            known = json.loads(before["file"]) if before else None
+            after = json.loads(compact(robot.to_json()))
+            self.record(by, "robot.changed", f"robot {robot.serial}", before=known, after=after)
 
     def robot(self, serial: str) -> Robot:
         """The latest version of a robot's file.  :raises NotFound:"""
@@ -97,18 +108,19 @@ class Memories(RobotFiles):
             raise NotFound(f"Run {calibration_id} left no memory.")
         return _remembered(row)
 
-    def forget(self, serial: str, who: str) -> None:
+    def forget(self, serial: str, by: Actor) -> None:
         """The robot's next run starts without memory; what was known stays on record.
 
         Again is harmless.  :raises NotFound: no such robot.
         """
         self.robot(serial)
         with self._writing() as db:
-            db.execute(
+            cleared = db.execute(
                 "UPDATE memories SET cleared_ms = ?, cleared_by = ?"
                 " WHERE robot_serial = ? AND cleared_ms IS NULL",
-                [now_ms(), who, serial],
-            )
+                [now_ms(), by.name, serial],
+            ).rowcount
+            self.record(by, "memory.cleared", f"robot {serial}", before={"memories": cleared})
 
 
 def _remembered(row: sqlite3.Row) -> Remembered:

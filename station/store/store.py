@@ -7,14 +7,19 @@ wait for it.  Rows become records in `station.store.rows`.
 from __future__ import annotations
 
 import logging
+import sqlite3
 from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
 from typing import TypeVar
 
+from pydantic import JsonValue
+
 from station.errors import KeyReused, NotFound, StoreUnavailable
 from station.five_bar import Robot
 from station.records import (
+    STATION,
+    Actor,
     Calibration,
     CalibrationRequest,
     CalibrationResult,
@@ -28,6 +33,8 @@ from station.records import (
 )
 from station.store.chain import Verified, append, verify
 from station.store.ends import End, UnstoredEnds, end_of
+from station.store.outbox import Outbox
+from station.store.people import People
 from station.store.robots import Memories
 from station.store.rows import (
     LIST_COLUMNS,
@@ -57,9 +64,11 @@ log = logging.getLogger(__name__)
 
 S = TypeVar("S", bound=CalibrationSummary)
 _UNFINISHED = (State.QUEUED, State.RUNNING, State.WAITING)
+_DEEDS = {"apply": "run.applied", "rollback": "run.rolled_back"}
+"""What the audit calls the start of a run of this kind."""
 
 
-class Store(StoredEvents, Memories, ZeroJournal, WireLogs, Trends, Tables):
+class Store(StoredEvents, Memories, ZeroJournal, WireLogs, Trends, Tables, People, Outbox):
     """Thread safe.  Order is by number: the clock that gives the times may jump.
 
     Every method may raise `StoreUnavailable`, unless it says otherwise.
@@ -80,10 +89,12 @@ class Store(StoredEvents, Memories, ZeroJournal, WireLogs, Trends, Tables):
         key: str | None = None,
         body_hash: bytes = b"",
         uid: str | None = None,
+        by: Actor = STATION,
     ) -> int:
         """A new calibration in state queued; its idempotency key is kept in the same transaction.
 
         :param uid: where it is known already; else made here.
+        :param by: who starts it, for the audit.
         :raises KeyReused: the key is taken (ask `find_key` first to answer a repeated request).
         """
         robot_id = self.save_robot(robot)
@@ -114,6 +125,14 @@ class Store(StoredEvents, Memories, ZeroJournal, WireLogs, Trends, Tables):
                 if taken is not None:
                     raise KeyReused(int(taken[0]))
                 db.execute("INSERT INTO idempotency_keys VALUES (?, ?, ?)", [key, body_hash, calibration_id])
+            db.execute("INSERT INTO run_starters VALUES (?, ?, ?)", [calibration_id, by.name, by.via])
+            asked = {"kind": request.kind, "plan": request.label, "robot_serial": robot.serial}
+            told = {**asked, "operator": request.operator, "work_order": request.work_order, "of": request.of}
+            self.record(by, _DEEDS.get(request.kind, "run.started"), f"run {calibration_id}", after=told)
+            told_now = self._written(db.conn, calibration_id)
+            self.announce("run.started", {k: v for k, v in told_now.items() if v not in (None, [], {})})
+                "run.started", {name: value for name, value in known if value not in (None, [], {})}
+            )
             if more := asked_more(request):
                 self.add_event(calibration_id, "asked", more)
         self._times.begin(calibration_id, created_ms)
@@ -128,10 +147,11 @@ class Store(StoredEvents, Memories, ZeroJournal, WireLogs, Trends, Tables):
         *,
         key: str | None = None,
         body_hash: bytes = b"",
+        by: Actor = STATION,
     ) -> int:
         """A run that was measured elsewhere, whole or not at all.  :raises KeyReused: as `create`."""
         with self._writing():
-            calibration_id = self.create(request, robot, key=key, body_hash=body_hash)
+            calibration_id = self.create(request, robot, key=key, body_hash=body_hash, by=by)
             self.set_state(calibration_id, State.RUNNING, steps=len(readings))
             self.add_readings(calibration_id, readings)
             self._end(calibration_id, end_of(State.SUCCEEDED, result, None, self._times.now(calibration_id)))
@@ -228,8 +248,19 @@ class Store(StoredEvents, Memories, ZeroJournal, WireLogs, Trends, Tables):
                     )
             if ended:
                 append(lambda sql, values: db.execute(sql, values).fetchall(), calibration_id)
+                self.announce("run.ended", self._written(db.conn, calibration_id))
         self._times.end(calibration_id)
         return end.state if ended else self.summary(calibration_id).state
+
+    def _written(self, connection: sqlite3.Connection, calibration_id: int) -> dict[str, JsonValue]:
+        """The summary of a run as it stands in the transaction under way."""
+        cursor = connection.cursor()
+        cursor.row_factory = sqlite3.Row
+        row = cursor.execute(
+            f"SELECT {LIST_COLUMNS} FROM calibrations LEFT JOIN results ON calibration_id = id WHERE id = ?",
+            [calibration_id],
+        ).fetchone()
+        return summary_from_row(row).model_dump(mode="json", by_alias=True)
 
     def interrupt_unfinished(self) -> list[int]:
         """At start-up: what was queued or running when the station went down is interrupted.

@@ -5,7 +5,7 @@ from __future__ import annotations
 import threading
 import time
 from collections.abc import Iterator
-from contextlib import ExitStack
+from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,8 +13,11 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 
+from station.people import new_secret, secret_hash
+from station.records import Actor, Role
 from station.service.orchestrator import Orchestrator
 from station.service.runtime import Runtime
+from station.settings import ServiceSettings, Settings
 from station.store.store import Store
 from tests.station.asking import kinds_with
 from tests.station.conftest import SETTINGS
@@ -56,6 +59,14 @@ class Service:
         self.wait_for("axis 1 move_to", before + 1)
         return run
 
+    def key(self, role: Role, name: str | None = None, **more: Any) -> dict[str, str]:
+        """The header with a new key of this role."""
+        key = new_secret("fbs_")
+        by = Actor(name="root", via="terminal")
+        expires_at = more.get("expires_at")
+        self.runtime.store.add_key(by, name or f"a {role}", role, secret_hash(key), expires_at)
+        return {"Authorization": f"Bearer {key}"}
+
     def complete(self, **changes: Any) -> int:
         """One run from start to end; its id."""
         run = int(self.start(**changes).json()["id"])
@@ -77,14 +88,31 @@ class Service:
 
 @pytest.fixture
 def service(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Service]:
+    """Open, as the emulated rig on a loopback address is."""
+    with a_service(tmp_path, monkeypatch) as made:
+        yield made
+
+
+@pytest.fixture
+def closed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Service]:
+    """One where everybody signs in."""
+    service = ServiceSettings(open=False)
+    with a_service(tmp_path, monkeypatch, SETTINGS.model_copy(update={"service": service})) as made:
+        yield made
+
+
+@contextmanager
+def a_service(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, settings: Settings = SETTINGS
+) -> Iterator[Service]:
     rig = make_rig()
     with ExitStack() as opened:
         store = Store(tmp_path / "station.db")
         opened.callback(store.close)
-        orchestrator = Orchestrator(rig.devices, store, SETTINGS, kinds_with(two_sequences))
+        orchestrator = Orchestrator(rig.devices, store, settings, kinds_with(two_sequences))
         opened.callback(orchestrator.shutdown)
         opened.callback(rig.released.set)
-        runtime = Runtime(SETTINGS, tmp_path, store, orchestrator, ExitStack())
+        runtime = Runtime(settings, tmp_path, store, orchestrator, ExitStack())
         # a failure inside the service must come back as its answer, not as the test's exception
         client = TestClient(create_app(runtime), base_url="http://station", raise_server_exceptions=False)
         yield Service(opened.enter_context(client), runtime, rig, monkeypatch)

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from station.records import MemoryUse
+import pytest
+
+from station.five_bar import Robot
+from station.records import MemoryUse, sections_to_toml
 from tests.station.run_kinds.test_memory import LASTING, finish
 from tests.web.conftest import Service
 
@@ -36,3 +39,45 @@ def test_a_result_says_whether_memory_took_part(service: Service) -> None:
     first, second = finish(store), finish(store, memory=MemoryUse.model_validate(used))
     answers = [service.client.get(f"/api/v1/calibrations/{run}").json()["memory"] for run in (first, second)]
     assert answers == [None, used]
+
+
+FILE = Robot.default("FB-9")
+CHANGED = {**FILE.to_json(), "workspace": {"x": [-200.0, 200.0], "y": [-780.0, -640.0]}}
+
+
+def test_a_robot_file_is_put_as_toml_or_json(service: Service) -> None:
+    toml = sections_to_toml(FILE.to_json())
+    put = service.client.put(
+        "/api/v1/robots/FB-9", content=toml, headers={"Content-Type": "application/toml"}
+    )
+    assert put.status_code == 200, put.text
+    changed = service.client.put("/api/v1/robots/FB-9", json=CHANGED)
+    assert changed.status_code == 200, changed.text
+    assert service.runtime.store.robot("FB-9").workspace_x == (-200.0, 200.0)
+    (entry, first) = service.client.get("/api/v1/audit").json()["items"]
+    assert entry["action"] == "robot.changed"
+    assert entry["before"]["workspace"]["x"] == list(FILE.workspace_x)
+    assert entry["after"]["workspace"]["x"] == [-200.0, 200.0]
+    assert first["before"] is None
+
+
+@pytest.mark.parametrize(
+    ("kind", "content", "status"),
+    [
+        ("application/toml", b"[robot", 422),
+        ("application/toml", b"[robot]\nserial = 'FB-9'\ne = nan\nL = 1.0\nl = 1.0", 422),
+        ("application/toml", b"\xff", 422),
+        ("application/json", b"[]", 422),
+        ("application/json", b'{"robot": {"serial": "FB-1", "e": 250.0, "L": 375.0, "l": 385.0}}', 422),
+        ("application/json", b'{"robot": {"serial": "FB-9", "e": 1e999}}', 422),
+        ("application/json", b'{"robot": {"serial": "\\ud800"}}', 422),
+        ("application/json", b"[" * 100_000, 422),
+        ("text/plain", b"", 415),
+    ],
+)
+def test_a_robot_file_that_is_none_leaves_nothing(
+    service: Service, kind: str, content: bytes, status: int
+) -> None:
+    answer = service.client.put("/api/v1/robots/FB-9", content=content, headers={"Content-Type": kind})
+    assert answer.status_code == status, answer.text
+    assert service.client.get("/api/v1/robots/FB-9").status_code == 404

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter
-
+from station.people import Permission
 from station.records import BackupMade
+from web.guarded import Router, needs
 from web.routes.parts import TheRuntime
 
-router = APIRouter(prefix="/backups", tags=["backups"])
+router = Router(prefix="/backups", tags=["backups"])
 
 
-@router.post("", status_code=201, response_model=BackupMade)
+@router.post("", status_code=201, response_model=BackupMade, dependencies=[needs(Permission.MAINTAIN)])
 def back_up(runtime: TheRuntime) -> BackupMade:
     """Make one in the folder of the station file; `file` is its path on the station's computer."""
     return runtime.backup()

@@ -4,11 +4,14 @@ from __future__ import annotations
 
 from typing import Annotated, Any, Literal
 
-from fastapi import APIRouter, Query, Response
+from fastapi import BackgroundTasks, Query, Response
 from starlette.exceptions import HTTPException
 
+from station.errors import Forbidden
+from station.people import Permission
 from station.records import (
     LARGEST_ID,
+    Actor,
     Calibration,
     CalibrationRequest,
     CalibrationSummary,
@@ -17,7 +20,7 @@ from station.records import (
 )
 from station.run_kinds import application, change_of, kind_of_plan, translated
 from station.service import Runtime
-from web.aside import aside
+from web.aside import aside, record_later
 from web.bodies import (
     AnswerBody,
     ApplyBody,
@@ -26,12 +29,13 @@ from web.bodies import (
     TranslateBody,
     TranslatedList,
 )
+from web.guarded import Router, needs
 from web.problems import documented
 from web.routes.parts import LOCATION, CalibrationId, CallerName, IdempotencyKey, Moment, TheRuntime
 
 ABORT_TIMEOUT_S = 5.0
 
-router = APIRouter(prefix="/calibrations", tags=["calibrations"])
+router = Router(prefix="/calibrations", tags=["calibrations"])
 
 STARTED: dict[int | str, dict[str, Any]] = {
     202: {"description": "Accepted", "headers": LOCATION},
@@ -42,17 +46,18 @@ STARTED: dict[int | str, dict[str, Any]] = {
 @router.post("", status_code=202, response_model=CalibrationSummary, responses=STARTED)
 def start_calibration(
     body: CalibrationBody,
+    by: Annotated[Actor, needs(Permission.START)],
     runtime: TheRuntime,
     response: Response,
     idempotency_key: IdempotencyKey = None,
 ) -> CalibrationSummary:
     """Start a run.  The same `Idempotency-Key` with the same body answers the same run."""
     request = CalibrationRequest(kind=kind_of_plan(body.plan), **dict(body))
-    submitted = runtime.orchestrator.submit(request, idempotency_key=idempotency_key)
+    submitted = runtime.orchestrator.submit(request, idempotency_key=idempotency_key, by=by)
     return _started(submitted, runtime, response)
 
 
-@router.get("", response_model=CalibrationList)
+@router.get("", response_model=CalibrationList, dependencies=[needs(Permission.READ)])
 def list_calibrations(
     runtime: TheRuntime,
     limit: Annotated[int, Query(ge=1, le=500)] = 50,
@@ -82,7 +87,12 @@ def list_calibrations(
     return CalibrationList(items=page.items, next=page.next)
 
 
-@router.get("/{calibration_id}", response_model=Calibration, responses=documented(404))
+@router.get(
+    "/{calibration_id}",
+    response_model=Calibration,
+    responses=documented(404),
+    dependencies=[needs(Permission.READ)],
+)
 def read_calibration(calibration_id: CalibrationId, runtime: TheRuntime) -> Calibration:
     """One run in full."""
     calibration = runtime.store.calibration(calibration_id)
@@ -100,12 +110,20 @@ def read_calibration(calibration_id: CalibrationId, runtime: TheRuntime) -> Cali
     response_model=CalibrationSummary,
     responses=documented(404, 504),
 )
-async def abort_calibration(calibration_id: CalibrationId, runtime: TheRuntime) -> CalibrationSummary:
+async def abort_calibration(
+    calibration_id: CalibrationId,
+    by: Annotated[Actor, needs(Permission.ABORT)],
+    runtime: TheRuntime,
+    later: BackgroundTasks,
+) -> CalibrationSummary:
     """End a run at once and make the machine safe; calling it again changes nothing."""
 
     def abort() -> CalibrationSummary:
-        runtime.orchestrator.abort(calibration_id)
+        _check_own(runtime, calibration_id, by)
+        runtime.orchestrator.abort(calibration_id, by.name)
         return runtime.store.summary(calibration_id)
+
+    later.add_task(record_later, runtime.store, by, "run.aborted", f"run {calibration_id}")
 
     try:
         return await aside(abort, timeout_s=ABORT_TIMEOUT_S)
@@ -121,14 +139,23 @@ async def abort_calibration(calibration_id: CalibrationId, runtime: TheRuntime) 
     responses=documented(404, 409),
 )
 def answer_prompt(
-    calibration_id: CalibrationId, body: AnswerBody, runtime: TheRuntime, operator: CallerName = None
+    calibration_id: CalibrationId,
+    body: AnswerBody,
+    by: Annotated[Actor, needs(Permission.OPERATE)],
+    runtime: TheRuntime,
+    operator: CallerName = None,
 ) -> CalibrationSummary:
     """Answer what a run in state `waiting` asks.  After a value that cannot be it goes on waiting."""
-    runtime.orchestrator.answer(calibration_id, body.prompt, body.value, operator or "REST")
+    runtime.orchestrator.answer(calibration_id, body.prompt, body.value, by.name)
     return runtime.store.summary(calibration_id)
 
 
-@router.post("/{calibration_id}/translate", response_model=TranslatedList, responses=documented(404, 409))
+@router.post(
+    "/{calibration_id}/translate",
+    response_model=TranslatedList,
+    responses=documented(404, 409),
+    dependencies=[needs(Permission.READ)],
+)
 def translate(calibration_id: CalibrationId, body: TranslateBody, runtime: TheRuntime) -> TranslatedList:
     """Taught joint positions as the same physical positions under the zeros of this run."""
     change = change_of(runtime.store, calibration_id, body.taught_under)
@@ -144,6 +171,7 @@ def translate(calibration_id: CalibrationId, body: TranslateBody, runtime: TheRu
 def apply_calibration(
     calibration_id: CalibrationId,
     body: ApplyBody,
+    by: Annotated[Actor, needs(Permission.OPERATE)],
     runtime: TheRuntime,
     response: Response,
     idempotency_key: IdempotencyKey = None,
@@ -153,7 +181,7 @@ def apply_calibration(
     A run of its own; when its verification fails it puts the old zeros back by itself.
     """
     submitted = runtime.orchestrator.follow(
-        "apply", calibration_id, body.operator, idempotency_key=idempotency_key
+        "apply", calibration_id, body.operator, idempotency_key=idempotency_key, by=by
     )
     return _started(submitted, runtime, response)
 
@@ -165,10 +193,15 @@ def apply_calibration(
     responses={**STARTED, **documented(404)},
 )
 def roll_back_calibration(
-    calibration_id: CalibrationId, body: ApplyBody, runtime: TheRuntime, response: Response
+    calibration_id: CalibrationId,
+    body: ApplyBody,
+    by: Annotated[Actor, needs(Permission.OPERATE)],
+    runtime: TheRuntime,
+    response: Response,
 ) -> CalibrationSummary:
     """Put the old zeros back; a run of its own.  Calling it again answers the run that did it."""
-    return _started(runtime.orchestrator.follow("rollback", calibration_id, body.operator), runtime, response)
+    submitted = runtime.orchestrator.follow("rollback", calibration_id, body.operator, by=by)
+    return _started(submitted, runtime, response)
 
 
 @router.post(
@@ -180,6 +213,7 @@ def roll_back_calibration(
 def separate(
     calibration_id: CalibrationId,
     body: ApplyBody,
+    by: Annotated[Actor, needs(Permission.OPERATE)],
     runtime: TheRuntime,
     response: Response,
     idempotency_key: IdempotencyKey = None,
@@ -189,9 +223,21 @@ def separate(
     A run of its own: it continues the readings of that run, and new fresh readings confirm.
     """
     submitted = runtime.orchestrator.follow(
-        "separate", calibration_id, body.operator, idempotency_key=idempotency_key
+        "separate", calibration_id, body.operator, idempotency_key=idempotency_key, by=by
     )
     return _started(submitted, runtime, response)
+
+
+def _check_own(runtime: Runtime, calibration_id: int, by: Actor) -> None:
+    """:raises Forbidden: a MES ends only what it started."""
+    if by.role == "mes":
+        starter = runtime.store.started_by(calibration_id)
+        if starter is None or (starter.via, starter.name) != (by.via, by.name):
+            runtime.store.summary(calibration_id)
+            raise Forbidden(
+                f"{by.name} has the role mes and may end only runs that it started;"
+                f" run {calibration_id} is not one.  The stop is open to everyone."
+            )
 
 
 def _started(submitted: Submitted, runtime: Runtime, response: Response) -> CalibrationSummary:

@@ -6,21 +6,23 @@ from collections.abc import Mapping
 from threading import Lock
 from typing import Annotated
 
-from fastapi import APIRouter, Query, Request, Response
+from fastapi import Query, Request, Response
 from fastapi.exceptions import RequestValidationError
 from pydantic import ValidationError
 
-from station.records import CalibrationRequest, CalibrationSummary
+from station.people import Permission
+from station.records import Actor, CalibrationRequest, CalibrationSummary
 from station.run_kinds import import_dataset
 from web.aside import aside
 from web.bodies import DatasetFields
+from web.guarded import Router, needs
 from web.problems import documented
 from web.routes.parts import LOCATION, IdempotencyKey, TheRuntime
 from web.uploads import csv_or_form, uploaded
 
 FILES = ("file", "fresh")
 
-router = APIRouter(prefix="/datasets", tags=["datasets"])
+router = Router(prefix="/datasets", tags=["datasets"])
 _one_at_a_time = Lock()
 """So that many uploads cannot keep the processor from a run, and a key is never used twice at once."""
 
@@ -37,6 +39,7 @@ async def import_measurement_file(
     runtime: TheRuntime,
     response: Response,
     query: Annotated[DatasetFields, Query()],
+    by: Annotated[Actor, needs(Permission.OPERATE)],
     idempotency_key: IdempotencyKey = None,
 ) -> CalibrationSummary:
     """Diagnose a measurement file and keep it as a finished run of plan `dataset`.
@@ -55,6 +58,7 @@ async def import_measurement_file(
                 sent.files["file"],
                 sent.files.get("fresh"),
                 idempotency_key=idempotency_key,
+                by=by,
             )
         return runtime.store.summary(submitted.id)
 

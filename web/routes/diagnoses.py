@@ -5,11 +5,11 @@ from __future__ import annotations
 from dataclasses import asdict
 
 import numpy as np
-from fastapi import APIRouter
 from fastapi.responses import HTMLResponse
 
 from station.diagnosis import Findings, learned_model, page, range_text, residuals, solve_targets, targets_of
 from station.errors import NotApplicable
+from station.people import Permission
 from station.records import DiagnosisDocument, Reading
 from station.run_kinds import check_not_locked, diagnosed, planned
 from station.service import Runtime
@@ -22,6 +22,7 @@ from web.bodies import (
     Solution,
     SolveBody,
 )
+from web.guarded import Router, needs
 from web.problems import documented
 from web.routes.parts import CalibrationId, TheRuntime
 
@@ -31,16 +32,26 @@ REPORT_POLICY = (
 )
 """The report needs nothing but the styles in itself, so that it can be saved and mailed."""
 
-router = APIRouter(prefix="/calibrations/{calibration_id}", tags=["diagnosis"])
+router = Router(prefix="/calibrations/{calibration_id}", tags=["diagnosis"])
 
 
-@router.get("/diagnosis", response_model=DiagnosisDocument, responses=documented(404))
+@router.get(
+    "/diagnosis",
+    response_model=DiagnosisDocument,
+    responses=documented(404),
+    dependencies=[needs(Permission.READ)],
+)
 def read_diagnosis(calibration_id: CalibrationId, runtime: TheRuntime) -> DiagnosisDocument:
     """The whole document, schema `station.diagnosis/2`, as `station diagnose --json` writes it."""
     return runtime.store.diagnosis(calibration_id)
 
 
-@router.get("/residuals", response_model=ResidualList, responses=documented(404))
+@router.get(
+    "/residuals",
+    response_model=ResidualList,
+    responses=documented(404),
+    dependencies=[needs(Permission.READ)],
+)
 def read_residuals(calibration_id: CalibrationId, runtime: TheRuntime) -> ResidualList:
     """The residual of every reading without and with the effects, computed again from the stored readings."""
     findings, readings = _again(runtime, calibration_id)
@@ -50,7 +61,9 @@ def read_residuals(calibration_id: CalibrationId, runtime: TheRuntime) -> Residu
     )
 
 
-@router.get("/separating", response_model=Separating, responses=documented(404))
+@router.get(
+    "/separating", response_model=Separating, responses=documented(404), dependencies=[needs(Permission.READ)]
+)
 def read_separating(calibration_id: CalibrationId, runtime: TheRuntime) -> Separating:
     """The motion that tells the cause from its look-alikes, or why there is none.
 
@@ -69,7 +82,12 @@ def read_separating(calibration_id: CalibrationId, runtime: TheRuntime) -> Separ
     )
 
 
-@router.get("/report.html", response_class=HTMLResponse, responses=documented(404))
+@router.get(
+    "/report.html",
+    response_class=HTMLResponse,
+    responses=documented(404),
+    dependencies=[needs(Permission.READ)],
+)
 def read_report(calibration_id: CalibrationId, runtime: TheRuntime) -> HTMLResponse:
     """The diagnosis as a page with drawings, computed again from the stored readings."""
     findings, _ = _again(runtime, calibration_id)
@@ -78,7 +96,9 @@ def read_report(calibration_id: CalibrationId, runtime: TheRuntime) -> HTMLRespo
     return HTMLResponse(report.to_html(), headers={"Content-Security-Policy": REPORT_POLICY})
 
 
-@router.post("/solve", response_model=Solution, responses=documented(404, 409))
+@router.post(
+    "/solve", response_model=Solution, responses=documented(404, 409), dependencies=[needs(Permission.READ)]
+)
 def solve(calibration_id: CalibrationId, body: SolveBody, runtime: TheRuntime) -> Solution:
     """Joint commands that bring P to the targets under the run's model, with every effect on the position.
 

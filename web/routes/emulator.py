@@ -2,23 +2,34 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter
 from starlette.exceptions import HTTPException
 
 from station.motion import EffectTable, EmulatedRig, FaultOrder
+from station.people import Permission
+from web.guarded import Router, needs
 from web.problems import documented
 from web.routes.parts import TheRuntime
 
-router = APIRouter(prefix="/emulator", tags=["emulator"])
+router = Router(prefix="/emulator", tags=["emulator"])
 
 
-@router.get("/faults", response_model=list[FaultOrder], responses=documented(404))
+@router.get(
+    "/faults",
+    response_model=list[FaultOrder],
+    responses=documented(404),
+    dependencies=[needs(Permission.READ)],
+)
 def read_faults(runtime: TheRuntime) -> list[FaultOrder]:
     """What is ordered at present."""
     return list(_rig(runtime).faults)
 
 
-@router.put("/faults", response_model=list[FaultOrder], responses=documented(404))
+@router.put(
+    "/faults",
+    response_model=list[FaultOrder],
+    responses=documented(404),
+    dependencies=[needs(Permission.MAINTAIN)],
+)
 def order_faults(body: list[FaultOrder], runtime: TheRuntime) -> list[FaultOrder]:
     """These faults and no others from now on; an empty list takes all back.
 
@@ -28,13 +39,23 @@ def order_faults(body: list[FaultOrder], runtime: TheRuntime) -> list[FaultOrder
     return list(_rig(runtime).order(body))
 
 
-@router.get("/effects", response_model=list[EffectTable], responses=documented(404))
+@router.get(
+    "/effects",
+    response_model=list[EffectTable],
+    responses=documented(404),
+    dependencies=[needs(Permission.READ)],
+)
 def read_effects(runtime: TheRuntime) -> list[EffectTable]:
     """Imperfections ordered while the machine runs; those of its rig file are not listed."""
     return list(_rig(runtime).effects)
 
 
-@router.put("/effects", response_model=list[EffectTable], responses=documented(404))
+@router.put(
+    "/effects",
+    response_model=list[EffectTable],
+    responses=documented(404),
+    dependencies=[needs(Permission.MAINTAIN)],
+)
 def order_effects(body: list[EffectTable], runtime: TheRuntime) -> list[EffectTable]:
     """These imperfections of the machine and no others from now on, as `[[effect]]` of a rig file."""
     return list(_rig(runtime).order_effects(body))

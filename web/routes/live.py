@@ -4,35 +4,53 @@ from __future__ import annotations
 
 import asyncio
 from contextlib import suppress
+from typing import Annotated
 
-from fastapi import APIRouter, WebSocket
+from fastapi import WebSocket
 from starlette.websockets import WebSocketDisconnect
 
-from web.headers import same_origin
+from station.errors import Forbidden, NotSignedIn, StoreUnavailable
+from station.people import Access, Permission
+from station.records import Actor
+from web.guarded import Router, needs, who_asks
 from web.live import LiveFeed
 
-FOREIGN_ORIGIN = 1008
+NOT_SIGNED_IN = 4401
+"""Close code of a feed whose client is known no more."""
+LOOK_EVERY_S = 2.0
+"""So soon a session that ended and a key that was revoked are noticed."""
 
-router = APIRouter()
+router = Router()
 
 
 @router.websocket("/live")
-async def live(websocket: WebSocket) -> None:
-    """Feed the client until either side leaves."""
-    # WebSockets skip CORS: without this check any site's page could watch the station
-    if not same_origin(websocket.headers):
-        await websocket.close(FOREIGN_ORIGIN)
-        return
+async def live(websocket: WebSocket, by: Annotated[Actor, needs(Permission.READ)]) -> None:
+    """Feed the client until either side leaves, or it may not watch any more."""
     await websocket.accept()
     feed: LiveFeed = websocket.app.state.feed
     async with asyncio.TaskGroup() as tasks:
         feeding = tasks.create_task(_feed(feed, websocket))
+        watching = tasks.create_task(_watch(websocket))
         while (await websocket.receive())["type"] != "websocket.disconnect":
             pass
         feeding.cancel()
+        watching.cancel()
 
 
 async def _feed(feed: LiveFeed, websocket: WebSocket) -> None:
     # who is gone is found out by sending as well as by receiving
     with suppress(WebSocketDisconnect):
         await feed.serve(websocket.send_text)
+
+
+async def _watch(websocket: WebSocket) -> None:
+    while True:
+        await asyncio.sleep(LOOK_EVERY_S)
+        try:
+            Access.check(await who_asks(websocket, active=False), Permission.READ)
+        except StoreUnavailable:
+            continue
+        except (NotSignedIn, Forbidden) as ended:
+            with suppress(WebSocketDisconnect, RuntimeError):
+                await websocket.close(NOT_SIGNED_IN, str(ended)[:120])
+            return

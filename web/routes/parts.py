@@ -5,19 +5,30 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Annotated
 
-from fastapi import Depends, Header, Path
+from fastapi import Depends, Header, Path, Response
 from pydantic import BeforeValidator
 from starlette.requests import HTTPConnection
 
+from station.people import Access
 from station.records import LARGEST_ID
 from station.service import Runtime
 
 
-def _runtime(connection: HTTPConnection) -> Runtime:
+async def _runtime(connection: HTTPConnection) -> Runtime:
     runtime: Runtime = connection.app.state.runtime
     return runtime
 
 
+async def _access(connection: HTTPConnection) -> Access:
+    access: Access = connection.app.state.access
+    return access
+
+
+class CsvResponse(Response):
+    media_type = "text/csv"
+
+
+TheAccess = Annotated[Access, Depends(_access)]
 TheRuntime = Annotated[Runtime, Depends(_runtime)]
 CallerName = Annotated[str | None, Header(alias="X-Operator", max_length=64, description="for the log")]
 IdempotencyKey = Annotated[str | None, Header(alias="Idempotency-Key", min_length=1, max_length=255)]

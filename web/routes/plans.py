@@ -4,18 +4,22 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from fastapi import APIRouter, Query
+from fastapi import Query
 
+from station.people import Permission
 from station.plans import Pace, make_plan
 from station.records import PlanDocument
 from web.bodies import Plan, Serial
+from web.guarded import Router, needs
 from web.problems import documented
 from web.routes.parts import TheRuntime
 
-router = APIRouter(prefix="/plans", tags=["plans"])
+router = Router(prefix="/plans", tags=["plans"])
 
 
-@router.get("/{name}", response_model=PlanDocument, responses=documented(422))
+@router.get(
+    "/{name}", response_model=PlanDocument, responses=documented(422), dependencies=[needs(Permission.READ)]
+)
 def read_plan(
     name: Plan,
     runtime: TheRuntime,

@@ -4,18 +4,20 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from fastapi import APIRouter, Query
+from fastapi import Query
 
+from station.people import Permission
 from station.quality import Quality, Trend, quality, trend
 from web.bodies import Serial
+from web.guarded import Router, needs
 from web.problems import documented
 from web.routes.parts import Moment, TheRuntime
 
-router = APIRouter(tags=["quality"])
+router = Router(tags=["quality"])
 IN_TREND = ("calibrate", "apply", "rollback")
 
 
-@router.get("/quality", response_model=Quality)
+@router.get("/quality", response_model=Quality, dependencies=[needs(Permission.READ)])
 def read_quality(
     runtime: TheRuntime,
     robot_serial: Serial | None = None,
@@ -30,7 +32,12 @@ def read_quality(
     return quality(points, zero_offset_deg=wanted.zero_offset_deg, position_error_mm=wanted.position_error_mm)
 
 
-@router.get("/robots/{serial:path}/trend", response_model=Trend, responses=documented(404))
+@router.get(
+    "/robots/{serial:path}/trend",
+    response_model=Trend,
+    responses=documented(404),
+    dependencies=[needs(Permission.READ)],
+)
 def read_trend(
     serial: Serial,
     runtime: TheRuntime,

@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter, Response
-
+from station.people import Permission
 from station.records import readings_to_csv
 from web.bodies import ReadingAnswer, ReadingList
+from web.guarded import Router, needs
 from web.problems import documented
-from web.routes.parts import CalibrationId, TheRuntime
+from web.routes.parts import CalibrationId, CsvResponse, TheRuntime
 
-
-class CsvResponse(Response):
-    media_type = "text/csv"
+router = Router(prefix="/calibrations/{calibration_id}", tags=["readings"])
 
 
 RUN_UID = "Run-Uid"
 
-router = APIRouter(prefix="/calibrations/{calibration_id}", tags=["readings"])
 
-
-@router.get("/readings", response_model=ReadingList, responses=documented(404))
+@router.get(
+    "/readings", response_model=ReadingList, responses=documented(404), dependencies=[needs(Permission.READ)]
+)
 def list_readings(calibration_id: CalibrationId, runtime: TheRuntime) -> ReadingList:
     """Every reading of the run, in the order taken."""
     return ReadingList(
@@ -27,7 +25,12 @@ def list_readings(calibration_id: CalibrationId, runtime: TheRuntime) -> Reading
     )
 
 
-@router.get("/readings.csv", response_class=CsvResponse, responses=documented(404))
+@router.get(
+    "/readings.csv",
+    response_class=CsvResponse,
+    responses=documented(404),
+    dependencies=[needs(Permission.READ)],
+)
 def download_readings(calibration_id: CalibrationId, runtime: TheRuntime) -> CsvResponse:
     """The measurement file itself, an imported one as it was sent; the header `Run-Uid` says of which run."""
     name = f"calibration-{calibration_id}-readings.csv"

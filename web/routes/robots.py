@@ -2,19 +2,89 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter
+from typing import Annotated
 
-from station.records import CalibrationHolds
+from fastapi import Request
+from pydantic import JsonValue
+from starlette.exceptions import HTTPException
+
+from station.errors import FieldRefused, InputRefused
+from station.five_bar import Robot as RobotFile
+from station.people import Permission
+from station.records import Actor, CalibrationHolds, sections_of_toml
+from station.service import Runtime
+from web.aside import aside
 from web.bodies import ClearBody, Robot, Serial
+from web.guarded import Router, needs
 from web.problems import documented
 from web.routes.parts import CallerName, TheRuntime
+from web.strict_json import is_json
 
-router = APIRouter(prefix="/robots", tags=["robots"])
+TOML = ("application/toml", "text/toml", "text/x-toml")
+ROBOT_FILE: dict[str, JsonValue] = {
+    "requestBody": {
+        "required": True,
+        "content": {
+            "application/json": {"schema": {"type": "object"}},
+            "application/toml": {"schema": {"type": "string"}},
+        },
+    }
+}
+
+router = Router(prefix="/robots", tags=["robots"])
 
 
-@router.get("/{serial:path}", response_model=Robot, responses=documented(404))
+@router.get(
+    "/{serial:path}", response_model=Robot, responses=documented(404), dependencies=[needs(Permission.READ)]
+)
 def read_robot(serial: Serial, runtime: TheRuntime) -> Robot:
     """Its file, and what its next run will know of geometry and mechanism."""
+    return _known(runtime, serial)
+
+
+@router.post("/{serial:path}/clear-check", response_model=CalibrationHolds, responses=documented(404, 409))
+def clear_check(
+    serial: Serial, body: ClearBody, by: Annotated[Actor, needs(Permission.MAINTAIN)], runtime: TheRuntime
+) -> CalibrationHolds:
+    """After a failed check an engineer lets calibrated work go on; who and why stay on record."""
+    holds = runtime.orchestrator.clear_failed_check(serial, body.operator, body.reason)
+    runtime.store.record(by, "check.cleared", f"robot {serial}", after={"reason": body.reason})
+    return holds
+
+
+@router.put(
+    "/{serial:path}",
+    response_model=Robot,
+    responses=documented(415),
+    openapi_extra=ROBOT_FILE,
+)
+async def put_robot(
+    serial: Serial,
+    request: Request,
+    by: Annotated[Actor, needs(Permission.MAINTAIN)],
+    runtime: TheRuntime,
+) -> Robot:
+    """Keep a robot file, as TOML or as JSON of the same sections; a changed one is a new version.
+
+    Runs keep the version that they were made with, and what was remembered of the old one is not used.
+    """
+    kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
+    if kind in TOML:
+        sections = sections_of_toml(await request.body(), f"robot {serial}")
+    elif is_json(kind):
+        sections = await request.json()
+    else:
+        raise HTTPException(415, "Send the robot file as application/toml or application/json.")
+    if not isinstance(sections, dict):
+        raise InputRefused("A robot file has sections; the first is [robot].")
+    robot = RobotFile.from_dict(sections, source=f"robot {serial}")
+    if robot.serial != serial:
+        raise FieldRefused("robot.serial", f"The file is of robot {robot.serial}, the address of {serial}.")
+    await aside(lambda: runtime.store.change_robot(by, robot))
+    return await aside(lambda: _known(runtime, serial))
+
+
+def _known(runtime: Runtime, serial: str) -> Robot:
     memory = runtime.store.memory(serial)
     return Robot(
         serial=serial,
@@ -23,13 +93,12 @@ def read_robot(serial: Serial, runtime: TheRuntime) -> Robot:
     )
 
 
-@router.post("/{serial:path}/clear-check", response_model=CalibrationHolds, responses=documented(404, 409))
-def clear_check(serial: Serial, body: ClearBody, runtime: TheRuntime) -> CalibrationHolds:
-    """After a failed check an engineer lets calibrated work go on; who and why stay on record."""
-    return runtime.orchestrator.clear_failed_check(serial, body.operator, body.reason)
-
-
 @router.delete("/{serial:path}/memory", status_code=204, responses=documented(404))
-def forget(serial: Serial, runtime: TheRuntime, operator: CallerName = None) -> None:
+def forget(
+    serial: Serial,
+    by: Annotated[Actor, needs(Permission.MAINTAIN)],
+    runtime: TheRuntime,
+    operator: CallerName = None,
+) -> None:
     """The next run starts without memory; what was known stays on record.  Again is harmless."""
-    runtime.store.forget(serial, operator or "REST")
+    runtime.store.forget(serial, by)

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter
-
+from station.people import Permission
 from station.records import StationView
-from web.routes.parts import TheRuntime
+from web.guarded import Router, needs
+from web.routes.parts import TheAccess, TheRuntime
 
-router = APIRouter(tags=["station"])
+router = Router(tags=["station"])
 
 
-@router.get("/station", response_model=StationView)
-def read_station(runtime: TheRuntime) -> StationView:
+@router.get("/station", response_model=StationView, dependencies=[needs(Permission.READ)])
+def read_station(runtime: TheRuntime, access: TheAccess) -> StationView:
     """The whole station at this moment."""
-    return runtime.orchestrator.snapshot()
+    return runtime.orchestrator.snapshot().as_open(access.open)

@@ -3,11 +3,16 @@
 from __future__ import annotations
 
 import logging
+from typing import Annotated
 
-from fastapi import APIRouter, Response
+from fastapi import BackgroundTasks, Response
+from pydantic import JsonValue
 
-from web.aside import aside
+from station.people import Permission
+from station.records import Actor
+from web.aside import aside, record_later
 from web.bodies import Stopped
+from web.guarded import Router, needs
 from web.routes.parts import CallerName, TheRuntime
 
 log = logging.getLogger(__name__)
@@ -15,7 +20,7 @@ log = logging.getLogger(__name__)
 STOP_TIMEOUT_S = 3.0
 NOT_CONFIRMED = 502
 
-router = APIRouter(tags=["stop"])
+router = Router(tags=["stop"])
 
 
 @router.post(
@@ -23,17 +28,25 @@ router = APIRouter(tags=["stop"])
     response_model=Stopped,
     responses={NOT_CONFIRMED: {"model": Stopped, "description": "At least one axis did not confirm."}},
 )
-async def stop(runtime: TheRuntime, response: Response, operator: CallerName = None) -> Stopped:
+async def stop(
+    by: Annotated[Actor, needs(Permission.STOP)],
+    runtime: TheRuntime,
+    response: Response,
+    later: BackgroundTasks,
+    operator: CallerName = None,
+) -> Stopped:
     """Stop both axes now.  Not the emergency stop: it needs this program, the network and the drives."""
     orchestrator = runtime.orchestrator
     try:
-        axes = await aside(lambda: orchestrator.stop(operator or "REST"), timeout_s=STOP_TIMEOUT_S)
+        axes = await aside(lambda: orchestrator.stop(by.name), timeout_s=STOP_TIMEOUT_S)
     except TimeoutError:
         axes = dict.fromkeys(orchestrator.axes, f"no answer within {STOP_TIMEOUT_S:g} s")
     except Exception as error:  # whatever fails here: who stops must get an answer about the axes
         log.exception("The stop failed")
         axes = dict.fromkeys(orchestrator.axes, f"the stop failed ({type(error).__name__})")
     stopped = Stopped.of(axes)
+    told: dict[str, JsonValue] = {"axes": dict(axes), "confirmed": stopped.confirmed}
+    later.add_task(record_later, runtime.store, by, "station.stopped", "both axes", told)
     if not stopped.confirmed:
         response.status_code = NOT_CONFIRMED
     return stopped

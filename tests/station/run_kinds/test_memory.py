@@ -16,6 +16,7 @@ from station.errors import NotFound
 from station.five_bar.robot_file import Robot
 from station.records import (
     Accuracy,
+    Actor,
     Calibration,
     CalibrationResult,
     LastingParameters,
@@ -73,7 +74,7 @@ def test_a_result_that_is_no_pass_leaves_nothing(store: Store) -> None:
 def test_forgotten_is_not_used_and_stays_on_record(store: Store) -> None:
     run = finish(store)
     for _ in range(2):
-        store.forget("R1", "ada")
+        store.forget("R1", Actor(name="ada", via="open"))
     assert store.memory("R1") is None
     assert store.memory_left_by(run).memory == LASTING
     again = finish(store)
@@ -81,7 +82,7 @@ def test_forgotten_is_not_used_and_stays_on_record(store: Store) -> None:
     assert known is not None
     assert known.calibration_id == again
     with pytest.raises(NotFound):
-        store.forget("R9", "ada")
+        store.forget("R9", Actor(name="ada", via="open"))
 
 
 def test_a_changed_robot_file_starts_without_memory(store: Store) -> None:
@@ -105,11 +106,11 @@ def calibrate(runtime: Runtime, plan: PlanName) -> Calibration:
 def test_a_rapid_run_after_a_full_one_is_surer_until_it_is_told_to_forget(tmp_path: Path) -> None:
     with Runtime.open(FAST, tmp_path) as runtime:
         alone = calibrate(runtime, "rapid")
-        runtime.store.forget("R1", "ada")
+        runtime.store.forget("R1", Actor(name="ada", via="open"))
         full = calibrate(runtime, "full")
         rapid = calibrate(runtime, "rapid")
         paper = calibrate(runtime, "paper")
-        runtime.store.forget("R1", "ada")
+        runtime.store.forget("R1", Actor(name="ada", via="open"))
         without = calibrate(runtime, "rapid")
     assert [run.verdict for run in (alone, full, rapid, paper, without)] == ["pass"] * 5
     assert (full.memory, paper.memory, without.memory) == (None, None, None)

@@ -18,6 +18,7 @@ from station.errors import InputRefused, KeyReused, NotFound, StoreUnavailable
 from station.five_bar.robot_file import Robot
 from station.records import (
     Accuracy,
+    Actor,
     LastingParameters,
     Quantity,
     Reading,
@@ -307,8 +308,8 @@ def test_a_cleared_memory_is_not_used_and_stays_on_record(store: Store, clock: l
     first, second = passed(store), passed(store)
     passed(store, LASTING, "R2")
     clock[0] = T0_MS + 60_000
-    store.forget("R1", "ada")
-    store.forget("R1", "bob")
+    store.forget("R1", Actor(name="ada", via="open"))
+    store.forget("R1", Actor(name="bob", via="open"))
     assert store.memory("R1") is None, "nor the one before it"
     assert store.memory("R2") is not None
     assert store.memory_left_by(first).memory == LASTING
@@ -318,7 +319,7 @@ def test_a_cleared_memory_is_not_used_and_stays_on_record(store: Store, clock: l
     known = store.memory("R1")
     assert known is not None and known.calibration_id == third != second
     with pytest.raises(NotFound, match="R9"):
-        store.forget("R9", "ada")
+        store.forget("R9", Actor(name="ada", via="open"))
 
 
 def test_a_memory_under_another_robot_file_is_not_used(store: Store) -> None:

@@ -1,0 +1,15 @@
+"""Events on their way to others: webhooks, MQTT and folders, each in order, at least once."""
+
+from __future__ import annotations
+
+from station.outbox.alarms import Alarms
+from station.outbox.courier import Courier, couriers
+from station.outbox.receiver import Receiver, Refused
+
+__all__ = [
+    "Alarms",
+    "Courier",
+    "Receiver",
+    "Refused",
+    "couriers",
+]

@@ -1,0 +1,41 @@
+"""Alarms: a device that is lost or at fault, and an interlock that opens, become events."""
+
+from __future__ import annotations
+
+import logging
+
+from station.errors import StoreUnavailable
+from station.records import DeviceView, Interlock
+from station.store import Store
+
+log = logging.getLogger(__name__)
+
+
+class Alarms:
+    """Listens to the live events of the station; each trouble is told once, when it begins."""
+
+    def __init__(self, store: Store) -> None:
+        self._store = store
+        self._devices: set[str] = set()
+        self._interlocks: set[str] = set()
+
+    def device(self, view: DeviceView) -> None:
+        """The state of a device has changed."""
+        if view.state not in ("lost", "fault"):
+            self._devices.discard(view.name)
+        elif view.name not in self._devices:
+            self._devices.add(view.name)
+            self._tell(view.name, view.text or view.state)
+
+    def interlocks(self, all: tuple[Interlock, ...]) -> None:
+        """An interlock has changed."""
+        broken = {one.id: one for one in all if not one.ok}
+        for new in broken.keys() - self._interlocks:
+            self._tell(new, f"{broken[new].text}: {broken[new].detail}".rstrip(": "))
+        self._interlocks = set(broken)
+
+    def _tell(self, source: str, text: str) -> None:
+        try:
+            self._store.announce("alarm", {"source": source, "text": text})
+        except StoreUnavailable:
+            log.exception("The alarm of %s (%s) could not be recorded", source, text)

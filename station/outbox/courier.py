@@ -1,0 +1,113 @@
+"""Takes the events of the store to one receiver: in order, at least once, over restarts.
+
+What fails is tried again after 1, 2, 4, ... at most 60 s, and nothing overtakes it.  What the receiver
+refuses for good, and what is too old or too much, is marked and does not hold up the rest.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections.abc import Callable, Iterator
+from contextlib import ExitStack, contextmanager
+from datetime import UTC, datetime, timedelta
+from threading import Event as Flag
+from threading import Thread
+
+from station.errors import StoreUnavailable
+from station.outbox.folder import Folder
+from station.outbox.mqtt import Mqtt
+from station.outbox.receiver import Receiver, Refused
+from station.outbox.webhook import Webhook
+from station.settings import OutboxSettings
+from station.store import Store
+
+log = logging.getLogger(__name__)
+
+LONGEST_WAIT_S = 60.0
+LOOK_S = 0.5
+"""How soon a new event is noticed."""
+
+
+def _now() -> datetime:
+    return datetime.now(UTC)
+
+
+class Courier:
+    """Of one receiver."""
+
+    def __init__(
+        self, store: Store, receiver: Receiver, settings: OutboxSettings, now: Callable[[], datetime] = _now
+    ) -> None:
+        self.receiver = receiver
+        self._store, self._settings, self._now = store, settings, now
+        self._closing = Flag()
+        self._thread = Thread(target=self._run, name=f"courier to {receiver.name}", daemon=True)
+
+    def step(self) -> float:
+        """Deliver what is due, one event at most; returns after how many seconds to look again.
+
+        :raises StoreUnavailable:
+        """
+        name, now = self.receiver.name, self._now()
+        self._store.enqueue(name, self.receiver.events)
+        if (found := self._store.next_delivery(name)) is None:
+            return LOOK_S
+        delivery, event = found
+        if delivery.next_at is not None and (wait := (delivery.next_at - now).total_seconds()) > 0:
+            return min(wait, LOOK_S)
+        if dropped := self._drop(now):
+            log.error("%s: %d events were given up, too old or too many", name, dropped)
+            return 0.0
+        try:
+            said = self.receiver.deliver(event)
+        except Refused as refusal:
+            log.error("%s refuses event %d for good: %s", name, event.n, refusal)
+            self._store.settle(delivery.id, "refused", str(refusal)[:300])
+        except Exception as error:  # noqa: BLE001 - whatever goes wrong on the way, it is tried again
+            wait_s = min(2.0**delivery.tries, LONGEST_WAIT_S)
+            log.warning("%s: event %d is tried again in %g s: %s", name, event.n, wait_s, error)
+            detail = f"{type(error).__name__}: {error}"[:300]
+            self._store.postpone(delivery.id, self._now() + timedelta(seconds=wait_s), detail)
+        else:
+            self._store.settle(delivery.id, "delivered", said[:300])
+        return 0.0
+
+    def _drop(self, now: datetime) -> int:
+        oldest = now - timedelta(days=self._settings.keep_days)
+        return self._store.expire(self.receiver.name, oldest, self._settings.keep)
+
+    def _run(self) -> None:
+        self.receiver.start()
+        wait_s = 0.0
+        while not self._closing.wait(wait_s):
+            try:
+                wait_s = self.step()
+            except StoreUnavailable as error:
+                log.error("%s: %s", self._thread.name, error)
+                wait_s = LONGEST_WAIT_S / 10
+        self.receiver.close()
+
+    @contextmanager
+    def working(self) -> Iterator[None]:
+        """On a thread of its own; what is under way at the end is finished or tried again after the start."""
+        self._thread.start()
+        try:
+            yield
+        finally:
+            self._closing.set()
+            self._thread.join()
+
+
+@contextmanager
+def couriers(store: Store, settings: OutboxSettings) -> Iterator[None]:
+    """One for each receiver of the station file.  :raises InputRefused: a secret cannot be used."""
+    receivers: list[Receiver] = [
+        *(Webhook(one) for one in settings.webhook),
+        *(Folder(one) for one in settings.folder),
+        *(Mqtt(one) for one in settings.mqtt),
+    ]
+    with ExitStack() as working:
+        for receiver in receivers:
+            store.enqueue(receiver.name, receiver.events)
+            working.enter_context(Courier(store, receiver, settings).working())
+        yield

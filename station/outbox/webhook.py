@@ -1,0 +1,98 @@
+"""Webhooks, signed as Standard Webhooks 1.0 describes (https://www.standardwebhooks.com).
+
+`webhook-id` is the event's uid, so that a receiver recognises what it has already.
+"""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import hashlib
+import hmac
+import http.client
+import ssl
+import time
+from collections.abc import Callable
+from pathlib import Path
+from urllib.parse import urlsplit
+
+from station.errors import InputRefused
+from station.outbox.receiver import Refused, body_of
+from station.records import Event
+from station.settings import WebhookSettings
+
+PREFIX = "whsec_"
+FEWEST_BYTES = 24
+TIMEOUT_S = 15.0
+_AGAIN = (408, 429)
+_MOST_READ = 500
+
+
+def secret_of(path: Path) -> bytes:
+    """The key in a file: base64 after `whsec_`.  :raises InputRefused: there is none, or it is too short."""
+    try:
+        text = path.read_text(encoding="utf-8").strip()
+        key = base64.b64decode(text.removeprefix(PREFIX), validate=True)
+    except OSError as error:
+        raise InputRefused(f"The secret of a webhook, {path}, cannot be read: {error.strerror}.") from error
+    except (UnicodeDecodeError, binascii.Error) as error:
+        raise InputRefused(f"The secret in {path} must be `{PREFIX}` and base64.") from error
+    if len(key) < FEWEST_BYTES:
+        raise InputRefused(f"The secret in {path} has {len(key)} bytes; it needs {FEWEST_BYTES} or more.")
+    return key
+
+
+def signature(key: bytes, uid: str, timestamp: int, body: bytes) -> str:
+    """HMAC-SHA256 over id, timestamp and body, in the form of the header `webhook-signature`."""
+    signed = b".".join((uid.encode(), str(timestamp).encode(), body))
+    return f"v1,{base64.b64encode(hmac.digest(key, signed, hashlib.sha256)).decode()}"
+
+
+class Webhook:
+    """One address that events are posted to."""
+
+    def __init__(self, settings: WebhookSettings, *, clock: Callable[[], float] = time.time) -> None:
+        """:raises InputRefused: its secret cannot be used."""
+        self.name = f"webhook {settings.url}"
+        self.events: tuple[str, ...] = settings.events
+        self._url = urlsplit(settings.url)
+        self._key = secret_of(settings.secret_file)
+        self._clock = clock
+
+    def start(self) -> None:
+        """Nothing to say."""
+
+    def deliver(self, event: Event) -> str:
+        """As `Receiver.deliver`; a redirection is not followed, since it would carry the event elsewhere."""
+        body, timestamp = body_of(event), int(self._clock())
+        headers = {
+            "Content-Type": "application/json",
+            "User-Agent": "fivebar-station",
+            "webhook-id": event.uid,
+            "webhook-timestamp": str(timestamp),
+            "webhook-signature": signature(self._key, event.uid, timestamp, body),
+        }
+        connection = self._connection()
+        try:
+            path = f"{self._url.path or '/'}{'?' + self._url.query if self._url.query else ''}"
+            connection.request("POST", path, body, headers)
+            answer = connection.getresponse()
+            said = f"{answer.status} {answer.reason}".strip()
+            answer.read(_MOST_READ)
+        finally:
+            connection.close()
+        if 200 <= answer.status < 300:
+            return said
+        if 400 <= answer.status < 500 and answer.status not in _AGAIN:
+            raise Refused(said)
+        raise OSError(f"answered {said}")
+
+    def _connection(self) -> http.client.HTTPConnection:
+        host, port = self._url.hostname or "", self._url.port
+        if self._url.scheme == "http":
+            return http.client.HTTPConnection(host, port, timeout=TIMEOUT_S)
+        context = ssl.create_default_context()
+        return http.client.HTTPSConnection(host, port, timeout=TIMEOUT_S, context=context)
+
+    def close(self) -> None:
+        """Nothing stays open."""

@@ -1,0 +1,22 @@
+"""Who may do what: roles, keys, passwords and sessions."""
+
+from __future__ import annotations
+
+from station.people.access import KEY_PREFIX, Access
+from station.people.keys import new_secret, secret_hash
+from station.people.passwords import FEWEST_CHARACTERS, hashed_password, hashed_pin
+from station.people.roles import ALLOWED, ROLES, Permission, allowed_roles
+
+__all__ = [
+    "ALLOWED",
+    "FEWEST_CHARACTERS",
+    "KEY_PREFIX",
+    "ROLES",
+    "Access",
+    "Permission",
+    "allowed_roles",
+    "hashed_password",
+    "hashed_pin",
+    "new_secret",
+    "secret_hash",
+]

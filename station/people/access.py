@@ -1,0 +1,204 @@
+"""Who asks: by key or by session, looked up at every request, so that every change holds at once."""
+
+from __future__ import annotations
+
+import hmac
+import time
+from collections.abc import Callable
+from datetime import UTC, datetime
+from threading import BoundedSemaphore, Lock
+
+from station.errors import Forbidden, NotSignedIn, StoreUnavailable, TooManyTries
+from station.people.keys import new_secret, secret_hash
+from station.people.passwords import hashed_password, matches
+from station.people.roles import ALLOWED, Permission, allowed_roles
+from station.people.tries import Tries
+from station.records import Actor, Role, SignedIn, User
+from station.store import Store
+
+KEY_PREFIX = "fbs_"
+"""Lets whoever finds a key in a text see what it opens."""
+SIGN_IN = "Sign in, or send an API key in the header `Authorization: Bearer KEY`."
+BUSY_S = 2.0
+"""Told to wait, where others are being signed in at this moment."""
+_AT_ONCE = 4
+"""Passwords that are looked at or wait for it: each takes 64 MB and a processor for a moment."""
+
+
+class Access:
+    """Thread safe.  `StoreUnavailable` is raised where the history cannot be read."""
+
+    def __init__(
+        self,
+        store: Store,
+        *,
+        open: bool,
+        idle_s: float = 3600.0,
+        busy: Callable[[], bool] = lambda: False,
+        tries: Tries | None = None,
+    ) -> None:
+        """
+        :param open: whoever shows nothing may do everything
+        :param idle_s: after so long without activity a session ends
+        :param busy: whether the machine moves: nobody is signed off then
+        """
+        self.open = open
+        self._store, self._idle_s, self._busy = store, idle_s, busy
+        self._tries = tries or Tries()
+        self._hashing, self._waiting = Lock(), BoundedSemaphore(_AT_ONCE)
+        self._lock = Lock()
+        self._used_keys: dict[int, int] = {}
+        self._seen_sessions: dict[bytes, int] = {}
+        self._first: bytes | None = None
+
+    def actor(
+        self, key: str | None, cookie: str | None, *, named: str | None = None, active: bool = True
+    ) -> Actor:
+        """Who asks: by key, else by cookie, else anybody where the station is open.
+
+        :param named: the name that a request in open mode gives
+        :param active: whether this is a sign of somebody at the page
+        :raises NotSignedIn: says why
+        """
+        if key is not None:
+            return self._by_key(key)
+        if cookie is not None and (user := self._by_cookie(cookie, active)) is not None:
+            return Actor(name=user.name, via="user", role=user.role)
+        if self.open:
+            return Actor(name=named or "somebody", via="open", role="administrator")
+        if cookie is not None:
+            raise NotSignedIn("The session has ended; sign in again.")
+        raise NotSignedIn(SIGN_IN)
+
+    def _by_key(self, key: str) -> Actor:
+        digest = secret_hash(key)
+        kept = self._store.key(digest)
+        # the index found it by its hash; who measures the time learns nothing about the key
+        if kept is None or not hmac.compare_digest(digest, secret_hash(key)):
+            raise NotSignedIn("This API key is not known here.")
+        if kept.revoked_at is not None:
+            raise NotSignedIn(
+                f"This API key ({kept.name}) was revoked at {kept.revoked_at:%Y-%m-%d %H:%M} UTC."
+            )
+        if kept.expires_at is not None and kept.expires_at <= datetime.now(UTC):
+            raise NotSignedIn(f"This API key ({kept.name}) expired at {kept.expires_at:%Y-%m-%d %H:%M} UTC.")
+        with self._lock:
+            self._used_keys[kept.id] = _now_ms()
+        return Actor(name=kept.name, via="key", role=kept.role)
+
+    def _by_cookie(self, cookie: str, active: bool) -> User | None:
+        digest, now = secret_hash(cookie), _now_ms()
+        session = self._store.session(digest)
+        if session is None:
+            return None
+        with self._lock:
+            seen = max(self._seen_sessions.get(digest, 0), round(session.seen_at.timestamp() * 1000))
+            if now - seen > self._idle_s * 1000 and not self._busy():
+                return None
+            if active:
+                self._seen_sessions[digest] = now
+        return session.user
+
+    @staticmethod
+    def check(actor: Actor, permission: Permission) -> None:
+        """:raises Forbidden: names the roles that may."""
+        if actor.role not in ALLOWED[permission]:
+            may = allowed_roles(permission)
+            named = may[0] if len(may) == 1 else f"{', '.join(may[:-1])} or {may[-1]}"
+            raise Forbidden(f"This needs the role {named}; {actor.name} has the role {actor.role}.")
+
+    # Signing in --------------------------------------------------------------------------------
+
+    def sign_in(self, name: str, password: str, address: str) -> tuple[str, User]:
+        """A cookie for whoever knows the password.
+
+        :param address: of the client, whose failures are counted
+        :raises NotSignedIn: wrong, without saying which of both
+        :raises TooManyTries:
+        """
+        return self._sign_in(f"name {name.casefold()}", address, password, "Name or password is wrong.", name)
+
+    def sign_in_by_badge(self, badge: str, pin: str, address: str) -> tuple[str, User]:
+        """The same with a badge and its PIN."""
+        return self._sign_in(f"badge {badge}", address, pin, "Badge or PIN is wrong.", None, badge)
+
+    def _sign_in(
+        self, who: str, address: str, secret: str, wrong: str, name: str | None, badge: str = ""
+    ) -> tuple[str, User]:
+        counted = (who, f"address {address}")
+        self._tries.check(*counted)
+        kept = (
+            self._store.credentials(name)
+            if name is not None
+            else self._store.badge_credentials(secret_hash(badge))
+        )
+        if not self._matches(secret, kept.secret_hash if kept else None) or kept is None:
+            self._tries.failed(*counted)
+            raise NotSignedIn(wrong)
+        self._tries.succeeded(*counted)
+        return self._begin(kept.user), kept.user
+
+    def _matches(self, secret: str, kept_hash: str | None) -> bool:
+        """One at a time, so that guessing never takes the processor from a run."""
+        if not self._waiting.acquire(blocking=False):
+            raise TooManyTries(BUSY_S)
+        try:
+            with self._hashing:
+                return matches(secret, kept_hash)
+        finally:
+            self._waiting.release()
+
+    def _begin(self, user: User) -> str:
+        cookie = new_secret()
+        self._store.add_session(secret_hash(cookie), user)
+        return cookie
+
+    def sign_out(self, cookie: str) -> None:
+        """Again is harmless."""
+        self._store.end_session(secret_hash(cookie))
+
+    def session(self, actor: Actor) -> SignedIn:
+        """What is told to somebody about themselves."""
+        after_s = self._idle_s if actor.via == "user" else None
+        return SignedIn(name=actor.name, role=actor.role, via=actor.via, signs_off_after_s=after_s)
+
+    # The first administrator -------------------------------------------------------------------
+
+    def offer_first_administrator(self) -> str | None:
+        """A secret that makes the first administrator, once; None where there is one, or none is needed."""
+        if self.open or self._store.administrator_known():
+            return None
+        secret = new_secret()
+        self._first = secret_hash(secret)
+        return secret
+
+    def make_first_administrator(self, secret: str, name: str, password: str) -> tuple[str, User]:
+        """:raises NotSignedIn: the secret was used or is another."""
+        with self._hashing:
+            if self._first is None or not hmac.compare_digest(self._first, secret_hash(secret)):
+                raise NotSignedIn("This link was used already or is not this station's; start it again.")
+            role: Role = "administrator"
+            by = Actor(name=name, via="terminal")
+            user = self._store.add_user(by, name, role, password_hash=hashed_password(password))
+            self._first = None
+        return self._begin(user), user
+
+    def note_use(self) -> None:
+        """Write down when keys and sessions were used; from time to time, since every write costs."""
+        with self._lock:
+            keys, self._used_keys = self._used_keys, {}
+            sessions = dict(self._seen_sessions)
+        try:
+            idle_ms = round(self._idle_s * 1000) if not self._busy() else _now_ms()
+            self._store.note_use(keys, sessions, idle_ms=idle_ms)
+        except StoreUnavailable:
+            with self._lock:
+                self._used_keys = {**keys, **self._used_keys}
+            raise
+        with self._lock:
+            oldest = _now_ms() - 2 * self._idle_s * 1000
+            self._seen_sessions = {k: ms for k, ms in self._seen_sessions.items() if ms > oldest}
+
+
+def _now_ms() -> int:
+    return time.time_ns() // 1_000_000

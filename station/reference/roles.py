@@ -1,0 +1,70 @@
+"""Who may call what: the table of routes and roles, from the routes themselves."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from station.people import ALLOWED, ROLES, Permission
+from station.reference.markdown import code, page, section, table
+from web.app import API, LIVE_ROUTES, ROUTES
+from web.guarded import guard_of
+
+
+@dataclass(frozen=True, slots=True)
+class RouteNeed:
+    """One route and the permission that it declares."""
+
+    method: str
+    path: str
+    permission: Permission
+
+
+def route_needs() -> Iterator[RouteNeed]:
+    """Every route of the interface.  :raises LookupError: one that declares nothing, or twice."""
+    for module in (*ROUTES, *LIVE_ROUTES):
+        for route in module.router.routes:
+            guard = guard_of(route.dependant)
+            if guard is None:
+                raise LookupError(f"{route.path} must declare what it needs, once")
+            methods = getattr(route, "methods", None) or {"WebSocket"}
+            for method in sorted(methods):
+                yield RouteNeed(method, API + route.path_format, guard.permission)
+
+
+def roles_page() -> str:
+    """Permissions by role, and what every route needs."""
+    return page(
+        "Roles",
+        "Every route declares one permission; a role is a set of permissions. `GET /healthz` and `/readyz`, the files of the "
+        "page and `/docs` need none. Where the station is open (the emulated rig on a loopback address) whoever shows no key may do "
+        "everything; whoever shows one has its role there, too.",
+        section(
+            "Permissions",
+            table(
+                ("permission", *ROLES),
+                ((code(p), *(_mark(role in ALLOWED[p]) for role in ROLES)) for p in Permission),
+            ),
+            "",
+            "`enter` is signing in and out: anybody. `stop` from the station's own computer needs no sign-in. With `abort`, the role "
+            "`mes` ends only runs that it started itself.",
+        ),
+        section(
+            "Routes",
+            table(
+                ("route", "permission", *ROLES),
+                (
+                    (
+                        code(f"{need.method} {need.path}"),
+                        code(need.permission),
+                        *(_mark(role in ALLOWED[need.permission]) for role in ROLES),
+                    )
+                    for need in sorted(route_needs(), key=lambda need: (need.path, need.method))
+                ),
+            ),
+        ),
+    )
+
+
+def _mark(allowed: bool) -> str:
+    return "yes" if allowed else ""

@@ -1,0 +1,23 @@
+"""How a run's procedure came out, before the machine was brought to rest."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from station.records import CalibrationResult, Reason, State, because
+
+
+@dataclass(frozen=True, slots=True)
+class Ending:
+    """State, and what is known about why."""
+
+    state: State
+    reason: Reason | None = None
+    result: CalibrationResult | None = None
+
+    def without_result(self, doubt: str | None) -> Ending:
+        """Of a run that did not end well, with what could not be confirmed about standstill."""
+        if doubt is None:
+            return Ending(self.state, self.reason)
+        said = [self.reason.text] if self.reason else []
+        return Ending(self.state, because("step_failed", text=" ".join([*said, doubt])))

@@ -1,0 +1,109 @@
+"""The audit: who did what, each entry hashed together with the hash of the one before.
+
+A person's name can be erased without breaking the chain: what is hashed is the hash of the name and a salt,
+and both are forgotten together.  The database refuses every other change of an entry.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import secrets
+import sqlite3
+from collections.abc import Mapping
+from datetime import UTC, datetime
+
+import rfc8785
+from pydantic import JsonValue
+
+from station.records import Actor, AuditChecked, AuditEntry
+from station.store.kept_file import KeptFile
+from station.store.rows import compact
+from station.store.times import now_ms
+
+_HASHED = ("n", "at_ms", "who_sha256", "via", "role", "action", "subject", "before", "after")
+
+
+class AuditTrail(KeptFile):
+    """Append-only."""
+
+    def record(
+        self,
+        by: Actor,
+        action: str,
+        subject: str,
+        *,
+        before: Mapping[str, JsonValue] | None = None,
+        after: Mapping[str, JsonValue] | None = None,
+    ) -> None:
+        """One more entry; within a transaction it is part of that."""
+        with self._writing() as db:
+            last = db.execute("SELECT n, hash FROM audit ORDER BY n DESC LIMIT 1").fetchone() or (0, "")
+            salt = secrets.token_hex(16)
+            row = {
+                "n": last[0] + 1,
+                "at_ms": now_ms(),
+                "who_sha256": _sha256(f"{salt} {by.name}".encode()),
+                "via": by.via,
+                "role": by.role,
+                "action": action,
+                "subject": subject,
+                "before": compact(dict(before)) if before else None,
+                "after": compact(dict(after)) if after else None,
+            }
+            db.execute(
+                f"INSERT INTO audit ({', '.join(_HASHED)}, who, salt, hash)"
+                f" VALUES ({', '.join('?' * len(_HASHED))}, ?, ?, ?)",
+                [*row.values(), by.name, salt, _link(last[1], row)],
+            )
+
+    def audit(self, *, limit: int = 100, cursor: int | None = None) -> list[AuditEntry]:
+        """The newest first; only entries before number `cursor`."""
+        rows = self._readers.all(
+            "SELECT * FROM audit WHERE n < coalesce(?, n + 1) ORDER BY n DESC LIMIT ?", [cursor, limit]
+        )
+        return [_entry(row) for row in rows]
+
+    def check_audit(self) -> AuditChecked:
+        """Make every hash again and compare."""
+        head, count = "", 0
+        for row in self._readers.all("SELECT * FROM audit ORDER BY n"):
+            named = row["who"] is not None
+            same_name = not named or _sha256(f"{row['salt']} {row['who']}".encode()) == row["who_sha256"]
+            whole = row["n"] == count + 1 and _link(head, {c: row[c] for c in _HASHED}) == row["hash"]
+            if not (whole and same_name):
+                return AuditChecked(entries=count, head=head, broken=row["n"])
+            head, count = row["hash"], count + 1
+        return AuditChecked(entries=count, head=head, broken=None)
+
+    def erase_name(self, name: str) -> int:
+        """Forget a person's name in the trail, for good; in how many entries it stood."""
+        with self._writing() as db:
+            return db.execute(
+                "UPDATE audit SET who = NULL, salt = NULL WHERE who = ? COLLATE NOCASE"
+                " AND via IN ('user', 'terminal')",
+                [name],
+            ).rowcount
+
+
+def _entry(row: sqlite3.Row) -> AuditEntry:
+    return AuditEntry(
+        n=row["n"],
+        at=datetime.fromtimestamp(row["at_ms"] / 1000, UTC),
+        who=row["who"],
+        via=row["via"],
+        role=row["role"],
+        action=row["action"],
+        subject=row["subject"],
+        before=json.loads(row["before"]) if row["before"] else None,
+        after=json.loads(row["after"]) if row["after"] else None,
+        hash=row["hash"],
+    )
+
+
+def _link(previous: str, row: Mapping[str, str | int | None]) -> str:
+    return _sha256(previous.encode() + rfc8785.dumps(dict(row)))
+
+
+def _sha256(data: bytes) -> str:
+    return hashlib.sha256(data).hexdigest()

@@ -1,0 +1,154 @@
+"""Events for others, and how far each was delivered to each receiver."""
+
+from __future__ import annotations
+
+import json
+import sqlite3
+from collections.abc import Collection, Mapping
+from datetime import UTC, datetime
+
+from pydantic import JsonValue
+
+from station.errors import NotFound
+from station.records import Delivery, DeliveryCount, Event, EventType, uid7
+from station.store.kept_file import KeptFile
+from station.store.rows import compact, moment
+from station.store.times import now_ms
+
+_DELIVERY = "deliveries.*, uid, type FROM deliveries JOIN happenings USING (n)"
+
+
+class Outbox(KeptFile):
+    """An event is on the disk together with what it tells of, so that none is lost and none is invented."""
+
+    def announce(self, type: EventType, data: Mapping[str, JsonValue]) -> None:
+        """One more event; within a transaction it is part of that."""
+        with self._writing() as db:
+            at_ms = now_ms()
+            db.execute(
+                "INSERT INTO happenings (uid, type, at_ms, data) VALUES (?, ?, ?, ?)",
+                [uid7(at_ms), type, at_ms, compact(dict(data))],
+            )
+
+    def happenings(self, *, after: int = 0, limit: int = 100) -> list[Event]:
+        """Events with a higher number, in order."""
+        rows = self._readers.all("SELECT * FROM happenings WHERE n > ? ORDER BY n LIMIT ?", [after, limit])
+        return [_event(row) for row in rows]
+
+    def enqueue(self, receiver: str, types: Collection[str]) -> None:
+        """Deliveries of all events that came since the last time; a new receiver begins with the next one."""
+        last = self._last()
+        row = self._readers.one("SELECT seen FROM receivers WHERE name = ?", [receiver])
+        if row is not None and row["seen"] == last:
+            return
+        marks = ", ".join("?" * len(types))
+        with self._writing() as db:
+            if row is not None:
+                db.execute(
+                    "INSERT INTO deliveries (receiver, n, state, next_ms) SELECT ?, n, 'waiting', at_ms"
+                    f" FROM happenings WHERE n > ? AND n <= ? AND type IN ({marks}) ORDER BY n",
+                    [receiver, row["seen"], last, *types],
+                )
+            db.execute("INSERT OR REPLACE INTO receivers VALUES (?, ?)", [receiver, last])
+
+    def _last(self) -> int:
+        row = self._readers.one("SELECT coalesce(max(n), 0) AS n FROM happenings")
+        return 0 if row is None else int(row["n"])
+
+    def next_delivery(self, receiver: str) -> tuple[Delivery, Event] | None:
+        """The first that waits, in the order of the events; whether its time has come or not."""
+        row = self._readers.one(
+            f"SELECT at_ms, data, {_DELIVERY} WHERE receiver = ? AND state = 'waiting' ORDER BY n LIMIT 1",
+            [receiver],
+        )
+        return None if row is None else (_delivery(row), _event(row))
+
+    def postpone(self, delivery_id: int, until: datetime, detail: str) -> None:
+        """It failed and is tried again."""
+        with self._writing() as db:
+            db.execute(
+                "UPDATE deliveries SET tries = tries + 1, next_ms = ?, detail = ? WHERE id = ?",
+                [round(until.timestamp() * 1000), detail, delivery_id],
+            )
+
+    def settle(self, delivery_id: int, state: str, detail: str) -> None:
+        """It arrived, or the receiver will never take it."""
+        with self._writing() as db:
+            db.execute(
+                "UPDATE deliveries SET tries = tries + 1, state = ?, detail = ?, ended_ms = ? WHERE id = ?",
+                [state, detail, now_ms(), delivery_id],
+            )
+
+    def expire(self, receiver: str, before: datetime, most: int) -> int:
+        """Give up what waits for longer, and the oldest of what is too many; how many these were."""
+        with self._writing() as db:
+            return db.execute(
+                "UPDATE deliveries SET state = 'expired', ended_ms = ?, detail ="
+                " 'given up: too old, or too many were waiting'"
+                " WHERE state = 'waiting' AND receiver = ? AND (n IN (SELECT n FROM happenings"
+                " WHERE at_ms < ?) OR id IN (SELECT id FROM deliveries WHERE receiver = ?"
+                " AND state = 'waiting' ORDER BY n DESC LIMIT -1 OFFSET ?))",
+                [now_ms(), receiver, round(before.timestamp() * 1000), receiver, most],
+            ).rowcount
+
+    def resend(self, delivery_id: int) -> Delivery:
+        """Deliver it again, before all later ones.  :raises NotFound:"""
+        self.delivery(delivery_id)
+        with self._writing() as db:
+            db.execute(
+                "UPDATE deliveries SET state = 'waiting', tries = 0, next_ms = ?, ended_ms = NULL,"
+                " detail = '' WHERE id = ?",
+                [now_ms(), delivery_id],
+            )
+        return self.delivery(delivery_id)
+
+    def delivery(self, delivery_id: int) -> Delivery:
+        """:raises NotFound:"""
+        row = self._readers.one(f"SELECT {_DELIVERY} WHERE deliveries.id = ?", [delivery_id])
+        if row is None:
+            raise NotFound(f"There is no delivery {delivery_id}.")
+        return _delivery(row)
+
+    def deliveries(
+        self, *, state: str | None = None, cursor: int | None = None, limit: int = 100
+    ) -> list[Delivery]:
+        """The newest first; only those before number `cursor`."""
+        rows = self._readers.all(
+            f"SELECT {_DELIVERY} WHERE state = coalesce(?, state) AND deliveries.id < coalesce(?,"
+            " deliveries.id + 1) ORDER BY deliveries.id DESC LIMIT ?",
+            [state, cursor, limit],
+        )
+        return [_delivery(row) for row in rows]
+
+    def delivery_counts(self) -> list[DeliveryCount]:
+        """By receiver and state."""
+        rows = self._readers.all(
+            "SELECT receiver, state, count(*) AS count FROM deliveries GROUP BY receiver, state ORDER BY 1, 2"
+        )
+        return [DeliveryCount.model_validate(dict(row)) for row in rows]
+
+
+def _event(row: sqlite3.Row) -> Event:
+    return Event(
+        n=row["n"],
+        uid=row["uid"],
+        type=row["type"],
+        at=datetime.fromtimestamp(row["at_ms"] / 1000, UTC),
+        data=json.loads(row["data"]),
+    )
+
+
+def _delivery(row: sqlite3.Row) -> Delivery:
+    waiting = row["state"] == "waiting"
+    return Delivery(
+        id=row["id"],
+        receiver=row["receiver"],
+        event=row["n"],
+        uid=row["uid"],
+        type=row["type"],
+        state=row["state"],
+        tries=row["tries"],
+        detail=row["detail"],
+        next_at=moment(row["next_ms"]) if waiting else None,
+        ended_at=moment(row["ended_ms"]),
+    )

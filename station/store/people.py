@@ -1,0 +1,206 @@
+"""Users, keys and sessions.  Only hashes are kept of passwords, PINs, badges, keys and cookies."""
+
+from __future__ import annotations
+
+import sqlite3
+from datetime import UTC, datetime
+
+from station.errors import InputRefused, NotFound
+from station.records import Actor, ApiKey, Credentials, Role, Session, User
+from station.store.audit import AuditTrail
+from station.store.rows import millis, moment
+from station.store.times import now_ms
+
+_USER = "users.id, users.name, users.role, badge_sha256, users.created_ms"
+
+
+class People(AuditTrail):
+    """Every change is in the audit, in the same transaction."""
+
+    def add_user(
+        self,
+        by: Actor,
+        name: str,
+        role: Role,
+        *,
+        password_hash: str | None = None,
+        badge_sha256: bytes | None = None,
+        pin_hash: str | None = None,
+    ) -> User:
+        """:raises InputRefused: the name or the badge is taken."""
+        with self._writing() as db:
+            if db.execute("SELECT 1 FROM users WHERE name = ?", [name]).fetchone():
+                raise InputRefused(f"There is a user {name} already; choose another name.")
+            if db.execute("SELECT 1 FROM users WHERE badge_sha256 = ?", [badge_sha256]).fetchone():
+                raise InputRefused("Another user has this badge; remove that user first.")
+            user_id = db.execute(
+                "INSERT INTO users (name, role, password_hash, badge_sha256, pin_hash, created_ms)"
+                " VALUES (?, ?, ?, ?, ?, ?)",
+                [name, role, password_hash, badge_sha256, pin_hash, now_ms()],
+            ).lastrowid
+            self.record(by, "user.added", f"user {user_id}", after={"role": role})
+        return self.user(name)
+
+    def set_password(self, by: Actor, name: str, password_hash: str) -> None:
+        """A new password ends the sessions of the user.  :raises NotFound:"""
+        user = self.user(name)
+        with self._writing() as db:
+            db.execute("UPDATE users SET password_hash = ? WHERE id = ?", [password_hash, user.id])
+            db.execute("DELETE FROM sessions WHERE user_id = ?", [user.id])
+            self.record(by, "user.password_changed", f"user {user.id}")
+
+    def remove_user(self, by: Actor, name: str) -> None:
+        """The account and its sessions are gone; the audit keeps what was done.  :raises NotFound:"""
+        user = self.user(name)
+        with self._writing() as db:
+            db.execute("DELETE FROM sessions WHERE user_id = ?", [user.id])
+            db.execute("DELETE FROM users WHERE id = ?", [user.id])
+            self.record(by, "user.removed", f"user {user.id}", before={"role": user.role})
+
+    def user(self, name: str) -> User:
+        """By name, in capitals or not.  :raises NotFound:"""
+        row = self._readers.one(f"SELECT {_USER} FROM users WHERE name = ?", [name])
+        if row is None:
+            raise NotFound(f"There is no user {name}.")
+        return _user(row)
+
+    def users(self) -> list[User]:
+        """By name."""
+        return [_user(row) for row in self._readers.all(f"SELECT {_USER} FROM users ORDER BY name")]
+
+    def credentials(self, name: str) -> Credentials | None:
+        """What the password of a user is checked against; None without user or password."""
+        return self._credentials("users.name = ?", name, "password_hash")
+
+    def badge_credentials(self, badge_sha256: bytes) -> Credentials | None:
+        """What the PIN that belongs to a badge is checked against."""
+        return self._credentials("badge_sha256 = ?", badge_sha256, "pin_hash")
+
+    def _credentials(self, where: str, value: str | bytes, column: str) -> Credentials | None:
+        row = self._readers.one(
+            f"SELECT {_USER}, {column} AS secret FROM users WHERE {where} AND {column} IS NOT NULL", [value]
+        )
+        return None if row is None else Credentials(user=_user(row), secret_hash=row["secret"])
+
+    # Keys --------------------------------------------------------------------------------------
+
+    def add_key(self, by: Actor, name: str, role: Role, sha256: bytes, expires_at: datetime | None) -> ApiKey:
+        """:raises InputRefused: a key of this name is in use."""
+        with self._writing() as db:
+            if db.execute("SELECT 1 FROM api_keys WHERE name = ? AND revoked_ms IS NULL", [name]).fetchone():
+                raise InputRefused(f"There is a key {name} already; revoke it first or choose another name.")
+            key_id = db.execute(
+                "INSERT INTO api_keys (name, role, sha256, created_ms, expires_ms) VALUES (?, ?, ?, ?, ?)",
+                [name, role, sha256, now_ms(), millis(expires_at) if expires_at else None],
+            ).lastrowid
+            expires = expires_at.isoformat() if expires_at else None
+            self.record(
+                by, "key.added", f"key {key_id}", after={"name": name, "role": role, "until": expires}
+            )
+        return self._key_row("id = ?", int(key_id or 0))
+
+    def revoke_key(self, by: Actor, which: str) -> ApiKey:
+        """By number, or by the name of a key in use.  Again is harmless.  :raises NotFound:"""
+        key = next(
+            (k for k in reversed(self.api_keys()) if which == str(k.id) or which == k.name),
+            None,
+        )
+        if key is None:
+            raise NotFound(f"There is no key {which}; `station key list` shows them.")
+        with self._writing() as db:
+            revoked = db.execute(
+                "UPDATE api_keys SET revoked_ms = ? WHERE id = ? AND revoked_ms IS NULL", [now_ms(), key.id]
+            ).rowcount
+            if revoked:
+                self.record(by, "key.revoked", f"key {key.id}", before={"name": key.name, "role": key.role})
+        return self._key_row("id = ?", key.id)
+
+    def api_keys(self) -> list[ApiKey]:
+        """Every key that was ever made, oldest first."""
+        return [_key(row) for row in self._readers.all("SELECT * FROM api_keys ORDER BY id")]
+
+    def key(self, sha256: bytes) -> ApiKey | None:
+        """The key with this hash, in use or not."""
+        row = self._readers.one("SELECT * FROM api_keys WHERE sha256 = ?", [sha256])
+        return None if row is None else _key(row)
+
+    def _key_row(self, where: str, value: int) -> ApiKey:
+        row = self._readers.one(f"SELECT * FROM api_keys WHERE {where}", [value])
+        if row is None:
+            raise NotFound(f"There is no key {value}.")
+        return _key(row)
+
+    def anybody_known(self) -> bool:
+        """Whether there is a user, or a key that may be used."""
+        row = self._readers.one(
+            "SELECT 1 FROM users UNION SELECT 1 FROM api_keys WHERE revoked_ms IS NULL"
+            " AND coalesce(expires_ms > ?, 1)",
+            [now_ms()],
+        )
+        return row is not None
+
+    def administrator_known(self) -> bool:
+        """Whether somebody can sign in who may do everything."""
+        return self._readers.one("SELECT 1 FROM users WHERE role = 'administrator'") is not None
+
+    # Sessions ----------------------------------------------------------------------------------
+
+    def add_session(self, sha256: bytes, user: User) -> None:
+        """Somebody has signed in."""
+        with self._writing() as db:
+            db.execute("INSERT INTO sessions VALUES (?, ?, ?)", [sha256, user.id, now_ms()])
+
+    def session(self, sha256: bytes) -> Session | None:
+        """Who has signed in with this cookie, and when they were seen last."""
+        row = self._readers.one(
+            f"SELECT {_USER}, seen_ms FROM sessions JOIN users ON users.id = user_id WHERE sha256 = ?",
+            [sha256],
+        )
+        return (
+            None
+            if row is None
+            else Session(user=_user(row), seen_at=datetime.fromtimestamp(row["seen_ms"] / 1000, UTC))
+        )
+
+    def end_session(self, sha256: bytes) -> None:
+        """Signed out; again is harmless."""
+        with self._writing() as db:
+            db.execute("DELETE FROM sessions WHERE sha256 = ?", [sha256])
+
+    def note_use(self, keys: dict[int, int], sessions: dict[bytes, int], *, idle_ms: int) -> None:
+        """When keys and sessions were used last (ms since 1970); sessions unused for longer are gone."""
+        with self._writing() as db:
+            for key_id, used_ms in keys.items():
+                db.execute("UPDATE api_keys SET used_ms = ? WHERE id = ?", [used_ms, key_id])
+            for sha256, seen_ms in sessions.items():
+                db.execute("UPDATE sessions SET seen_ms = ? WHERE sha256 = ?", [seen_ms, sha256])
+            db.execute("DELETE FROM sessions WHERE seen_ms < ?", [now_ms() - idle_ms])
+
+    # Runs --------------------------------------------------------------------------------------
+
+    def started_by(self, calibration_id: int) -> Actor | None:
+        """Who started a run; None where that is not on record."""
+        row = self._readers.one("SELECT name, via FROM run_starters WHERE run_id = ?", [calibration_id])
+        return None if row is None else Actor(name=row["name"], via=row["via"])
+
+
+def _user(row: sqlite3.Row) -> User:
+    return User(
+        id=row["id"],
+        name=row["name"],
+        role=row["role"],
+        has_badge=row["badge_sha256"] is not None,
+        created_at=moment(row["created_ms"]),
+    )
+
+
+def _key(row: sqlite3.Row) -> ApiKey:
+    return ApiKey(
+        id=row["id"],
+        name=row["name"],
+        role=row["role"],
+        created_at=moment(row["created_ms"]),
+        expires_at=moment(row["expires_ms"]),
+        revoked_at=moment(row["revoked_ms"]),
+        used_at=moment(row["used_ms"]),
+    )

@@ -1,0 +1,204 @@
+"""Receivers written from the documentation: a web server with the public verification library, a broker."""
+
+from __future__ import annotations
+
+import base64
+import csv
+import json
+import shutil
+import socket
+import subprocess
+import threading
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
+from datetime import UTC, datetime
+from http.server import BaseHTTPRequestHandler, HTTPServer
+from pathlib import Path
+from typing import Any
+
+import paho.mqtt.client as mqtt
+import pytest
+from paho.mqtt.enums import CallbackAPIVersion
+from pydantic import ValidationError
+from standardwebhooks import Webhook as PublicWebhook
+
+from station.errors import InputRefused
+from station.outbox import Refused
+from station.outbox.folder import Folder
+from station.outbox.mqtt import Mqtt
+from station.outbox.webhook import Webhook
+from station.records import Event, uid7
+from station.settings import FolderSettings, MqttSettings, WebhookSettings
+
+SECRET = "whsec_" + base64.b64encode(bytes(range(32))).decode()
+EVENT = Event(
+    n=7, uid=uid7(), type="run.ended", at=datetime(2026, 11, 27, tzinfo=UTC),
+    data={"id": 3, "work_order": "=cmd()", "reason_params": {"by": "ada"}},
+)  # fmt: skip
+LIMIT_S = 10.0
+
+
+@pytest.fixture
+def secret_file(tmp_path: Path) -> Path:
+    file = tmp_path / "secret"
+    file.write_text(SECRET + "\n")
+    return file
+
+
+@contextmanager
+def web_server(status: int) -> Iterator[tuple[str, list[Any]]]:
+    """Verifies every request with the public library; its address and what it took."""
+    taken: list[Any] = []
+
+    class Handler(BaseHTTPRequestHandler):
+        def do_POST(self) -> None:
+            body = self.rfile.read(int(self.headers["Content-Length"]))
+            headers = {key.lower(): value for key, value in self.headers.items()}
+            taken.append((headers["webhook-id"], PublicWebhook(SECRET).verify(body, headers)))
+            self.send_response(status)
+            self.send_header("Content-Length", "0")
+            self.end_headers()
+
+        def log_message(self, *_: Any) -> None: ...
+
+    with HTTPServer(("127.0.0.1", 0), Handler) as server:
+        thread = threading.Thread(target=server.serve_forever, args=(0.01,))
+        thread.start()
+        try:
+            yield f"http://127.0.0.1:{server.server_port}/hook?line=4", taken
+        finally:
+            server.shutdown()
+            thread.join()
+
+
+@pytest.mark.parametrize(
+    ("status", "raised"),
+    [(204, None), (410, Refused), (429, OSError), (408, OSError), (500, OSError), (302, OSError)],
+)
+def test_a_webhook_verifies_with_the_public_library(
+    secret_file: Path, status: int, raised: type[Exception] | None
+) -> None:
+    with web_server(status) as (url, taken):
+        webhook = Webhook(WebhookSettings(url=url, secret_file=secret_file))
+        if raised is None:
+            assert webhook.deliver(EVENT).startswith("204")
+        else:
+            with pytest.raises(raised, match=str(status)):
+                webhook.deliver(EVENT)
+        ((uid, body),) = taken
+    assert uid == EVENT.uid
+    assert body == {"type": "run.ended", "timestamp": "2026-11-27T00:00:00Z", "data": EVENT.data}
+
+
+def test_a_webhook_without_a_good_secret_or_over_plain_http_is_refused(tmp_path: Path) -> None:
+    file = tmp_path / "secret"
+    local = "http://localhost:1/"
+    with pytest.raises(InputRefused, match="cannot be read"):
+        Webhook(WebhookSettings(url=local, secret_file=file))
+    for text, said in (("whsec_!", "base64"), ("whsec_QUJD", "24 or more")):
+        file.write_text(text)
+        with pytest.raises(InputRefused, match=said):
+            Webhook(WebhookSettings(url=local, secret_file=file))
+    with pytest.raises(ValidationError, match="plain http"):
+        WebhookSettings(url="http://mes.example/", secret_file=file)
+
+
+def test_a_folder_holds_one_file_an_event_however_often_it_comes(tmp_path: Path) -> None:
+    for kind in ("json", "csv"):
+        folder = Folder(FolderSettings(path=tmp_path / kind, format=kind))
+        folder.deliver(EVENT), folder.deliver(EVENT)
+        (file,) = (tmp_path / kind).iterdir()
+        assert file.name == f"000000007-{EVENT.uid}.{kind}"
+    assert json.loads((tmp_path / "json" / f"000000007-{EVENT.uid}.json").read_text())["n"] == 7
+    with file.open() as lines:
+        (row,) = csv.DictReader(lines)
+    assert (row["event_uid"], row["work_order"]) == (EVENT.uid, "'=cmd()")
+
+
+def free_port() -> int:
+    with socket.socket() as sock:
+        sock.bind(("127.0.0.1", 0))
+        return int(sock.getsockname()[1])
+
+
+@contextmanager
+def broker(port: int, folder: Path) -> Iterator[None]:
+    """A real mosquitto that listens on loopback alone."""
+    program = shutil.which("mosquitto") or shutil.which("mosquitto", path="/usr/sbin")
+    if program is None:
+        pytest.skip("mosquitto is not installed")
+    config = folder / "mosquitto.conf"
+    config.write_text(f"listener {port} 127.0.0.1\nallow_anonymous true\n")
+    process = subprocess.Popen([program, "-c", str(config)], stderr=subprocess.DEVNULL)
+    try:
+        deadline = time.monotonic() + LIMIT_S
+        while True:
+            with socket.socket() as sock:
+                if sock.connect_ex(("127.0.0.1", port)) == 0:
+                    break
+            assert time.monotonic() < deadline
+            time.sleep(0.02)
+        yield
+    finally:
+        process.terminate()
+        process.wait()
+
+
+class Listener:
+    """Somebody who subscribes, as the documentation says."""
+
+    def __init__(self, port: int) -> None:
+        self.heard: list[tuple[str, str, str | None]] = []
+        self._news, self._subscribed = threading.Condition(), threading.Event()
+        self._client = mqtt.Client(CallbackAPIVersion.VERSION2, protocol=mqtt.MQTTv5)
+        self._client.on_message = self._on_message
+        self._client.on_subscribe = lambda *_: self._subscribed.set()
+        self._client.connect("127.0.0.1", port)
+        self._client.subscribe("plant/station/#", qos=1)
+        self._client.loop_start()
+        assert self._subscribed.wait(LIMIT_S)
+
+    def _on_message(self, _client: Any, _data: Any, message: mqtt.MQTTMessage) -> None:
+        ids = dict(getattr(message.properties, "UserProperty", []))
+        with self._news:
+            self.heard.append(
+                (message.topic.removeprefix("plant/station/"), message.payload.decode(), ids.get("id"))
+            )
+            self._news.notify_all()
+
+    def wait(self, count: int) -> None:
+        with self._news:
+            assert self._news.wait_for(lambda: len(self.heard) >= count, LIMIT_S), self.heard
+
+    def close(self) -> None:
+        self._client.disconnect()
+        self._client.loop_stop()
+
+
+def test_a_broker_is_told_across_its_restart_and_knows_when_the_station_is_gone(tmp_path: Path) -> None:
+    port = free_port()
+    station = Mqtt(MqttSettings(url=f"mqtt://127.0.0.1:{port}", topic="plant/station"))
+    with broker(port, tmp_path):
+        station.start()
+        listener = Listener(port)
+        listener.wait(1)
+        assert station.deliver(EVENT) == "acknowledged"
+        listener.wait(2)
+        listener.close()
+        assert listener.heard[0][:2] == ("state", "online")
+        topic, payload, uid = listener.heard[1]
+        assert (topic, uid, json.loads(payload)["data"]) == ("events/run.ended", EVENT.uid, EVENT.data)
+    with broker(port, tmp_path):
+        listener = Listener(port)
+        assert station.deliver(EVENT) == "acknowledged"
+        listener.wait(2)
+        assert sorted(name for name, _, _ in listener.heard) == ["events/run.ended", "state"]
+        # cut off without a word: the broker sends the last will
+        client = station._client
+        assert client is not None
+        client.socket().shutdown(socket.SHUT_RDWR)  # type: ignore[union-attr]
+        listener.wait(3)
+        assert listener.heard[2][:2] == ("state", "offline")
+        listener.close()
+        station.close()

@@ -1,0 +1,204 @@
+"""Keys, sessions, open mode and the panel's stop, over HTTP."""
+
+from __future__ import annotations
+
+from contextlib import ExitStack
+from datetime import UTC, datetime, timedelta
+from typing import Any
+
+import pytest
+from fastapi.testclient import TestClient
+from starlette.websockets import WebSocketDisconnect
+
+from station.people import hashed_password, hashed_pin, secret_hash
+from station.records import Actor
+from station.store import Store
+from tests.web.conftest import LIMIT_S, Service
+from web.guarded import COOKIE
+from web.routes import live
+
+ROOT = Actor(name="root", via="terminal")
+SESSION = "/api/v1/session"
+PASSWORD = "correct horse"
+HASHED = hashed_password(PASSWORD)  # once: it costs what it is meant to cost
+
+
+def refusal(answer: Any) -> tuple[int, str]:
+    problem = answer.json()
+    assert problem["type"] == "urn:station:problem:not-signed-in"
+    assert answer.headers["www-authenticate"].startswith("Bearer")
+    return answer.status_code, problem["detail"]
+
+
+@pytest.fixture
+def ada(closed: Service) -> Service:
+    """A station where Ada is an operator."""
+    closed.runtime.store.add_user(ROOT, "Ada", "operator", password_hash=HASHED)
+    return closed
+
+
+def sign_in(service: Service, name: str = "ada", password: str = PASSWORD) -> Any:
+    return service.client.post(SESSION, json={"name": name, "password": password})
+
+
+def test_every_reason_why_a_key_opens_nothing(closed: Service) -> None:
+    def asked(headers: dict[str, str]) -> Any:
+        return closed.client.get("/api/v1/station", headers=headers)
+
+    assert "Authorization: Bearer KEY" in refusal(asked({}))[1]
+    assert "not known here" in refusal(asked({"Authorization": "Bearer fbs_stolen-and-wrong"}))[1]
+    assert "must be `Bearer KEY`" in refusal(asked({"Authorization": "Basic YWRhOmFkYQ=="}))[1]
+    good = closed.key("viewer", "line 4")
+    assert asked(good).status_code == 200
+    closed.runtime.store.revoke_key(ROOT, "line 4")
+    assert "was revoked at" in refusal(asked(good))[1]
+    late = closed.key("viewer", "old", expires_at=datetime.now(UTC) - timedelta(seconds=1))
+    assert "expired at" in refusal(asked(late))[1]
+
+
+def test_another_process_changes_what_holds_at_once(closed: Service) -> None:
+    """As the command line does: a store of its own on the same file."""
+    with ExitStack() as opened:
+        other = Store(closed.runtime.store.path)
+        opened.callback(other.close)
+        other.add_key(ROOT, "line 4", "viewer", secret_hash("fbs_1"), None)
+        headers = {"Authorization": "Bearer fbs_1"}
+        assert closed.client.get("/api/v1/station", headers=headers).status_code == 200
+        other.revoke_key(ROOT, "line 4")
+        assert closed.client.get("/api/v1/station", headers=headers).status_code == 401
+
+
+def test_signing_in_and_out(ada: Service) -> None:
+    assert ada.client.get(SESSION).status_code == 401
+    answer = sign_in(ada)
+    assert answer.status_code == 201
+    assert answer.json() == {"name": "Ada", "role": "operator", "via": "user", "signs_off_after_s": 3600.0}
+    cookie = answer.headers["set-cookie"].lower()
+    assert "httponly" in cookie and "samesite=strict" in cookie and "path=/" in cookie
+    assert ada.client.get(SESSION).json()["name"] == "Ada"
+    assert ada.client.get("/api/v1/station").status_code == 200
+    assert ada.client.delete(SESSION).status_code == 204
+    assert ada.client.get(SESSION).status_code == 401
+    assert ada.client.delete(SESSION).status_code == 204
+
+
+def test_a_cookie_that_was_signed_out_elsewhere_says_so(ada: Service) -> None:
+    sign_in(ada)
+    ada.runtime.store.remove_user(ROOT, "ada")
+    assert "session has ended" in refusal(ada.client.get("/api/v1/station"))[1]
+
+
+def test_wrong_name_and_wrong_password_cannot_be_told_apart(ada: Service) -> None:
+    assert refusal(sign_in(ada, "ada", "wrong password")) == refusal(sign_in(ada, "eve", "wrong password"))
+
+
+def test_badge_and_pin(ada: Service) -> None:
+    ada.runtime.store.add_user(
+        ROOT, "Bo", "operator", badge_sha256=secret_hash("0042"), pin_hash=hashed_pin("1234")
+    )
+    assert ada.client.post(SESSION, json={"badge": "0042", "pin": "9999"}).status_code == 401
+    assert ada.client.post(SESSION, json={"badge": "0042", "pin": "1234"}).json()["name"] == "Bo"
+    assert ada.client.post(SESSION, json={"badge": "0042", "password": PASSWORD}).status_code == 422
+
+
+def test_a_thousand_wrong_passwords_leave_stop_and_session_untouched(ada: Service) -> None:
+    with TestClient(ada.client.app, base_url="http://station") as signed_in:
+        assert signed_in.post(SESSION, json={"name": "ada", "password": PASSWORD}).status_code == 201
+        told = [sign_in(ada, "ada", "wrong password") for _ in range(1000)]
+        assert [a.status_code for a in told] == [401] * 5 + [429] * 995
+        assert 0 < int(told[-1].headers["retry-after"]) <= 60
+        assert signed_in.get(SESSION).status_code == 200
+        assert signed_in.post("/api/v1/stop").json()["confirmed"]
+
+
+def test_the_panel_stops_without_signing_in_and_others_do_not(closed: Service) -> None:
+    run = closed.runtime.orchestrator
+    assert closed.client.post("/api/v1/stop").status_code == 401
+    app = closed.client.app
+    panel = TestClient(app, base_url="http://127.0.0.1", client=("127.0.0.1", 5000))
+    assert panel.post("/api/v1/stop").json()["confirmed"]
+    assert panel.post("/api/v1/stop", headers={"Authorization": "Bearer revoked"}).json()["confirmed"]
+    assert panel.get("/api/v1/station").status_code == 401
+    through = {"X-Forwarded-For": "192.0.2.9"}
+    assert panel.post("/api/v1/stop", headers=through).status_code == 401, "a proxy that is not declared"
+    assert run.running is None
+
+
+def test_a_history_that_cannot_be_read_keeps_nobody_from_the_stop(
+    closed: Service, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    from station.errors import StoreUnavailable
+
+    def fails(*_: object) -> None:
+        raise StoreUnavailable("locked")
+
+    monkeypatch.setattr(closed.runtime.store, "key", fails)
+    headers = {"Authorization": "Bearer fbs_1"}
+    assert closed.client.post("/api/v1/stop", headers=headers).json()["confirmed"]
+    assert closed.client.get("/api/v1/station", headers=headers).status_code == 503
+
+
+def test_open_mode_says_so_and_a_key_keeps_its_role_there(service: Service) -> None:
+    view = service.client.get("/api/v1/station").json()
+    assert view["station"]["open"] is True
+    assert service.client.get(SESSION).json()["via"] == "open"
+    viewer = service.key("viewer")
+    assert service.client.post("/api/v1/retract", json={"operator": "ada"}, headers=viewer).status_code == 403
+    bad = {"Authorization": "Bearer fbs_unknown"}
+    assert service.client.get("/api/v1/station", headers=bad).status_code == 401
+
+
+def test_nobody_is_read_a_body(closed: Service) -> None:
+    """Whoever may not ask learns nothing about what would be refused."""
+    answer = closed.client.post(
+        "/api/v1/calibrations", content=b"{", headers={"Content-Type": "application/json"}
+    )
+    assert answer.status_code == 401
+
+
+def test_health_needs_no_key(closed: Service) -> None:
+    closed.wait_for("scale read")
+    assert closed.client.get("/healthz").status_code == 200
+    assert closed.client.get("/readyz").status_code in (200, 503)
+
+
+def test_the_first_administrator_comes_in_by_a_link_that_works_once(closed: Service) -> None:
+    secret = closed.client.app.state.access.offer_first_administrator()  # type: ignore[attr-defined]
+    body = {"secret": secret, "name": "Ada", "password": PASSWORD}
+    assert closed.client.post(f"{SESSION}/first", json={**body, "secret": "x"}).status_code == 401
+    assert closed.client.post(f"{SESSION}/first", json=body).json()["role"] == "administrator"
+    assert closed.client.get("/api/v1/audit").status_code == 200
+    assert closed.client.post(f"{SESSION}/first", json={**body, "name": "Eve"}).status_code == 401
+    assert closed.client.app.state.access.offer_first_administrator() is None  # type: ignore[attr-defined]
+
+
+def test_the_live_feed_asks_too_and_ends_with_the_session(
+    ada: Service, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(live, "LOOK_EVERY_S", 0.02)
+    with pytest.raises(WebSocketDisconnect), ada.client.websocket_connect("/api/v1/live"):
+        pass
+    sign_in(ada)
+    cookie = {"cookie": f"{COOKIE}={ada.client.cookies[COOKIE]}"}
+    with ada.client.websocket_connect("/api/v1/live", headers=cookie) as feed:
+        assert feed.receive_json()["type"] == "snapshot"
+        ada.client.delete(SESSION)
+        with pytest.raises(WebSocketDisconnect) as ended:
+            while True:
+                feed.receive_json()
+    assert ended.value.code == live.NOT_SIGNED_IN
+
+
+def test_a_session_ends_by_itself_but_not_while_a_run_is_under_way(ada: Service) -> None:
+    sign_in(ada)
+    access = ada.client.app.state.access  # type: ignore[attr-defined]
+    access._idle_s = -1.0
+    assert ada.client.get(SESSION).status_code == 401
+    sign_in(ada)
+    access._idle_s = 60.0
+    run = ada.hold()
+    access._idle_s = -1.0
+    assert ada.client.get(SESSION).status_code == 200
+    ada.client.post("/api/v1/stop")
+    ada.runtime.orchestrator.wait(run, LIMIT_S)
+    assert ada.client.get(SESSION).status_code == 401

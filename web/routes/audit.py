@@ -1,0 +1,51 @@
+"""`/audit`: who did what."""
+
+from __future__ import annotations
+
+import json
+from typing import Annotated
+
+from fastapi import Query
+from pydantic import Field
+
+from station.people import Permission
+from station.records import LARGEST_ID, AuditEntry, Record, csv_text
+from web.guarded import Router, needs
+from web.routes.parts import CsvResponse, TheRuntime
+
+router = Router(tags=["audit"])
+
+Cursor = Annotated[int | None, Query(ge=1, le=LARGEST_ID, description="`next` of the page before")]
+_COLUMNS = ("n", "at", "who", "via", "role", "action", "subject", "before", "after", "hash")
+_ALL = 1_000_000
+
+
+class AuditList(Record):
+    """The newest entries first."""
+
+    items: list[AuditEntry]
+    next: int | None = Field(description="cursor of the next page, null on the last")
+
+
+@router.get("/audit", response_model=AuditList, dependencies=[needs(Permission.ADMINISTER)])
+def read_audit(
+    runtime: TheRuntime, limit: Annotated[int, Query(ge=1, le=500)] = 100, cursor: Cursor = None
+) -> AuditList:
+    """Who started, stopped, applied, changed and signed in.  `station audit` checks the chain too."""
+    entries = runtime.store.audit(limit=limit + 1, cursor=cursor)
+    items = entries[:limit]
+    return AuditList(items=items, next=items[-1].n if len(entries) > limit else None)
+
+
+@router.get("/audit.csv", response_class=CsvResponse, dependencies=[needs(Permission.ADMINISTER)])
+def download_audit(runtime: TheRuntime) -> CsvResponse:
+    """All of it, the newest entry first."""
+    entries = (entry.model_dump(mode="json") for entry in runtime.store.audit(limit=_ALL))
+    rows = ([_cell(entry[column]) for column in _COLUMNS] for entry in entries)
+    return CsvResponse(
+        csv_text(_COLUMNS, rows), headers={"Content-Disposition": 'attachment; filename="audit.csv"'}
+    )
+
+
+def _cell(value: object) -> object:
+    return json.dumps(value, ensure_ascii=False) if isinstance(value, dict | list) else value

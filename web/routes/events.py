@@ -1,0 +1,70 @@
+"""`/events` for those who pull, `/deliveries` for those who are told."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import Path, Query
+from pydantic import Field
+
+from station.people import Permission
+from station.records import LARGEST_ID, Actor, Delivery, DeliveryState, Event, Record
+from web.guarded import Router, needs
+from web.problems import documented
+from web.routes.audit import Cursor
+from web.routes.parts import TheRuntime
+
+router = Router(tags=["events"])
+
+
+class EventList(Record):
+    """Events in the order in which they happened."""
+
+    items: list[Event]
+    next: int | None = Field(description="`after` of the next page, null when there are no more yet")
+
+
+class DeliveryList(Record):
+    """The newest deliveries first."""
+
+    items: list[Delivery]
+    next: int | None = Field(description="cursor of the next page, null on the last")
+
+
+@router.get("/events", response_model=EventList, dependencies=[needs(Permission.READ)])
+def read_events(
+    runtime: TheRuntime,
+    after: Annotated[int, Query(ge=0, le=LARGEST_ID, description="number of the last event known")] = 0,
+    limit: Annotated[int, Query(ge=1, le=500)] = 100,
+) -> EventList:
+    """What happened after event number `after`; ask again with the last `n` for what comes then."""
+    events = runtime.store.happenings(after=after, limit=limit + 1)
+    items = events[:limit]
+    return EventList(items=items, next=items[-1].n if len(events) > limit else None)
+
+
+@router.get("/deliveries", response_model=DeliveryList, dependencies=[needs(Permission.READ)])
+def read_deliveries(
+    runtime: TheRuntime,
+    state: DeliveryState | None = None,
+    limit: Annotated[int, Query(ge=1, le=500)] = 100,
+    cursor: Cursor = None,
+) -> DeliveryList:
+    """How far every event got to every receiver of `[[outbox....]]`."""
+    found = runtime.store.deliveries(state=state, cursor=cursor, limit=limit + 1)
+    items = found[:limit]
+    return DeliveryList(items=items, next=items[-1].id if len(found) > limit else None)
+
+
+@router.post(
+    "/deliveries/{delivery_id}/resend", status_code=202, response_model=Delivery, responses=documented(404)
+)
+def resend(
+    delivery_id: Annotated[int, Path(ge=1, le=LARGEST_ID)],
+    by: Annotated[Actor, needs(Permission.MAINTAIN)],
+    runtime: TheRuntime,
+) -> Delivery:
+    """Deliver it again, before all later ones; the receiver knows it by its `uid`."""
+    delivery = runtime.store.resend(delivery_id)
+    runtime.store.record(by, "delivery.resent", f"delivery {delivery_id}")
+    return delivery
