@@ -131,8 +131,6 @@ class Store(StoredEvents, Memories, ZeroJournal, WireLogs, Trends, Tables, Peopl
             self.record(by, _DEEDS.get(request.kind, "run.started"), f"run {calibration_id}", after=told)
             told_now = self._written(db.conn, calibration_id)
             self.announce("run.started", {k: v for k, v in told_now.items() if v not in (None, [], {})})
-                "run.started", {name: value for name, value in known if value not in (None, [], {})}
-            )
             if more := asked_more(request):
                 self.add_event(calibration_id, "asked", more)
         self._times.begin(calibration_id, created_ms)
