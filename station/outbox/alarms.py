@@ -17,7 +17,7 @@ class Alarms:
     def __init__(self, store: Store) -> None:
         self._store = store
         self._devices: set[str] = set()
-        self._interlocks: set[str] = set()
+        self._holding: set[str] = set()
 
     def device(self, view: DeviceView) -> None:
         """The state of a device has changed."""
@@ -29,10 +29,12 @@ class Alarms:
 
     def interlocks(self, all: tuple[Interlock, ...]) -> None:
         """An interlock has changed."""
-        broken = {one.id: one for one in all if not one.ok}
-        for new in broken.keys() - self._interlocks:
-            self._tell(new, f"{broken[new].text}: {broken[new].detail}".rstrip(": "))
-        self._interlocks = set(broken)
+        for one in all:
+            if one.ok:
+                self._holding.add(one.id)
+            elif one.id in self._holding:  # at the start none holds until the devices were asked
+                self._holding.remove(one.id)
+                self._tell(one.id, f"{one.text}: {one.detail}".rstrip(": "))
 
     def _tell(self, source: str, text: str) -> None:
         try:

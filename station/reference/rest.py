@@ -78,6 +78,8 @@ def _schema(name: str, schema: Any) -> str:
 def _type(schema: Any) -> str:
     if "$ref" in schema:
         name = schema["$ref"].rsplit("/", 1)[1]
+        if name == "JsonValue":
+            return "anything"
         return f"[{name}](#{name.lower()})"
     for several in ("anyOf", "oneOf", "allOf"):
         if several in schema:

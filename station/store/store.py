@@ -129,8 +129,8 @@ class Store(StoredEvents, Memories, ZeroJournal, WireLogs, Trends, Tables, Peopl
             asked = {"kind": request.kind, "plan": request.label, "robot_serial": robot.serial}
             told = {**asked, "operator": request.operator, "work_order": request.work_order, "of": request.of}
             self.record(by, _DEEDS.get(request.kind, "run.started"), f"run {calibration_id}", after=told)
-            told_now = self._written(db.conn, calibration_id)
-            self.announce("run.started", {k: v for k, v in told_now.items() if v not in (None, [], {})})
+            summary = self._written(db.conn, calibration_id)
+            self.announce("run.started", {k: v for k, v in summary.items() if v not in (None, [], {})})
             if more := asked_more(request):
                 self.add_event(calibration_id, "asked", more)
         self._times.begin(calibration_id, created_ms)

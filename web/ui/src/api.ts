@@ -10,6 +10,7 @@ import type {
   ResidualList,
   Robot,
   Separating,
+  SignedIn,
   Stopped,
   Summary,
 } from "./types";
@@ -23,6 +24,7 @@ export class Refused extends Error {
   constructor(
     message: string,
     readonly field: string | null = null,
+    readonly status: number | null = null,
   ) {
     super(message);
   }
@@ -43,7 +45,11 @@ async function call<T>(
   const body: unknown = await response.json().catch(() => null);
   if (!response.ok && !(accepted === response.status && body)) {
     const problem = body as Partial<Problem> | null;
-    throw new Refused(problem?.detail ?? t.refusals.status(response.status), problem?.field ?? null);
+    throw new Refused(
+      problem?.detail ?? t.refusals.status(response.status),
+      problem?.field ?? null,
+      response.status,
+    );
   }
   return body as T;
 }
@@ -98,6 +104,22 @@ export const stop = () =>
     { headers: { "X-Operator": "page" }, signal: AbortSignal.timeout(STOP_TIMEOUT_MS) },
     502,
   );
+
+export const session = () => call<SignedIn>("GET", "/session");
+
+export const signIn = (body: { name: string; password: string }) =>
+  call<SignedIn>("POST", "/session", {
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify(body),
+  });
+
+export const firstAdministrator = (body: { secret: string; name: string; password: string }) =>
+  call<SignedIn>("POST", "/session/first", {
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify(body),
+  });
+
+export const signOut = () => call<null>("DELETE", "/session");
 
 export const calibration = (id: number) => call<Calibration>("GET", `/calibrations/${id}`);
 

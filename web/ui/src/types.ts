@@ -14,6 +14,7 @@ export type Interlock = Schemas["Interlock"];
 export type Machine = Schemas["MachineView"];
 export type State = Schemas["State"];
 export type Verdict = NonNullable<Summary["verdict"]>;
+export type SignedIn = Schemas["SignedIn"];
 export type Summary = Schemas["CalibrationSummary"];
 export type Calibration = Schemas["Calibration"];
 export type CalibrationBody = Schemas["CalibrationBody"];

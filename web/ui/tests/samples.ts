@@ -74,7 +74,7 @@ export const run = (given: Partial<Run> = {}): Run => ({
 });
 
 export const stationNow = (given: Partial<Station> = {}): Station => ({
-  station: { name: "Cell 3", emulated: false, limits: {}, plans: ["paper", "full"] },
+  station: { name: "Cell 3", emulated: false, limits: {}, open: false, plans: ["paper", "full"] },
   devices: [{ name: "scale", kind: "scale", address: "a", state: "ok", text: "" }],
   interlocks: [],
   machine: null,

@@ -133,6 +133,17 @@ export const en = {
     status: (status: number) => `The station responded with HTTP status ${status}.`,
   },
 
+  signIn: {
+    title: "Sign in",
+    first: "Make the first administrator",
+    name: "Name",
+    password: "Password",
+    button: "Sign in",
+    as: (name: string, role: string) => `Signed in: ${name}, ${role}`,
+    out: "Sign out",
+    open: "OPEN: anybody at this computer may start runs; nobody signs in (emulated machine)",
+    stopWithout: "At this computer the stop works without signing in.",
+  },
   header: {
     views: "Views",
     station: "Station",

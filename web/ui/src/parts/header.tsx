@@ -4,6 +4,7 @@ import { t } from "../messages";
 import { path } from "../router";
 import { Link } from "./link";
 import { StopButton, StopReport } from "./stop";
+import { Who } from "./who";
 
 const VIEWS = [
   { to: "/", text: t.header.station, views: ["/"] },
@@ -25,6 +26,7 @@ export function Header() {
         <StationStatus />
         <StopButton />
       </div>
+      <Who />
       <StopReport />
     </header>
   );

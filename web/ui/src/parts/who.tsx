@@ -1,0 +1,18 @@
+import { station } from "../live";
+import { t } from "../messages";
+import { session, signOut } from "../session";
+
+/** Who is signed in, and the way out; or that nobody has to be. */
+export function Who() {
+  if (station.value?.station.open) return <p class="who">{t.signIn.open}</p>;
+  const known = session.value;
+  if (!known) return null;
+  return (
+    <p class="who">
+      {t.signIn.as(known.name, known.role ?? "")}{" "}
+      <button type="button" onClick={() => void signOut()}>
+        {t.signIn.out}
+      </button>
+    </p>
+  );
+}

@@ -1,0 +1,43 @@
+/** Who is signed in at this page; null when nobody is, undefined before the station has answered. */
+import { signal } from "@preact/signals";
+import * as api from "./api";
+import { operator } from "./operator";
+import type { SignedIn } from "./types";
+
+const LOOK_MS = 10_000;
+
+export const session = signal<SignedIn | null | undefined>(undefined);
+
+function begin(known: SignedIn): void {
+  session.value = known;
+  if (known.via === "user") operator.value = known.name;
+}
+
+/** Ask now and from time to time: a session can end by itself. */
+export function watchSession(): void {
+  void look();
+  setInterval(() => void look(), LOOK_MS);
+}
+
+async function look(): Promise<void> {
+  try {
+    begin(await api.session());
+  } catch (error) {
+    // a station that does not answer says nothing about who is signed in
+    if (error instanceof api.Refused && error.status === 401) session.value = null;
+  }
+}
+
+export async function signIn(name: string, password: string): Promise<void> {
+  begin(await api.signIn({ name, password }));
+}
+
+/** With the secret of the link that the station printed at its first start. */
+export async function makeFirst(secret: string, name: string, password: string): Promise<void> {
+  begin(await api.firstAdministrator({ secret, name, password }));
+}
+
+export async function signOut(): Promise<void> {
+  await api.signOut();
+  session.value = null;
+}
