@@ -27,7 +27,7 @@ export function SignInView() {
   }
 
   return (
-    <form onSubmit={(event) => void submit(event)}>
+    <form class="panel sign-in" onSubmit={(event) => void submit(event)}>
       <h1>{secret ? t.signIn.first : t.signIn.title}</h1>
       <p class="field">
         <label for="name">{t.signIn.name}</label>
