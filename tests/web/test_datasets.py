@@ -12,7 +12,6 @@ from station.run_kinds import import_file as dataset
 from tests.station.run_kinds.test_diagnose import BACKLASH, machine, run
 from tests.web.conftest import Service
 from tests.web.test_problems import problem_of
-from web import uploads
 
 DATASETS = "/api/v1/datasets"
 LIST = "/api/v1/calibrations"
@@ -199,7 +198,9 @@ def test_what_is_too_large_is_refused(
 ) -> None:
     monkeypatch.setattr(dataset, "MOST_READINGS", 159)
     assert "160 readings" in problem_of(send(service, *worn), 422)["detail"]
-    monkeypatch.setattr(uploads, "LARGEST_BYTES", 1000)
+    small = service.runtime.settings.service.model_copy(update={"body_mb": 0.001})
+    settings = service.runtime.settings.model_copy(update={"service": small})
+    monkeypatch.setattr(service.runtime, "settings", settings)
     assert "larger than 1000 bytes" in problem_of(send(service, *worn), 413)["detail"]
     nothing_is_stored(service)
 
