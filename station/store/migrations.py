@@ -238,7 +238,7 @@ def outbox(db: Database) -> None:
     """What others are told, and how far it got."""
     db.execute(
         """CREATE TABLE happenings (
-            n INTEGER PRIMARY KEY AUTOINCREMENT, uid TEXT NOT NULL UNIQUE, type TEXT NOT NULL,
+            n INTEGER PRIMARY KEY AUTOINCREMENT, uid TEXT NOT NULL, type TEXT NOT NULL,
             at_ms INTEGER NOT NULL, data TEXT NOT NULL)"""
     )
     db.execute(

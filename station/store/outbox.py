@@ -6,15 +6,18 @@ import json
 import sqlite3
 from collections.abc import Collection, Mapping
 from datetime import UTC, datetime
+from typing import Literal
 
 from pydantic import JsonValue
 
 from station.errors import NotFound
-from station.records import Delivery, DeliveryCount, Event, EventType, uid7
+from station.records import Delivery, DeliveryCount, Event, EventType, State, uid7
 from station.store.kept_file import KeptFile
-from station.store.rows import compact, moment
+from station.store.rows import LIST_COLUMNS, compact, moment, summary_from_row
 from station.store.times import now_ms
 
+_OF_RUNS = ("run.started", "run.ended")
+_OF_A_START = ("id", "uid", "robot_serial", "kind", "plan", "of", "operator", "work_order", "created_at")
 _DELIVERY = "deliveries.*, uid, type FROM deliveries JOIN happenings USING (n)"
 
 
@@ -30,10 +33,14 @@ class Outbox(KeptFile):
                 [uid7(at_ms), type, at_ms, compact(dict(data))],
             )
 
+    def announce_run(self, type: Literal["run.started", "run.ended"], run: int) -> None:
+        """An event of a run; its data are the run's own, and stored there alone."""
+        self.announce(type, {"run": run})
+
     def happenings(self, *, after: int = 0, limit: int = 100) -> list[Event]:
         """Events with a higher number, in order."""
         rows = self._readers.all("SELECT * FROM happenings WHERE n > ? ORDER BY n LIMIT ?", [after, limit])
-        return [_event(row) for row in rows]
+        return [self._event(row) for row in rows]
 
     def enqueue(self, receiver: str, types: Collection[str]) -> None:
         """Deliveries of all events that came since the last time; a new receiver begins with the next one."""
@@ -61,7 +68,30 @@ class Outbox(KeptFile):
             f"SELECT at_ms, data, {_DELIVERY} WHERE receiver = ? AND state = 'waiting' ORDER BY n LIMIT 1",
             [receiver],
         )
-        return None if row is None else (_delivery(row), _event(row))
+        return None if row is None else (_delivery(row), self._event(row))
+
+    def _event(self, row: sqlite3.Row) -> Event:
+        data = json.loads(row["data"])
+        return Event(
+            n=row["n"],
+            uid=row["uid"],
+            type=row["type"],
+            at=datetime.fromtimestamp(row["at_ms"] / 1000, UTC),
+            data=self._of_run(row["type"], data["run"]) if row["type"] in _OF_RUNS else data,
+        )
+
+    def _of_run(self, type: str, run: int) -> dict[str, JsonValue]:
+        """The summary of a run that has ended; of one that began what does not change any more."""
+        row = self._readers.one(
+            f"SELECT {LIST_COLUMNS} FROM calibrations LEFT JOIN results ON calibration_id = id WHERE id = ?",
+            [run],
+        )
+        if row is None:  # a backup from before the run was put in the place of the history
+            return {"id": run}
+        summary = summary_from_row(row).model_dump(mode="json", by_alias=True)
+        if type == "run.ended":
+            return summary
+        return {**{key: summary[key] for key in _OF_A_START}, "state": State.QUEUED.value}
 
     def postpone(self, delivery_id: int, until: datetime, detail: str) -> None:
         """It failed and is tried again."""
@@ -126,16 +156,6 @@ class Outbox(KeptFile):
             "SELECT receiver, state, count(*) AS count FROM deliveries GROUP BY receiver, state ORDER BY 1, 2"
         )
         return [DeliveryCount.model_validate(dict(row)) for row in rows]
-
-
-def _event(row: sqlite3.Row) -> Event:
-    return Event(
-        n=row["n"],
-        uid=row["uid"],
-        type=row["type"],
-        at=datetime.fromtimestamp(row["at_ms"] / 1000, UTC),
-        data=json.loads(row["data"]),
-    )
 
 
 def _delivery(row: sqlite3.Row) -> Delivery:

@@ -7,13 +7,10 @@ wait for it.  Rows become records in `station.store.rows`.
 from __future__ import annotations
 
 import logging
-import sqlite3
 from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
 from typing import TypeVar
-
-from pydantic import JsonValue
 
 from station.errors import KeyReused, NotFound, StoreUnavailable
 from station.five_bar import Robot
@@ -126,11 +123,8 @@ class Store(StoredEvents, Memories, ZeroJournal, WireLogs, Trends, Tables, Peopl
                     raise KeyReused(int(taken[0]))
                 db.execute("INSERT INTO idempotency_keys VALUES (?, ?, ?)", [key, body_hash, calibration_id])
             db.execute("INSERT INTO run_starters VALUES (?, ?, ?)", [calibration_id, by.name, by.via])
-            asked = {"kind": request.kind, "plan": request.label, "robot_serial": robot.serial}
-            told = {**asked, "operator": request.operator, "work_order": request.work_order, "of": request.of}
-            self.record(by, _DEEDS.get(request.kind, "run.started"), f"run {calibration_id}", after=told)
-            summary = self._written(db.conn, calibration_id)
-            self.announce("run.started", {k: v for k, v in summary.items() if v not in (None, [], {})})
+            self.record(by, _DEEDS.get(request.kind, "run.started"), f"run {calibration_id}")
+            self.announce_run("run.started", calibration_id)
             if more := asked_more(request):
                 self.add_event(calibration_id, "asked", more)
         self._times.begin(calibration_id, created_ms)
@@ -246,19 +240,9 @@ class Store(StoredEvents, Memories, ZeroJournal, WireLogs, Trends, Tables, Peopl
                     )
             if ended:
                 append(lambda sql, values: db.execute(sql, values).fetchall(), calibration_id)
-                self.announce("run.ended", self._written(db.conn, calibration_id))
+                self.announce_run("run.ended", calibration_id)
         self._times.end(calibration_id)
         return end.state if ended else self.summary(calibration_id).state
-
-    def _written(self, connection: sqlite3.Connection, calibration_id: int) -> dict[str, JsonValue]:
-        """The summary of a run as it stands in the transaction under way."""
-        cursor = connection.cursor()
-        cursor.row_factory = sqlite3.Row
-        row = cursor.execute(
-            f"SELECT {LIST_COLUMNS} FROM calibrations LEFT JOIN results ON calibration_id = id WHERE id = ?",
-            [calibration_id],
-        ).fetchone()
-        return summary_from_row(row).model_dump(mode="json", by_alias=True)
 
     def interrupt_unfinished(self) -> list[int]:
         """At start-up: what was queued or running when the station went down is interrupted.

@@ -115,7 +115,10 @@ def test_a_file_that_is_not_there_is_refused(tmp_path: Path) -> None:
     ("change", "sentence"),
     [
         (("heidenhain-nd", "abacus"), r'\[scale\]: protocol "abacus" does not exist; there is heidenhain-nd'),
-        (("leadshine-el7", "mule"), r'\[servo\]: profile "mule" does not exist; there is leadshine-el7'),
+        (
+            ("leadshine-el7", "mule"),
+            r'\[servo\]: profile "mule" does not exist; there is leadshine-cs2rs, leadshine-el7',
+        ),
         (("format=7E2", "format=9X9"), "9X9"),
         (("modbus+rtu:", "modbus+smoke:"), r"must begin with modbus\+rtu:"),
     ],

@@ -287,12 +287,17 @@ def test_opening_twice_migrates_once(tmp_path: Path) -> None:
     assert run == 2
 
 
-def test_a_run_of_six_readings_with_its_audit_and_events_takes_less_than_4000_bytes(store: Store) -> None:
-    def size() -> int:
-        store._writer.execute("PRAGMA wal_checkpoint(TRUNCATE)")
-        return store.path.stat().st_size
+def test_a_run_of_six_readings_takes_less_than_2500_bytes_and_500_to_say_who_and_whom(store: Store) -> None:
+    told = ("audit", "happenings", "run_starters")
 
-    runs, empty = 100, size()
+    def sizes() -> tuple[int, int]:
+        """Bytes of the run itself, and of audit and events."""
+        store._writer.execute("PRAGMA wal_checkpoint(TRUNCATE)")
+        rows = store._writer.execute("SELECT name IN (?, ?, ?), sum(pgsize) FROM dbstat GROUP BY 1", told)
+        found = dict(rows.fetchall())
+        return found[0], found[1]
+
+    runs, empty = 100, sizes()
     for n in range(runs):
         run = start(store, key=f"3f2a7c9e-{n:08d}", body_hash=bytes(16))
         readings = [
@@ -305,7 +310,8 @@ def test_a_run_of_six_readings_with_its_audit_and_events_takes_less_than_4000_by
             for k in range(1, 7)
         )
         store.finish(run, State.SUCCEEDED, RESULT.model_copy(update={"residuals": rows}))
-    assert (size() - empty) / runs < 4000
+    own, aside = ((after - before) / runs for after, before in zip(sizes(), empty, strict=True))
+    assert own < 2500 and aside < 500
 
 
 @pytest.mark.parametrize(
