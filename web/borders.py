@@ -75,7 +75,8 @@ class Borders:
 
     def _refused(self, scope: Scope, headers: Headers) -> tuple[int, str, str] | None:
         host = headers.get("host", "").lower()
-        if not self._ours(host, scope):
+        # a browser always names the host; a probe that speaks HTTP/1.0 need not
+        if "host" in headers and not self._ours(host, scope):
             text = f"This station is not called {host or 'nothing'}; declare the name in [service] hosts."
             return 403, text, "foreign-host"
         commands = scope["type"] == "websocket" or scope["method"] not in SAFE_METHODS
