@@ -28,7 +28,7 @@ def test_head_answers_as_get_without_the_body(service: Service) -> None:
         ("PUT", f"{RUNS}/1", "GET, HEAD"),
         ("GET", f"{RUNS}/1/abort", "POST"),
         ("HEAD", f"{RUNS}/1/abort", "POST"),
-        ("POST", "/api/v1/robots/line/7/memory", "DELETE, GET, HEAD"),
+        ("POST", "/api/v1/robots/line/7/memory", "DELETE, GET, HEAD, PUT"),
         ("PUT", "/api/v1/stop", "POST"),
         ("POST", "/", "GET, HEAD"),
         ("POST", "/assets/none.js", "GET, HEAD"),
