@@ -116,7 +116,9 @@ def test_an_undeclared_effect_is_named_confirmed_and_its_removal_shown(
     assert violations(page) == []
     assert no_identifiers(page)
     page.get_by_role("link", name="Report").click()
-    expect(page.get_by_role("heading", level=1)).to_have_text("Diagnosis of run 2, robot FB-D")
+    expect(page.get_by_role("heading", level=1)).to_have_text(
+        re.compile("^Diagnosis of run 2, uid [0-9a-f-]{36}, robot FB-D$")
+    )
 
 
 def no_identifiers(page: Page) -> bool:
