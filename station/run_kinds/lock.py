@@ -42,7 +42,8 @@ def _newest(store: Store, serial: str) -> CalibrationSummary | None:
     """
     passed = None
     for run in store.calibrations(limit=MOST_LOOKED_AT, robot_serial=serial).items:
-        if run.verdict == "pass" and RUN_KINDS[run.kind].offsets:
+        kind = RUN_KINDS.get(run.kind)  # the history may hold kinds that are no more
+        if run.verdict == "pass" and kind is not None and kind.offsets:
             return passed
         if run.kind == "check" and run.verdict == "pass" and passed is None:
             passed = run
