@@ -40,7 +40,7 @@ MOST_LOOKED_AT = 500
 def compared_with(store: Store, serial: str) -> CalibrationSummary | None:
     """The last applied run of a robot, else its last pass; None where there is neither."""
     passes = store.calibrations(limit=MOST_LOOKED_AT, robot_serial=serial, verdict="pass").items
-    offsets = [run for run in passes if RUN_KINDS[run.kind].offsets]
+    offsets = [run for run in passes if (kind := RUN_KINDS.get(run.kind)) and kind.offsets]
     for run in passes:
         if run.kind == "apply" and run.of is not None:
             applied = store.summary(run.of)
