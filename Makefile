@@ -15,7 +15,7 @@ run: $(VENV)/installed  ## install and start the service on the emulated rig; pr
 test: $(VENV)/installed-for-tests  ## everything that can be checked
 	$(NPM) test
 	deploy/debian-packages chromium mbpoll mosquitto
-	$(BIN)/pytest --numprocesses 2 --dist loadfile --cov=station --cov=drivers --cov=web
+	$(BIN)/pytest --numprocesses 3 --dist loadfile --cov=station --cov=drivers --cov=web
 
 record: $(VENV)/installed-for-tests  ## the closed loop in the browser, recorded; prints the folder
 	deploy/debian-packages chromium
