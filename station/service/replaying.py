@@ -99,7 +99,7 @@ def _carry_out(
     machine = Machine(devices, settings.limits, Listeners())
     kind = RUN_KINDS[request.kind]
     carrying_out = CarryingOut(
-        Run(run, copy.summary(run).uid, request, copy.robot_of(run)),
+        Run(run, copy.summary(run).uid, request, copy.robot_of(run).informed(request.references)),
         kind,
         machine,
         copy,

@@ -148,7 +148,8 @@ def refitted(store: Store, before: Calibration, readings: Sequence[Reading]) -> 
             raise _NotRepeatable from error
     kind = RUN_KINDS[before.kind]
     request = request_of(store, before.id)
-    start = Start(cast(Store, _AsThen(store, memory)), request, store.robot_of(before.id))
+    robot = store.robot_of(before.id).informed(request.references)
+    start = Start(cast(Store, _AsThen(store, memory)), request, robot, before.created_at)
     assert kind.procedure is not None
     taken: dict[int, list[Reading]] = {}
     for reading in readings:

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from contextlib import closing
 from pathlib import Path
 
+import numpy as np
 import pytest
 from click.testing import CliRunner
 from rich.console import Console
@@ -14,7 +15,7 @@ from rich.console import Console
 from station.cli import main
 from station.errors import NotFound
 from station.five_bar import Robot
-from station.records import CalibrationRequest, PlanName
+from station.records import AnyReference, CalibrationRequest, JointAngle, PlanName
 from station.run_kinds import RUN_KINDS, Start
 from station.store import Store
 from station.studies.engine import Engine
@@ -26,13 +27,13 @@ ROBOT = Robot.default("R1")
 QUIET = Engine(Console(quiet=True), workers=1)
 
 
-def keep(store: Store, plan: PlanName, seed: int) -> int:
+def keep(store: Store, plan: PlanName, seed: int, *references: AnyReference) -> int:
     """A simulated run of a plan, stored as the station stores it."""
-    request = CalibrationRequest("R1", "calibrate", "Ana", plan=plan)
+    request = CalibrationRequest("R1", "calibrate", "Ana", plan=plan, references=references)
     procedure = RUN_KINDS["calibrate"].procedure
     assert procedure is not None
     machine = SimulatedMachine(ROBOT, group(seed + 1), "exact", seed)
-    readings, result = carried_out(machine, procedure(Start(store, request, ROBOT)))
+    readings, result = carried_out(machine, procedure(Start(store, request, ROBOT.informed(references))))
     return store.add_run(request, ROBOT, readings, result)
 
 
@@ -68,6 +69,13 @@ def test_what_would_change_is_named_with_both_reasons(history: Path) -> None:
     }  # fmt: skip
     outcome = next(change for change in found.changed if change.what == "outcome")
     assert outcome.reason.startswith("Then: Older. Now: ")
+
+
+def test_the_references_of_a_run_take_part_again(history: Path) -> None:
+    with closing(Store(history)) as store:
+        seen = JointAngle(joint=1, at_deg=0.0, reads_deg=float(np.degrees(group(1)[0])), sd_deg=0.005)
+        run = keep(store, "full", 0, seen)
+    assert of(history, run).changed == ()
 
 
 def test_a_run_whose_readings_are_not_of_its_procedure_is_left_out(history: Path) -> None:
