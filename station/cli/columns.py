@@ -8,7 +8,7 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station.errors import InputRefused
+from station.cli.files import content_of
 from station.records import proposed_map, read_foreign
 
 FIRST_ROWS = 3
@@ -24,11 +24,7 @@ def columns_command(data: Path, no_header: bool) -> None:
 
     The map is printed to be kept: `station columns DATA > map.toml`, then `--columns map.toml`.
     """
-    try:
-        content = data.read_bytes()
-    except OSError as error:
-        raise InputRefused(f"{data} cannot be read: {error.strerror}.") from error
-    table = read_foreign(content, data.name, header=not no_header)
+    table = read_foreign(content_of(data), data.name, header=not no_header)
     proposal = proposed_map(table)
     click.echo(("header = false\n" if no_header else "") + proposal, nl=False)
     shown = Table(*table.header[:WIDEST], title=f"{data.name}: {len(table.rows)} rows, first as understood")

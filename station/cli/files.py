@@ -10,6 +10,7 @@ from typing import get_args
 
 import click
 
+from station.errors import InputRefused
 from station.machines import Measured
 from station.records import ColumnMap, DataSource, Record
 
@@ -34,6 +35,14 @@ columns_option = click.option(
     callback=_column_map,
     help="Column map of a file made elsewhere; `station columns` proposes one.",
 )
+
+
+def content_of(path: Path) -> bytes:
+    """What a file holds.  :raises InputRefused: it cannot be read."""
+    try:
+        return path.read_bytes()
+    except OSError as error:
+        raise InputRefused(f"{path} cannot be read: {error.strerror}.") from error
 
 
 def describe(path: Path, readings: int, guessed: Iterable[str] = ()) -> DataSource:

@@ -8,8 +8,7 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station.cli.files import check_folders, existing, write_json
-from station.errors import InputRefused
+from station.cli.files import check_folders, content_of, existing, write_json
 from station.quality import GaugeStudy, gauge_study
 from station.records import read_table
 
@@ -28,11 +27,7 @@ NAMES = {
 def gauge_study_command(data: Path, json_file: Path | None) -> None:
     """Crossed gauge study of a CSV file with the columns part, operator, trial and value."""
     check_folders(json_file)
-    try:
-        content = data.read_bytes()
-    except OSError as error:
-        raise InputRefused(f"{data} cannot be read: {error.strerror}.") from error
-    table = read_table(content, COLUMNS, (), data.name)
+    table = read_table(content_of(data), COLUMNS, (), data.name)
     seen: dict[tuple[str, str, str], int] = {}
     part, operator, trial = (table.text(name) for name in COLUMNS[:3])
     for k, cell in enumerate(zip(part, operator, trial, strict=True)):

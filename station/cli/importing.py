@@ -8,8 +8,8 @@ from pathlib import Path
 
 import click
 
+from station.cli.files import content_of
 from station.cli.kept import new_history
-from station.errors import InputRefused
 from station.five_bar import Robot
 from station.records import CalibrationRequest, checked_name, checked_serial
 from station.run_kinds import Upload, import_dataset
@@ -52,7 +52,4 @@ def import_command(
 
 
 def _read(file: Path) -> Upload:
-    try:
-        return Upload(file.name, file.read_bytes())
-    except OSError as error:
-        raise InputRefused(f"{file} cannot be read: {error.strerror}.") from error
+    return Upload(file.name, content_of(file))

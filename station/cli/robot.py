@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from station.errors import InputRefused
+from station.cli.files import content_of
 from station.records import sections_to_toml
 from station.serial_arm import arm_from_urdf
 
@@ -18,9 +18,5 @@ from station.serial_arm import arm_from_urdf
 @click.option("--serial", help="Serial number of the robot; the name of the file without it.")
 def robot_command(urdf: Path, base: str, tool: str, serial: str | None) -> None:
     """Write the robot file of an arm from its URDF description: `station robot ... > robot.toml`."""
-    try:
-        content = urdf.read_bytes()
-    except OSError as error:
-        raise InputRefused(f"{urdf} cannot be read: {error.strerror}.") from error
-    arm = arm_from_urdf(content, str(urdf), base, tool, serial or urdf.stem)
+    arm = arm_from_urdf(content_of(urdf), str(urdf), base, tool, serial or urdf.stem)
     click.echo(sections_to_toml(arm.to_json()), nl=False)
