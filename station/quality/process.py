@@ -9,7 +9,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from station.quality.capability import Index, Limits, cpk, ppk
-from station.quality.control_chart import D4, Rule, ewma, ewma_limits, run_rules, sd_of_moving_range
+from station.quality.control_chart import D2, D4, Rule, ewma, ewma_limits, run_rules, sd_of_moving_range
 from station.records import Real, Record, TrendPoint
 
 FEWEST = 3
@@ -187,7 +187,7 @@ def _chart(points: Sequence[TrendPoint], of: Callable[[TrendPoint], float | None
     if len(runs) < FEWEST:
         return ChartLines(at=tuple(runs))
     centre, sd = float(values.mean()), sd_of_moving_range(values)
-    mean_range = float(np.abs(np.diff(values)).mean())
+    mean_range = D2 * sd
     low, high = ewma_limits(len(runs), centre, sd)
     return ChartLines(
         centre=centre,
