@@ -47,6 +47,7 @@ from station.records.diagnosis_document import (
     TemperatureReference,
     TermOfModel,
 )
+from station.records.error_map import ErrorMap, FreshReading
 from station.records.foreign_table import ForeignTable, read_foreign
 from station.records.guesses import TIME, guesses_in_words, with_guesses
 from station.records.happenings import Delivery, DeliveryCount, DeliveryState, Event, EventType
@@ -205,6 +206,7 @@ __all__ = [
     "DiagnosisDocument",
     "DiagnosisVerdict",
     "EffectName",
+    "ErrorMap",
     "ErrorOfModel",
     "Event",
     "EventType",
@@ -216,6 +218,7 @@ __all__ = [
     "Finite",
     "Flags",
     "ForeignTable",
+    "FreshReading",
     "GateOfMemory",
     "IdentificationDocument",
     "Index",
