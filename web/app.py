@@ -20,6 +20,7 @@ from web.routes import (
     audit,
     backups,
     calibrations,
+    certificates,
     datasets,
     diagnoses,
     emulator,
@@ -49,8 +50,8 @@ JSON_BYTES = 1_000_000
 """Largest body of JSON."""
 NOTE_USE_S = 60.0
 ROUTES = (
-    station, audit, backups, calibrations, datasets, diagnoses, emulator, error_maps, events, plans, quality,
-    readings, retract, robots, sessions, stop,
+    station, audit, backups, calibrations, certificates, datasets, diagnoses, emulator, error_maps, events,
+    plans, quality, readings, retract, robots, sessions, stop,
 )  # fmt: skip
 LIVE_ROUTES = (live,)
 

@@ -79,6 +79,7 @@ from station.records.live import (
     StationView,
     Workspace,
 )
+from station.records.made_by import DeviceUsed, MadeBy, ScaleCertificate
 from station.records.measurement_file import (
     FIVE_BAR,
     Columns,
@@ -144,6 +145,7 @@ from station.records.run import (
     Submitted,
     ZeroWrite,
 )
+from station.records.scale_resolution import readout_step_mm
 from station.records.sections import (
     Finite,
     Positive,
@@ -202,6 +204,7 @@ __all__ = [
     "DeliveryState",
     "Dependence",
     "DeviceState",
+    "DeviceUsed",
     "DeviceView",
     "DiagnosisDocument",
     "DiagnosisVerdict",
@@ -232,6 +235,7 @@ __all__ = [
     "LearnedRanges",
     "LearnedReadings",
     "MachineView",
+    "MadeBy",
     "MeasurementSequence",
     "Measurements",
     "MemorySummary",
@@ -277,6 +281,7 @@ __all__ = [
     "RunReading",
     "RunStop",
     "RunView",
+    "ScaleCertificate",
     "Section",
     "Sections",
     "SequenceTitle",
@@ -327,6 +332,7 @@ __all__ = [
     "read_table",
     "read_taught",
     "readings_to_csv",
+    "readout_step_mm",
     "recorded_columns",
     "refusal",
     "residual_rows",

@@ -57,6 +57,7 @@ from station.service.carrying_out import CarryingOut, Unanswered
 from station.service.clock_watch import ClockWatch
 from station.service.ending import Ending
 from station.service.interlock_record import InterlockRecord
+from station.service.made_here import made_here
 from station.service.recording import Recording
 from station.service.run import Run
 from station.settings import Settings
@@ -133,7 +134,13 @@ class Orchestrator:
             kind.check(self._store, request)
             uid = uid7()
             calibration_id = self._store.create(
-                request, robot, key=idempotency_key, body_hash=body_hash, uid=uid, by=by
+                request,
+                robot,
+                key=idempotency_key,
+                body_hash=body_hash,
+                uid=uid,
+                by=by,
+                made_by=made_here(self._settings, self._machine.devices),
             )
             run = Run(calibration_id, uid, request, measured)
             with self._lock:

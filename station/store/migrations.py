@@ -251,5 +251,14 @@ def outbox(db: Database) -> None:
     db.execute("CREATE TABLE receivers (name TEXT PRIMARY KEY, seen INTEGER NOT NULL) WITHOUT ROWID")
 
 
+@migrations()
+def made_by(db: Database) -> None:
+    """Software, devices and scale certificate of a run."""
+    db.execute(
+        """CREATE TABLE made_by (
+            run_id INTEGER PRIMARY KEY REFERENCES calibrations (id), what TEXT NOT NULL)"""
+    )
+
+
 def _expand(blob: bytes) -> bytes:
     return zlib.decompressobj(zdict=_WORDS).decompress(blob)
