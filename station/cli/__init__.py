@@ -47,6 +47,7 @@ _COMMANDS = {
     "verify-certificate": ("certificate", "Whether a certificate says what was certified."),
     "verify": ("archive", "Whether every finished run is as it ended."),
     "wire": ("wire", "Every request and answer of one run, with its time, in plain words."),
+    "study": ("study", "Many random machines, calibrated or diagnosed, and what came of it."),
     "translate": ("translate", "Taught joint positions under the zeros that the drives have now."),
     "transfer": ("diagnosis", "Apply the effects learned on one log, unchanged, to another log."),
 }
