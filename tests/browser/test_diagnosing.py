@@ -23,8 +23,8 @@ MARK = "button => button.dataset.mine = 'yes'"
 
 def find_cause(page: Page, station: Station, *, serial: str = "FB-D") -> None:
     """From the result of a calibration to the sequence under way."""
-    page.goto(f"{station.url}/result/{add_run(station, serial)['id']}")
-    cause = page.get_by_role("region", name="Cause", exact=True)
+    page.goto(f"{station.url}/result/{add_run(station, serial)['id']}?open=cause")
+    cause = page.get_by_role("group", name="Check the model for missing effects")
     button = cause.get_by_role("button", name="Find the cause", exact=True)
     expect(button).to_be_disabled()
     cause.get_by_label("Operator").fill("ada")
@@ -83,14 +83,17 @@ def test_an_undeclared_effect_is_named_confirmed_and_its_removal_shown(
     find_cause(page, station)
     stop = page.get_by_role("button", name="STOP")
     stop.evaluate(MARK)
-    causes = page.get_by_role("region", name="Causes")
-    expect(causes).to_be_visible(timeout=SEQUENCE_LIMIT_MS)
     verdict = page.locator(".summary .verdict")
     # a defect is to be repaired, whatever else was right with the run
-    expect(verdict).to_contain_text("REPAIR")
-    expect(verdict).not_to_contain_text("PASS")
-    expect(verdict).to_contain_text(f"{case.name} explained")
-    expect(verdict).to_contain_text("predicts fresh readings")
+    expect(verdict).to_contain_text(f"REPAIR: {case.name}, ", timeout=SEQUENCE_LIMIT_MS)
+    expect(page.get_by_role("region", name="Next step")).to_contain_text("Repaired: measure again")
+    page.get_by_text("Causes", exact=True).click()
+    causes = page.get_by_role("region", name="Causes")
+    expect(causes).to_contain_text(case.remedy)
+    page.get_by_text("Zero offsets, in °").click()
+    expect(page.locator("main")).to_contain_text("not valid")
+    assert not re.search(r"\bPASS|\bwithin\b", page.locator("main").inner_text())
+    expect(page.locator(".field-map")).to_have_count(2)
     assert violations(page) == []
     assert no_identifiers(page)
     page.get_by_role("link", name="Diagnosis", exact=True).click()
@@ -181,23 +184,28 @@ def test_an_ordering_chosen_before_the_drawing_has_come_is_drawn(page: Page, sta
 def test_a_run_whose_model_does_not_fit_says_so_at_the_top(page: Page, serve: Serve) -> None:
     station = serve(speed=FAST, rig=RIGS / "backlash.toml")
     page.goto(f"{station.url}/result/{add_run(station, 'FB-D')['id']}")
-    expect(page.locator(".result > *").nth(1)).to_contain_text("The model does not fit these readings")
+    expect(page.get_by_role("region", name="Next step")).to_contain_text(
+        "An effect is missing from the model"
+    )
+    page.get_by_text("Check the model for missing effects").click()
+    expect(page.locator(".result")).to_contain_text("The model does not fit these readings")
     assert violations(page) == []
 
 
 def test_a_run_whose_model_fits_offers_the_walk_at_the_end(page: Page, station: Station) -> None:
     page.goto(f"{station.url}/result/{add_run(station, 'FB-D2')['id']}")
-    expect(page.locator(".result > *").last).to_contain_text("Check the model for missing effects")
+    page.get_by_text("Check the model for missing effects").click()
+    expect(page.get_by_role("button", name="Find the cause")).to_be_visible()
     expect(page.locator(".result")).not_to_contain_text("does not fit")
 
 
 def test_what_no_effect_accounts_for_is_said_to_be_unexplained(page: Page, serve: Serve) -> None:
     station = serve(speed=FAST, rig=RIGS / "unexplained.toml")
     find_cause(page, station)
-    expect(page.get_by_role("region", name="Hints")).to_be_visible(timeout=SEQUENCE_LIMIT_MS)
     verdict = page.locator(".summary .verdict")
-    expect(verdict).to_contain_text("UNEXPLAINED Verdict: FAIL")
-    expect(verdict).to_contain_text(re.compile(r"(Une|Not e)xplained: .*depends on"))
+    expect(verdict).to_contain_text(re.compile(r"UNEXPLAINED: .*depends on"), timeout=SEQUENCE_LIMIT_MS)
+    page.get_by_text("Causes", exact=True).click()
+    expect(page.get_by_role("region", name="Hints")).to_be_visible()
     expect(page.get_by_role("region", name="Causes")).not_to_contain_text("Remedy")
     assert violations(page) == []
 

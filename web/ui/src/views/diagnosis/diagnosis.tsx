@@ -40,7 +40,7 @@ export function DiagnosisView({ id }: { id: number }) {
       <Hints found={found} />
       <ResidualOrderings id={id} residuals={left} />
       <Stages found={found} />
-      <BeforeAfter result={run} wide />
+      <BeforeAfter result={run} />
       <Invisible found={found} />
     </div>
   );
