@@ -6,8 +6,7 @@ import type { Diagnosis } from "../../types";
 
 export function Invisible({ found: { invisible } }: { found: Diagnosis }) {
   return (
-    <section class="panel wide" aria-label={t.diagnosis.notFound}>
-      <h2>{t.diagnosis.notFoundTitle}</h2>
+    <section aria-label={t.diagnosis.notFound}>
       <p class="note">{t.diagnosis.notFoundNote}</p>
       <table>
         <thead>

@@ -7,7 +7,7 @@ import { ConfirmedButton } from "../../parts/confirm";
 import { Link } from "../../parts/link";
 import { MotionWarning } from "../../parts/motion-warning";
 import { OperatorField } from "../../parts/operator-field";
-import { navigate } from "../../router";
+import { navigate, path } from "../../router";
 import type { Calibration, Experiment } from "../../types";
 import { type Act, nextStep } from "./steps";
 
@@ -18,6 +18,8 @@ interface Props {
 
 export function NextStep({ result, experiments }: Props) {
   const { why, act, more } = nextStep(result, experiments);
+  // what is shown already is no next step
+  if (act?.do === "open" && act.to === path.value) return null;
   const { text, button = "" }: { text: string; button?: string } = t.result.next[why];
   return (
     <section class="panel wide next-step" aria-label={t.result.nextStep}>
