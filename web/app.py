@@ -25,6 +25,7 @@ from web.routes import (
     emulator,
     events,
     health,
+    keys,
     live,
     plans,
     quality,
@@ -34,6 +35,7 @@ from web.routes import (
     sessions,
     station,
     stop,
+    users,
 )
 from web.slow_bodies import SlowBodies
 
@@ -48,8 +50,8 @@ JSON_BYTES = 1_000_000
 """Largest body of JSON."""
 NOTE_USE_S = 60.0
 ROUTES = (
-    station, audit, backups, calibrations, datasets, diagnoses, emulator, events, plans, quality, readings,
-    retract, robots, sessions, stop,
+    station, audit, backups, calibrations, datasets, diagnoses, emulator, events, keys, plans, quality,
+    readings, retract, robots, sessions, stop, users,
 )  # fmt: skip
 LIVE_ROUTES = (live,)
 

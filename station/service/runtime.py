@@ -19,6 +19,7 @@ from station.records import BackupMade, DeviceView, Interlock
 from station.service.backups import backup_timer, make_backup
 from station.service.orchestrator import LiveEvent, Orchestrator
 from station.service.retention import retention_timer
+from station.service.settings_audit import record_settings
 from station.settings import OutboxSettings, Settings, backup_folder, database_path
 from station.store import Store
 
@@ -56,6 +57,7 @@ class Runtime:
             (home / LAST_HISTORY).write_text(str(path.resolve()), encoding="utf-8")
             for calibration_id in store.interrupt_unfinished():
                 log.warning("Run %d was cut off by the last stop of the station: interrupted", calibration_id)
+            record_settings(store, settings)
             with_it = opened.enter_context(equipment(settings, home, emulate))
             settings, rig = with_it.settings, with_it.rig
             orchestrator = Orchestrator(with_it.devices, store, settings)
