@@ -16,17 +16,20 @@ from web.borders import Borders, Forwarded
 from web.headers import SecurityHeaders
 from web.known_query import known_query
 from web.live import LiveFeed
+from web.metrics import Metrics
 from web.routes import (
     audit,
     backups,
     calibrations,
     datasets,
+    devices,
     diagnoses,
     emulator,
     events,
     health,
     keys,
     live,
+    metrics,
     plans,
     quality,
     readings,
@@ -50,10 +53,12 @@ JSON_BYTES = 1_000_000
 """Largest body of JSON."""
 NOTE_USE_S = 60.0
 ROUTES = (
-    station, audit, backups, calibrations, datasets, diagnoses, emulator, events, keys, plans, quality,
-    readings, retract, robots, sessions, stop, users,
+    station, audit, backups, calibrations, datasets, devices, diagnoses, emulator, events, keys, plans,
+    quality, readings, retract, robots, sessions, stop, users,
 )  # fmt: skip
 LIVE_ROUTES = (live,)
+TOP_ROUTES = (metrics,)
+"""Where the tools that ask for them expect them."""
 
 
 def create_app(runtime: Runtime, *, access: Access | None = None, static: Path = pages.STATIC) -> FastAPI:
@@ -67,7 +72,7 @@ def create_app(runtime: Runtime, *, access: Access | None = None, static: Path =
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         noting = Timer("use of keys and sessions", access.note_use, NOTE_USE_S, first_s=NOTE_USE_S)
-        with app.state.feed.attached(), noting:
+        with app.state.feed.attached(), app.state.metrics.attached(), noting:
             yield
 
     app = FastAPI(
@@ -83,6 +88,7 @@ def create_app(runtime: Runtime, *, access: Access | None = None, static: Path =
     app.state.access = access
     app.state.runtime = runtime
     app.state.feed = LiveFeed(runtime.orchestrator, build=pages.build_id(static), open=access.open)
+    app.state.metrics = Metrics(runtime, lambda: app.state.feed.clients)
     for module in ROUTES:
         app.include_router(
             module.router,
@@ -92,6 +98,8 @@ def create_app(runtime: Runtime, *, access: Access | None = None, static: Path =
         )
     app.include_router(live.router, prefix=API)
     app.include_router(health.router)
+    for module in TOP_ROUTES:
+        app.include_router(module.router)
     pages.add(app, static)
     problems.add(app)
     problems.add_schema(app.openapi())

@@ -15,6 +15,7 @@ from station.records.calibration import (
 from station.records.column_map import ColumnMap, translated
 from station.records.column_proposal import proposed_map
 from station.records.csv_cells import harmless
+from station.records.device_detail import DeviceDetail
 from station.records.diagnosis_document import (
     DIAGNOSIS_SCHEMA,
     MIXTURE_SCHEMA,
@@ -49,7 +50,7 @@ from station.records.diagnosis_document import (
 )
 from station.records.foreign_table import ForeignTable, read_foreign
 from station.records.guesses import TIME, guesses_in_words, with_guesses
-from station.records.happenings import Delivery, DeliveryCount, DeliveryState, Event, EventType
+from station.records.happenings import Backlog, Delivery, DeliveryCount, DeliveryState, Event, EventType
 from station.records.identification_document import (
     Convergence,
     GateOfMemory,
@@ -183,6 +184,7 @@ __all__ = [
     "Asked",
     "AuditChecked",
     "AuditEntry",
+    "Backlog",
     "BackupMade",
     "Calibration",
     "CalibrationHolds",
@@ -200,6 +202,7 @@ __all__ = [
     "DeliveryCount",
     "DeliveryState",
     "Dependence",
+    "DeviceDetail",
     "DeviceState",
     "DeviceView",
     "DiagnosisDocument",
