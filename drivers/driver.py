@@ -60,6 +60,8 @@ class ServoDriver(Generic[S]):
     """One axis a drive, in this order; nothing is opened yet.  :raises BadUrl:"""
     registers: Mapping[int, str] = field(default_factory=dict)
     """Names by address, for whoever reads a wire log."""
+    position_register: int | None = None
+    """Where the pulses of the joint's position begin, two registers."""
 
     def words(self, url: str) -> ModbusWords:
         """What frames on the line with this URL mean."""

@@ -39,6 +39,8 @@ from web.routes import (
     station,
     stop,
     users,
+    versions,
+    wire,
 )
 from web.slow_bodies import SlowBodies
 
@@ -54,7 +56,7 @@ JSON_BYTES = 1_000_000
 NOTE_USE_S = 60.0
 ROUTES = (
     station, audit, backups, calibrations, datasets, devices, diagnoses, emulator, events, keys, plans,
-    quality, readings, retract, robots, sessions, stop, users,
+    quality, readings, retract, robots, sessions, stop, users, versions, wire,
 )  # fmt: skip
 LIVE_ROUTES = (live,)
 TOP_ROUTES = (metrics,)

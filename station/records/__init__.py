@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from station.records.accuracy import AccuracyReached, Advice, PositionError, Remedy, WeakDirection
-from station.records.backup import BackupMade
+from station.records.backup import BackupDrill, BackupMade, CountedTable
 from station.records.calibration import (
     Application,
     ApplicationRun,
@@ -159,6 +159,7 @@ from station.records.types import LARGEST_ID, Angles, Complex, Flags, Index, Rea
 from station.records.uid import uid7
 from station.records.visited import inside_visited, visited_in_degrees, visited_ranges
 from station.records.wire import WireHeader
+from station.records.wire_exchange import WireExchange
 
 __all__ = [
     "DIAGNOSIS_SCHEMA",
@@ -185,6 +186,7 @@ __all__ = [
     "AuditChecked",
     "AuditEntry",
     "Backlog",
+    "BackupDrill",
     "BackupMade",
     "Calibration",
     "CalibrationHolds",
@@ -196,6 +198,7 @@ __all__ = [
     "Columns",
     "Complex",
     "Convergence",
+    "CountedTable",
     "Credentials",
     "DataSource",
     "Delivery",
@@ -305,6 +308,7 @@ __all__ = [
     "Verdict",
     "Via",
     "WeakDirection",
+    "WireExchange",
     "WireHeader",
     "Workspace",
     "ZeroOffset",

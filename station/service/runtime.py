@@ -15,8 +15,9 @@ from station import __version__
 from station.errors import InputRefused, StoreUnavailable
 from station.motion import EmulatedRig, equipment
 from station.outbox import Alarms, couriers
-from station.records import BackupMade, DeviceView, Interlock
-from station.service.backups import backup_timer, make_backup
+from station.records import BackupDrill, BackupMade, DeviceView, Interlock
+from station.service.backup_drill import drill
+from station.service.backups import backup_timer, listed, make_backup
 from station.service.orchestrator import LiveEvent, Orchestrator
 from station.service.retention import retention_timer
 from station.service.settings_audit import record_settings
@@ -70,6 +71,14 @@ class Runtime:
     def backup(self) -> BackupMade:
         """One more backup, now.  :raises InputRefused: it cannot be written."""
         return make_backup(self.store, backup_folder(self.settings, self.home), self.settings.backup.keep)
+
+    def backup_drill(self) -> BackupDrill:
+        """One more backup, opened beside the history and compared.  :raises InputRefused: as `backup`."""
+        return drill(self.store, backup_folder(self.settings, self.home), self.settings.backup.keep)
+
+    def backups(self) -> list[BackupMade]:
+        """The station's own backups that are there, the newest first."""
+        return listed(backup_folder(self.settings, self.home))
 
     def close(self) -> None:
         """Abort what runs, make the machine safe, release everything.  Twice is harmless."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from station.store.chain import Verified
 from station.store.health import too_full
 from station.store.opening import restore
 from station.store.rewinding import found, rewind
@@ -13,6 +14,7 @@ __all__ = [
     "Columns",
     "Page",
     "Store",
+    "Verified",
     "compact",
     "found",
     "request_hash",
