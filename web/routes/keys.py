@@ -5,10 +5,11 @@ from __future__ import annotations
 from typing import Annotated
 
 from fastapi import Path, Response
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from station.people import Administration, Permission
 from station.records import LARGEST_ID, Actor, ApiKey, PersonName, Record, Role
+from web.bodies import Body
 from web.guarded import Router, needs
 from web.problems import documented
 from web.routes.parts import TheRuntime
@@ -18,10 +19,8 @@ router = Router(prefix="/keys", tags=["people"])
 Administrator = Annotated[Actor, needs(Permission.ADMINISTER)]
 
 
-class KeyBody(BaseModel):
+class KeyBody(Body):
     """Which program the key is for, and what it may do."""
-
-    model_config = ConfigDict(extra="forbid")
 
     name: PersonName
     role: Role

@@ -5,11 +5,12 @@ from __future__ import annotations
 from typing import Annotated
 
 from fastapi import Path, Response
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from station.people import Administration, NewUser, Permission, UserChange
 from station.records import LARGEST_ID, Actor, PersonName, Record, Role, User
 from web.aside import aside
+from web.bodies import Body
 from web.guarded import Router, needs
 from web.problems import documented
 from web.routes.parts import TheRuntime
@@ -22,10 +23,8 @@ Secret = Annotated[str, Field(min_length=1, max_length=LONGEST)]
 Administrator = Annotated[Actor, needs(Permission.ADMINISTER)]
 
 
-class UserBody(BaseModel):
+class UserBody(Body):
     """Somebody who is to sign in: with a password, with badge and PIN, or with either."""
-
-    model_config = ConfigDict(extra="forbid")
 
     name: PersonName
     role: Role
@@ -34,10 +33,8 @@ class UserBody(BaseModel):
     pin: Secret | None = Field(default=None, description="4 digits or more; needs a badge")
 
 
-class UserChangeBody(BaseModel):
+class UserChangeBody(Body):
     """What is to be different; what is left out stays."""
-
-    model_config = ConfigDict(extra="forbid")
 
     role: Role | None = None
     disabled: bool | None = Field(default=None, description="true: kept, signed off, not let in again")
