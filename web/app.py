@@ -38,6 +38,7 @@ from web.routes import (
     sessions,
     station,
     stop,
+    training,
     users,
     versions,
     wire,
@@ -56,7 +57,7 @@ JSON_BYTES = 1_000_000
 NOTE_USE_S = 60.0
 ROUTES = (
     station, audit, backups, calibrations, datasets, devices, diagnoses, emulator, events, keys, plans,
-    quality, readings, retract, robots, sessions, stop, users, versions, wire,
+    quality, readings, retract, robots, sessions, stop, training, users, versions, wire,
 )  # fmt: skip
 LIVE_ROUTES = (live,)
 TOP_ROUTES = (metrics,)

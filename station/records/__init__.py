@@ -154,6 +154,15 @@ from station.records.sections import (
     sections_to_toml,
 )
 from station.records.taught import TaughtPosition, TranslatedPosition, read_taught, translated_to_csv
+from station.records.training import (
+    Blamed,
+    Challenge,
+    ChallengeGroup,
+    Exercise,
+    Said,
+    Score,
+    TrainingView,
+)
 from station.records.trend import TrendPoint
 from station.records.types import LARGEST_ID, Angles, Complex, Flags, Index, Real
 from station.records.uid import uid7
@@ -188,11 +197,14 @@ __all__ = [
     "Backlog",
     "BackupDrill",
     "BackupMade",
+    "Blamed",
     "Calibration",
     "CalibrationHolds",
     "CalibrationRequest",
     "CalibrationResult",
     "CalibrationSummary",
+    "Challenge",
+    "ChallengeGroup",
     "CheckFound",
     "ColumnMap",
     "Columns",
@@ -214,6 +226,7 @@ __all__ = [
     "ErrorOfModel",
     "Event",
     "EventType",
+    "Exercise",
     "ExperimentRecord",
     "ExplainedEffect",
     "ExplanationOfModel",
@@ -280,6 +293,8 @@ __all__ = [
     "RunReading",
     "RunStop",
     "RunView",
+    "Said",
+    "Score",
     "Section",
     "Sections",
     "SequenceTitle",
@@ -302,6 +317,7 @@ __all__ = [
     "TaughtPosition",
     "TemperatureReference",
     "TermOfModel",
+    "TrainingView",
     "TranslatedPosition",
     "TrendPoint",
     "User",

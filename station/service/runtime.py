@@ -21,6 +21,7 @@ from station.service.backups import backup_timer, listed, make_backup
 from station.service.orchestrator import LiveEvent, Orchestrator
 from station.service.retention import retention_timer
 from station.service.settings_audit import record_settings
+from station.service.training import TrainingDesk
 from station.settings import OutboxSettings, Settings, backup_folder, database_path
 from station.store import Store
 
@@ -41,6 +42,8 @@ class Runtime:
     _closing: ExitStack
     rig: EmulatedRig | None = None
     """The emulated machine; None with real devices."""
+    training: TrainingDesk | None = None
+    """Only with the emulated machine."""
 
     @classmethod
     def open(cls, settings: Settings, home: Path, emulate: Path | None = None) -> Self:
@@ -66,7 +69,8 @@ class Runtime:
             opened.enter_context(backup_timer(store, backup_folder(settings, home), settings.backup))
             opened.enter_context(retention_timer(store, settings.retention))
             opened.enter_context(_telling(store, orchestrator, settings.outbox))
-            return cls(settings, home, store, orchestrator, opened.pop_all(), rig)
+            desk = None if rig is None else TrainingDesk(rig, store, lambda: orchestrator.running)
+            return cls(settings, home, store, orchestrator, opened.pop_all(), rig, desk)
 
     def backup(self) -> BackupMade:
         """One more backup, now.  :raises InputRefused: it cannot be written."""
