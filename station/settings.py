@@ -9,7 +9,6 @@ from typing import Annotated, Any, Literal, Self
 from urllib.parse import urlsplit
 
 from pydantic import (
-    BaseModel,
     ConfigDict,
     Field,
     IPvAnyNetwork,
@@ -22,13 +21,14 @@ from pydantic_core import ErrorDetails
 
 from drivers.driver import DriverSettings
 from drivers.scaling import JointScaling
+from drivers.strict_numbers import StrictNumbers
 from station.errors import InputRefused
 from station.records import EventType, ScaleCertificate
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 
 
-class _Section(BaseModel):
+class _Section(StrictNumbers):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from station.store.chain import Chained, link_hash
+from station.store.chain import Chained, Verified, link_hash
 from station.store.health import too_full
 from station.store.opening import restore
 from station.store.rewinding import found, rewind
@@ -15,6 +15,7 @@ __all__ = [
     "Columns",
     "Page",
     "Store",
+    "Verified",
     "compact",
     "found",
     "link_hash",

@@ -52,6 +52,7 @@ from station.store.rows import (
     row_id,
     summary_from_row,
 )
+from station.store.settings_in_use import SettingsInUse
 from station.store.stored_events import StoredEvents
 from station.store.tables import Tables
 from station.store.times import RunTimes, now, now_ms
@@ -67,7 +68,9 @@ _DEEDS = {"apply": "run.applied", "rollback": "run.rolled_back"}
 """What the audit calls the start of a run of this kind."""
 
 
-class Store(StoredEvents, Memories, ZeroJournal, WireLogs, Provenance, Trends, Tables, People, Outbox):
+class Store(
+    StoredEvents, Memories, ZeroJournal, WireLogs, Provenance, Trends, Tables, People, SettingsInUse, Outbox
+):
     """Thread safe.  Order is by number: the clock that gives the times may jump.
 
     Every method may raise `StoreUnavailable`, unless it says otherwise.
