@@ -13,8 +13,8 @@ from station.five_bar import SIZE, Robot, inverse, perturbed
 from station.identification import bounds_mm, fresh_stops, identify, verify
 from station.plans import make_plan
 from station.records import PlanName, Real, Stop
+from station.studies.drawn import GRID, drawn, robot_of
 from station.studies.engine import Engine
-from station.studies.plans.drawn import GRID, drawn, robot_of
 from station.studies.population.physics import PlainMachine
 
 
