@@ -11,7 +11,7 @@ from tempfile import TemporaryDirectory
 import click
 from rich.console import Console
 
-from station.errors import NotApplicable
+from station.errors import NotApplicable, NotFound
 from station.records import CalibrationRequest, Exercise, Said
 from station.service import KINDS, Runtime, TrainingDesk
 from station.settings import EmulatedSettings, Settings
@@ -49,7 +49,7 @@ def main(exercises: int, seed: int, speed: float, out: Path | None) -> None:
     with TemporaryDirectory() as home, Runtime.open(settings, Path(home)) as runtime:
         for exercise in _worked_through(runtime, exercises, Random(seed)):
             done.append(exercise)
-            console.print(_row(exercise), highlight=False)
+            console.print(_row(exercise), highlight=False, soft_wrap=True)
     about = ABOUT.format(speed=speed, exercises=exercises, seed=seed)
     effects, faults = done[:exercises], done[exercises:]
     head = "| no. | drawn | joint | size | the station said | score |\n|---|---|---|---|---|---|"
@@ -83,7 +83,7 @@ def _distinguish(runtime: Runtime, run: int) -> None:
     """The further motion, where there is one."""
     try:
         further = runtime.orchestrator.follow("separate", run, "trainee").id
-    except NotApplicable:
+    except (NotApplicable, NotFound):  # nothing to distinguish, or the run failed
         return
     runtime.orchestrator.wait(further, RUN_LIMIT_S)
 

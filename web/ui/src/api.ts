@@ -33,8 +33,8 @@ export class Refused extends Error {
   }
 }
 
-async function call<T>(
-  method: "GET" | "POST" | "DELETE",
+export async function call<T>(
+  method: "GET" | "POST" | "PATCH" | "DELETE",
   path: string,
   options: RequestInit = {},
   accepted?: number,

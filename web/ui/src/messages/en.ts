@@ -16,6 +16,7 @@ import type {
   State,
   Verdict,
 } from "../types";
+import { maintenance, training } from "./en-maintenance";
 
 /** How a thing is called, and what it is in one sentence. */
 interface Entry {
@@ -149,6 +150,7 @@ export const en = {
     station: "Station",
     result: "Result",
     history: "History",
+    maintenance: "Maintenance",
     offline: "▲ OFFLINE",
     stale: "values may be old",
     connected: "connected",
@@ -576,6 +578,9 @@ export const en = {
     quantity: "Quantity",
     remark: "Remark",
   },
+
+  maintenance,
+  training,
 
   history: {
     title: "History",

@@ -10,6 +10,7 @@ const VIEWS = [
   { to: "/", text: t.header.station, views: ["/"] },
   { to: "/result", text: t.header.result, views: ["/result", "/diagnosis"] },
   { to: "/history", text: t.header.history, views: ["/history"] },
+  { to: "/maintenance", text: t.header.maintenance, views: ["/maintenance"] },
 ];
 
 export function Header() {
