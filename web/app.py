@@ -31,6 +31,7 @@ from web.routes import (
     readings,
     retract,
     robots,
+    scans,
     sessions,
     station,
     stop,
@@ -49,7 +50,7 @@ JSON_BYTES = 1_000_000
 NOTE_USE_S = 60.0
 ROUTES = (
     station, audit, backups, calibrations, datasets, diagnoses, emulator, events, plans, quality, readings,
-    retract, robots, sessions, stop,
+    retract, robots, scans, sessions, stop,
 )  # fmt: skip
 LIVE_ROUTES = (live,)
 

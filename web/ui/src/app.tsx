@@ -1,7 +1,7 @@
 /** The frame: a header that never scrolls away, and one view below it. */
 import { Header } from "./parts/header";
 import { path } from "./router";
-import { session } from "./session";
+import { badge, session } from "./session";
 import { DiagnosisView } from "./views/diagnosis/diagnosis";
 import { HistoryView } from "./views/history/history";
 import { ResultView } from "./views/result/result";
@@ -20,7 +20,7 @@ export function App() {
 }
 
 function View() {
-  if (session.value === null) return <SignInView />;
+  if (session.value === null || badge.value !== null) return <SignInView />;
   const [, view, id] = path.value.split("/");
   if (view === "history") return <HistoryView />;
   if (view === "diagnosis") return <DiagnosisView id={Number(id)} />;
