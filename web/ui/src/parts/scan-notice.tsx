@@ -4,7 +4,7 @@ import { notice } from "../scanned";
 export function ScanNotice() {
   const said = notice.value;
   return (
-    <p class={`report ${said?.refused ? "alarm warn" : ""}`} role="alert" hidden={!said}>
+    <p class={`scan ${said?.refused ? "alarm warn" : ""}`} role="alert" hidden={!said}>
       {said && (said.refused ? `◆ ${said.text}` : said.text)}
     </p>
   );
