@@ -1,4 +1,7 @@
 /** The frame: a header that never scrolls away, and one view below it. */
+
+import { useEffect, useRef } from "preact/hooks";
+import { followHeading } from "./heading";
 import { Header } from "./parts/header";
 import { path } from "./router";
 import { badge, session } from "./session";
@@ -9,10 +12,12 @@ import { SignInView } from "./views/sign-in/sign-in";
 import { StationView } from "./views/station/station";
 
 export function App() {
+  const main = useRef<HTMLElement>(null);
+  useEffect(() => (main.current ? followHeading(main.current) : undefined), []);
   return (
     <>
       <Header />
-      <main>
+      <main ref={main}>
         <View />
       </main>
     </>

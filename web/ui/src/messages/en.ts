@@ -183,6 +183,8 @@ export const en = {
       `Offline: the stop requested at ${at} may not reach the station. Press the emergency stop.`,
     stopping: (at: string) => `Stopping, requested at ${at} …`,
     stopped: (at: string) => `Stopped at ${at}: both drives confirmed.`,
+    wasFailed: (at: string) =>
+      `The stop requested at ${at} was not confirmed. The station responds again: check that nothing moves.`,
     failed: (at: string, cause: string) => `STOP FAILED at ${at}: ${cause} Press the emergency stop.`,
   },
 
@@ -191,6 +193,7 @@ export const en = {
     start: "Start a calibration",
     serial: "Robot serial",
     plan: "Plan",
+    recommended: (plan: string) => `${plan} (recommended)`,
     calibrate: "Calibrate",
     accuracy: "Wanted accuracy, mm (optional)",
     references: "References from other instruments",
@@ -216,6 +219,8 @@ export const en = {
     interlocks: "Interlocks",
     interlockOk: "ok",
     interlockNotMet: "◆ not met",
+    /** Of devices and interlocks while the station does not answer. */
+    notKnown: "not known",
     run: "Run",
     noRun: "No run in progress",
     wayBack: "Way back",
@@ -223,7 +228,7 @@ export const en = {
     retractHow: " Both joints move slowly, step by step, until the arm stands inside.",
     runLine: (serial: string, id: number, operator: string) => `${serial} · run ${id} · ${operator}`,
     progress: "Progress",
-    remaining: (duration: string) => `about ${duration} left in this pass`,
+    remaining: (duration: string) => `about ${duration} left in this sequence`,
     abort: "Abort run",
     scale: "Scale",
     age: "Age",

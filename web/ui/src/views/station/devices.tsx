@@ -1,4 +1,4 @@
-import { station } from "../../live";
+import { connected, station } from "../../live";
 import { t } from "../../messages";
 import type { DeviceState } from "../../types";
 
@@ -12,6 +12,7 @@ const ALARMS: Record<DeviceState, { shape: string; alarm: string }> = {
 /** Devices and interlocks, each in words. */
 export function Devices() {
   const now = station.value;
+  const online = connected.value;
   return (
     <section class="devices">
       <h2>{t.station.devices}</h2>
@@ -19,11 +20,11 @@ export function Devices() {
         {now?.devices.map(({ name, state, text }) => (
           <li key={name}>
             <span>{name}</span>
-            <strong class={ALARMS[state].alarm}>
-              {ALARMS[state].shape}
-              {t.devices[state].name}
+            <strong class={ALARMS[online ? state : "unknown"].alarm}>
+              {ALARMS[online ? state : "unknown"].shape}
+              {online ? t.devices[state].name : t.station.notKnown}
             </strong>
-            {state !== "ok" && <small>{text || t.devices[state].text}</small>}
+            {online && state !== "ok" && <small>{text || t.devices[state].text}</small>}
           </li>
         ))}
       </ul>
@@ -32,10 +33,14 @@ export function Devices() {
         {now?.interlocks.map((interlock) => (
           <li key={interlock.id}>
             <span>{interlock.text}</span>
-            <strong class={interlock.ok ? "" : "alarm warn"}>
-              {interlock.ok ? t.station.interlockOk : t.station.interlockNotMet}
+            <strong class={interlock.ok || !online ? "" : "alarm warn"}>
+              {!online
+                ? t.station.notKnown
+                : interlock.ok
+                  ? t.station.interlockOk
+                  : t.station.interlockNotMet}
             </strong>
-            {!interlock.ok && interlock.detail && <small>{interlock.detail}</small>}
+            {online && !interlock.ok && interlock.detail && <small>{interlock.detail}</small>}
           </li>
         ))}
       </ul>
