@@ -32,6 +32,7 @@ from web.routes import (
     readings,
     retract,
     robots,
+    run_table,
     scans,
     sessions,
     station,
@@ -51,7 +52,7 @@ JSON_BYTES = 1_000_000
 NOTE_USE_S = 60.0
 ROUTES = (
     station, audit, backups, calibrations, datasets, diagnoses, emulator, events, plans, quality, readings,
-    retract, robots, scans, sessions, stop,
+    retract, robots, run_table, scans, sessions, stop,
 )  # fmt: skip
 LIVE_ROUTES = (live,)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from station.store.filters import Filters, Order
 from station.store.health import too_full
 from station.store.opening import restore
 from station.store.rewinding import found, rewind
@@ -11,6 +12,8 @@ from station.store.tables import Columns
 
 __all__ = [
     "Columns",
+    "Filters",
+    "Order",
     "Page",
     "Store",
     "compact",

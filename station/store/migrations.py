@@ -251,5 +251,11 @@ def outbox(db: Database) -> None:
     db.execute("CREATE TABLE receivers (name TEXT PRIMARY KEY, seen INTEGER NOT NULL) WITHOUT ROWID")
 
 
+@migrations()
+def search(db: Database) -> None:
+    """Serials are found by their beginning, in capitals or not."""
+    db.execute("CREATE INDEX calibrations_serial_nocase ON calibrations (robot_serial COLLATE NOCASE)")
+
+
 def _expand(blob: bytes) -> bytes:
     return zlib.decompressobj(zdict=_WORDS).decompress(blob)
