@@ -24,7 +24,7 @@ export function signed(value: number | null | undefined, digits: number): string
 /** To so many significant digits, without zeros at the end. */
 export function significant(value: number | null | undefined, digits: number): string {
   if (value == null || !Number.isFinite(value)) return MISSING;
-  return String(Number(value.toPrecision(digits))).replace("-", "\u2212");
+  return local(String(Number(value.toPrecision(digits))).replace("-", "\u2212"));
 }
 
 const UM_PER_MM = 1000;
