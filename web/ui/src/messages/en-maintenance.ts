@@ -69,7 +69,7 @@ export const maintenance = {
   wireOther: (device: string, subject: string) => `Sent to ${device}: ${subject}`,
   wireBroken: (text: string) => `▲ The line broke: ${text}`,
   wireRefused: (text: string) => `▲ The line could not be opened: ${text}`,
-  wireAngle: (angle: string) => `${angle}°`,
+  wirePosition: (device: string, angle: string) => `Asked ${device} for its position: ${angle}°`,
   wireSilent: "▲ no reply",
   wireBeside: "not by the run itself",
 

@@ -79,7 +79,7 @@ function DeviceRow({ device }: { device: DeviceDetail }) {
       </td>
       <td class="text wrapped">{device.identity || "–"}</td>
       <td class="text">{heard}</td>
-      <td class="text">{fixed(device.round_trip_ms, 1)}</td>
+      <td class="text">{fixed(device.round_trip_ms, 2)}</td>
       <td class="text">{device.errors}</td>
       <td class="text wrapped">{device.address}</td>
     </tr>
