@@ -23,7 +23,7 @@ from drivers.driver import DriverSettings
 from drivers.scaling import JointScaling
 from drivers.strict_numbers import StrictNumbers
 from station.errors import InputRefused
-from station.records import EventType
+from station.records import EventType, ScaleCertificate
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 
@@ -260,6 +260,12 @@ class FolderSettings(_Section):
     """Types of event that are written."""
 
 
+class ScaleCertificateSettings(ScaleCertificate):
+    """`[scale_certificate]`: the calibration of the linear scale.  Outside its dates nothing passes."""
+
+    model_config = ConfigDict(extra="forbid")
+
+
 class OutboxSettings(_Section):
     """`[outbox]`: who is told of runs and alarms."""
 
@@ -293,6 +299,7 @@ class Settings(_Section):
     backup: BackupSettings = BackupSettings()
     retention: RetentionSettings = RetentionSettings()
     quality: QualitySettings = QualitySettings()
+    scale_certificate: ScaleCertificateSettings | None = None
     outbox: OutboxSettings = OutboxSettings()
     emulated: EmulatedSettings = EmulatedSettings()
 

@@ -21,10 +21,12 @@ from web.routes import (
     audit,
     backups,
     calibrations,
+    certificates,
     datasets,
     devices,
     diagnoses,
     emulator,
+    error_maps,
     events,
     health,
     keys,
@@ -56,8 +58,8 @@ JSON_BYTES = 1_000_000
 """Largest body of JSON."""
 NOTE_USE_S = 60.0
 ROUTES = (
-    station, audit, backups, calibrations, datasets, devices, diagnoses, emulator, events, keys, plans,
-    quality, readings, retract, robots, sessions, stop, training, users, versions, wire,
+    station, audit, backups, calibrations, certificates, datasets, devices, diagnoses, emulator, error_maps,
+    events, keys, plans, quality, readings, retract, robots, sessions, stop, training, users, versions, wire,
 )  # fmt: skip
 LIVE_ROUTES = (live,)
 TOP_ROUTES = (metrics,)

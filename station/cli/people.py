@@ -13,6 +13,7 @@ from rich.box import SIMPLE
 from rich.console import Console
 from rich.table import Table
 
+from station.certificate import public_key_pem
 from station.cli.kept import at_terminal, config_option, kept, open_or_begin
 from station.errors import InputRefused
 from station.people import ROLES, Administration, NewUser, hashed_password
@@ -109,7 +110,7 @@ def list_users(home: Path, config: Path | None) -> None:
 
 @click.group("key")
 def key_command() -> None:
-    """API keys of programs, such as a MES."""
+    """API keys of programs, such as a MES, and the public key of the certificates."""
 
 
 @key_command.command("add")
@@ -124,6 +125,13 @@ def add_key(home: Path, name: str, role: Role, days: float | None, config: Path 
     with open_or_begin(home, config) as store:
         _, key = Administration(store).add_key(at_terminal(), name, role, days)
     click.echo(key)
+
+
+@key_command.command("public")
+@click.pass_obj
+def public_key(home: Path) -> None:
+    """Print the public key that the certificates of this station are checked with."""
+    click.echo(public_key_pem(home), nl=False)
 
 
 @key_command.command("list")

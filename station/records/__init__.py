@@ -48,6 +48,7 @@ from station.records.diagnosis_document import (
     TemperatureReference,
     TermOfModel,
 )
+from station.records.error_map import ErrorMap, FreshReading
 from station.records.foreign_table import ForeignTable, read_foreign
 from station.records.guesses import TIME, guesses_in_words, with_guesses
 from station.records.happenings import Backlog, Delivery, DeliveryCount, DeliveryState, Event, EventType
@@ -79,6 +80,7 @@ from station.records.live import (
     StationView,
     Workspace,
 )
+from station.records.made_by import DeviceUsed, MadeBy, ScaleCertificate
 from station.records.measurement_file import (
     FIVE_BAR,
     Columns,
@@ -144,6 +146,7 @@ from station.records.run import (
     Submitted,
     ZeroWrite,
 )
+from station.records.scale_resolution import readout_step_mm
 from station.records.sections import (
     Finite,
     Positive,
@@ -219,10 +222,12 @@ __all__ = [
     "Dependence",
     "DeviceDetail",
     "DeviceState",
+    "DeviceUsed",
     "DeviceView",
     "DiagnosisDocument",
     "DiagnosisVerdict",
     "EffectName",
+    "ErrorMap",
     "ErrorOfModel",
     "Event",
     "EventType",
@@ -235,6 +240,7 @@ __all__ = [
     "Finite",
     "Flags",
     "ForeignTable",
+    "FreshReading",
     "GateOfMemory",
     "IdentificationDocument",
     "Index",
@@ -248,6 +254,7 @@ __all__ = [
     "LearnedRanges",
     "LearnedReadings",
     "MachineView",
+    "MadeBy",
     "MeasurementSequence",
     "Measurements",
     "MemorySummary",
@@ -294,6 +301,7 @@ __all__ = [
     "RunStop",
     "RunView",
     "Said",
+    "ScaleCertificate",
     "Score",
     "Section",
     "Sections",
@@ -347,6 +355,7 @@ __all__ = [
     "read_table",
     "read_taught",
     "readings_to_csv",
+    "readout_step_mm",
     "recorded_columns",
     "refusal",
     "residual_rows",

@@ -58,6 +58,7 @@ from station.service.clock_watch import ClockWatch
 from station.service.ending import Ending
 from station.service.idle_look import IdleLook, Looker
 from station.service.interlock_record import InterlockRecord
+from station.service.made_here import made_here
 from station.service.recording import Recording
 from station.service.robot_fits import check_fits
 from station.service.run import Run
@@ -138,7 +139,13 @@ class Orchestrator:
             kind.check(self._store, request)
             uid = uid7()
             calibration_id = self._store.create(
-                request, robot, key=idempotency_key, body_hash=body_hash, uid=uid, by=by
+                request,
+                robot,
+                key=idempotency_key,
+                body_hash=body_hash,
+                uid=uid,
+                by=by,
+                made_by=made_here(self._settings, self._machine.devices),
             )
             run = Run(calibration_id, uid, request, measured)
             with self._lock:

@@ -252,6 +252,15 @@ def outbox(db: Database) -> None:
 
 
 @migrations()
+def made_by(db: Database) -> None:
+    """Software, devices and scale certificate of a run."""
+    db.execute(
+        """CREATE TABLE made_by (
+            run_id INTEGER PRIMARY KEY REFERENCES calibrations (id), what TEXT NOT NULL)"""
+    )
+
+
+@migrations()
 def disabled_users(db: Database) -> None:
     """A user may be kept without being let in."""
     db.execute("ALTER TABLE users ADD COLUMN disabled_ms INTEGER")

@@ -5,14 +5,17 @@ import type {
   CalibrationBody,
   CalibrationList,
   Diagnosis,
+  ErrorMap,
   PlanDocument,
   Problem,
   ResidualList,
   Robot,
   Separating,
   SignedIn,
+  Solution,
   Stopped,
   Summary,
+  Target,
 } from "./types";
 
 const TIMEOUT_MS = 8000;
@@ -122,6 +125,14 @@ export const firstAdministrator = (body: { secret: string; name: string; passwor
 export const signOut = () => call<null>("DELETE", "/session");
 
 export const calibration = (id: number) => call<Calibration>("GET", `/calibrations/${id}`);
+
+export const errorMap = (id: number) => call<ErrorMap>("GET", `/calibrations/${id}/error-map`);
+
+export const solve = (id: number, targets: Target[]) =>
+  call<Solution>("POST", `/calibrations/${id}/solve`, {
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify({ targets }),
+  });
 
 export const diagnosis = (id: number) => call<Diagnosis>("GET", `/calibrations/${id}/diagnosis`);
 

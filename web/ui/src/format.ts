@@ -14,6 +14,12 @@ export function signed(value: number | null | undefined, digits: number): string
   return value != null && value > 0 && Number(text) !== 0 ? `+${text}` : text;
 }
 
+/** To so many significant digits, without zeros at the end. */
+export function significant(value: number | null | undefined, digits: number): string {
+  if (value == null || !Number.isFinite(value)) return MISSING;
+  return String(Number(value.toPrecision(digits))).replace("-", "\u2212");
+}
+
 const UM_PER_MM = 1000;
 
 /** Errors of length are stated in µm on every page. */

@@ -49,12 +49,15 @@ const inWords = ([name, value]: [string, Value]): [string, Value] => {
 
 type Because = Pick<Summary, "reason"> & Partial<Pick<Summary, "reason_code" | "reason_params">>;
 
+/** The parameters of a reason, with display names in place of identifiers. */
+export const paramsInWords = (params: Because["reason_params"]): Params =>
+  Object.fromEntries(Object.entries(params ?? {}).map(inWords));
+
 /** In the page's language; runs of older versions, and reasons unknown to the page, have only the sentence. */
 export function reasonText({ reason, reason_code, reason_params }: Because): string | null {
   const templates: Record<string, string> = t.reasons;
   const template = reason_code && Object.hasOwn(templates, reason_code) ? templates[reason_code] : undefined;
-  const params = Object.fromEntries(Object.entries(reason_params ?? {}).map(inWords));
-  const text = template === undefined ? null : formatted(template, params);
+  const text = template === undefined ? null : formatted(template, paramsInWords(reason_params));
   if (text !== null) return capital(text);
   return reason === null ? null : readable(reason);
 }
