@@ -13,7 +13,7 @@ function texts(node: unknown, path = ""): [string, string][] {
   return Object.entries(node as object).flatMap(([key, value]) => texts(value, `${path}.${key}`));
 }
 
-const LISTS = new Set<unknown>([t.listed, t.both]);
+const LISTS = new Set<unknown>([t.listed, t.both, t.maintenance.either]);
 const sample = (message: { length: number }) =>
   LISTS.has(message) ? [["7"]] : Array.from({ length: message.length }, () => "7");
 

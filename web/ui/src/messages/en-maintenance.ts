@@ -17,6 +17,8 @@ export const maintenance = {
   versionsPart: "Versions",
   trainingPart: "Training",
   needs: (roles: string, mine: string) => `Needs the role ${roles}. Your role is ${mine}.`,
+  either: (names: string[]) =>
+    names.length < 2 ? names.join("") : `${names.slice(0, -1).join(", ")} or ${names.at(-1)}`,
   nobody: "none",
   done: "Done.",
   working: "Working …",
@@ -80,7 +82,7 @@ export const maintenance = {
   tries: "Tries",
   detail: "Last reply",
   resend: "Send again",
-  resendOf: (id: number) => `Send delivery ${id} again`,
+  resendOf: (id: number) => `Send again: delivery ${id}`,
   noDeliveries: "No delivery matches.",
   deliveryStates: {
     waiting: "waiting",

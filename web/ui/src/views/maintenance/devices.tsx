@@ -13,7 +13,7 @@ import { OperatorField } from "../../parts/operator-field";
 import type { DeviceDetail } from "../../types";
 import { Retract } from "../station/retract";
 import { Pending } from "./action";
-import { Needs } from "./allowed";
+import { may, Needs } from "./allowed";
 import { devices } from "./calls";
 import { Doctor } from "./doctor";
 import { TextField } from "./fields";
@@ -88,16 +88,12 @@ function DeviceRow({ device }: { device: DeviceDetail }) {
 
 function WayBack() {
   const needed = station.value?.retract.needed;
+  if (needed && may("operate")) return <Retract />;
   return (
-    <Needs permission="operate">
-      {!needed && (
-        <section class="panel" aria-labelledby="way-back-title">
-          <h2 id="way-back-title">{t.maintenance.wayBack}</h2>
-          <p>{t.maintenance.wayBackNotNeeded}</p>
-        </section>
-      )}
-      <Retract />
-    </Needs>
+    <section class="panel part" aria-labelledby="way-back-title">
+      <h2 id="way-back-title">{t.maintenance.wayBack}</h2>
+      {needed ? <Needs permission="operate">{null}</Needs> : <p>{t.maintenance.wayBackNotNeeded}</p>}
+    </section>
   );
 }
 

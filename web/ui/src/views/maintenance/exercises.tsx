@@ -56,8 +56,7 @@ export function Saying({ exercise }: { exercise: Exercise }) {
         <div>
           <dt>{t.training.score}</dt>
           <dd>
-            <strong class={ALARM[score]}>{t.training.scores[score].name}</strong>{" "}
-            {t.training.scores[score].text}
+            <strong class={ALARM[score]}>{t.training.scores[score].name}</strong> <small>{t.training.scores[score].text}</small>
           </dd>
         </div>
       )}
