@@ -37,6 +37,7 @@ from web.routes import (
     readings,
     retract,
     robots,
+    scans,
     sessions,
     station,
     stop,
@@ -59,7 +60,8 @@ JSON_BYTES = 1_000_000
 NOTE_USE_S = 60.0
 ROUTES = (
     station, audit, backups, calibrations, certificates, datasets, devices, diagnoses, emulator, error_maps,
-    events, keys, plans, quality, readings, retract, robots, sessions, stop, training, users, versions, wire,
+    events, keys, plans, quality, readings, retract, robots, scans, sessions, stop, training, users, versions,
+    wire,
 )  # fmt: skip
 LIVE_ROUTES = (live,)
 TOP_ROUTES = (metrics,)

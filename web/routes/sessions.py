@@ -72,6 +72,8 @@ async def sign_in(
         cookie, user = await aside(lambda: access.sign_in(name, password, address))
     else:
         raise FieldRefused("name", "Give name and password, or badge and PIN.")
+    if earlier := request.cookies.get(COOKIE):  # who signed in before at this page is not there any more
+        await aside(lambda: access.sign_out(earlier))
     actor = _actor(user)
     later.add_task(record_later, runtime.store, actor, "session.begun", f"user {user.id}")
     return _signed_in(access, actor, cookie, request, response)

@@ -3,7 +3,7 @@ import { t } from "./messages";
 import { Header } from "./parts/header";
 import { useLoaded } from "./parts/load";
 import { path } from "./router";
-import { session } from "./session";
+import { badge, session } from "./session";
 import { DiagnosisView } from "./views/diagnosis/diagnosis";
 import { HistoryView } from "./views/history/history";
 import { ResultView } from "./views/result/result";
@@ -22,7 +22,7 @@ export function App() {
 }
 
 function View() {
-  if (session.value === null) return <SignInView />;
+  if (session.value === null || badge.value !== null) return <SignInView />;
   const [, view, id] = path.value.split("/");
   if (view === "history") return <HistoryView />;
   if (view === "maintenance") return <Maintenance />;

@@ -32,6 +32,8 @@ export type Solution = Schemas["Solution"];
 export type Separating = Schemas["Separating"];
 export type Robot = Schemas["Robot"];
 export type Stopped = Schemas["Stopped"];
+export type ScanCodes = Schemas["ScanCodes"];
+export type RefusedScan = Schemas["RefusedScan"];
 export type Problem = Schemas["Problem"];
 
 /** One message of the live feed, by its type. */

@@ -3,6 +3,7 @@ import { clock, connected, offline, station } from "../live";
 import { t } from "../messages";
 import { path } from "../router";
 import { Link } from "./link";
+import { ScanNotice } from "./scan-notice";
 import { StopButton, StopReport } from "./stop";
 import { Who } from "./who";
 
@@ -29,6 +30,7 @@ export function Header() {
       </div>
       <Who />
       <StopReport />
+      <ScanNotice />
     </header>
   );
 }
