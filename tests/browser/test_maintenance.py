@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import Station
-from tests.browser.steps import add_run, violations
+from tests.browser.steps import add_run, confirm, violations
 
 PARTS = ("Devices", "Wire log", "Deliveries", "Backups", "Users and keys", "Audit", "Versions", "Training")
 
@@ -58,7 +58,7 @@ def test_a_user_and_a_key_are_made_and_ended(page: Page, station: Station) -> No
     users.get_by_role("button", name="Add the user").click()
     row = users.get_by_role("row", name="Cleo")
     row.get_by_role("button", name="Disable Cleo", exact=True).click()
-    row.get_by_role("button", name="Confirm").click()
+    confirm(page, row)
     expect(row).to_contain_text("disabled")
     keys = page.locator("section", has=page.get_by_role("heading", name="Keys of programs"))
     keys.get_by_label("Name").fill("line 9")
@@ -67,7 +67,7 @@ def test_a_user_and_a_key_are_made_and_ended(page: Page, station: Station) -> No
     assert key.startswith("fbs_")
     assert violations(page) == []
     keys.get_by_role("row", name="line 9").get_by_role("button", name="Revoke line 9", exact=True).click()
-    keys.get_by_role("row", name="line 9").get_by_role("button", name="Confirm").click()
+    confirm(page, keys.get_by_role("row", name="line 9"))
     expect(keys.get_by_role("row", name="line 9")).to_contain_text("revoked")
     page.reload()
     expect(page.get_by_role("row", name="line 9")).to_be_visible()
@@ -101,7 +101,7 @@ def test_an_unseen_effect_is_found_revealed_and_repaired(page: Page, station: St
     expect(page.locator(".pairs")).to_contain_text("Silent scale")
     page.get_by_label("Operator").fill("ada")
     page.get_by_role("button", name="Run the diagnosis", exact=True).click()
-    page.get_by_role("button", name="Confirm", exact=True).click()
+    confirm(page)
     expect(page.locator(".pairs")).to_contain_text("✓ found", timeout=60_000)
     assert violations(page) == []
     page.get_by_role("button", name="Repaired").click()

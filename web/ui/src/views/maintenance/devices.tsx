@@ -124,7 +124,7 @@ function Check() {
           <TextField id="check-serial" label={t.maintenance.checkSerial} value={serial} />
           <OperatorField id="check-operator" />
         </div>
-        <ConfirmedButton label={t.maintenance.checkStart} disabled={!ready} act={act}>
+        <ConfirmedButton label={t.maintenance.checkStart} disabled={!ready} act={act} about={wanted}>
           <strong>{t.shared.willMove(wanted)}</strong>
           {t.result.wholeWorkspace} {t.shared.clear}
         </ConfirmedButton>

@@ -56,7 +56,8 @@ export function Saying({ exercise }: { exercise: Exercise }) {
         <div>
           <dt>{t.training.score}</dt>
           <dd>
-            <strong class={ALARM[score]}>{t.training.scores[score].name}</strong> <small>{t.training.scores[score].text}</small>
+            <strong class={ALARM[score]}>{t.training.scores[score].name}</strong>{" "}
+            <small>{t.training.scores[score].text}</small>
           </dd>
         </div>
       )}
