@@ -175,6 +175,7 @@ export const en = {
     notReady: "◆ NOT READY",
     ready: "READY",
     device: (name: string, state: string) => `▲ ${name}: ${state}`,
+    language: "Language",
     emulated: (name: string) => `${name} (emulated)`,
   },
 
@@ -264,6 +265,7 @@ export const en = {
     method: "Method",
     diagnosis: "Diagnosis",
     robotHistory: "History of this robot",
+    certificate: (form: string) => `Certificate (${form})`,
     run: "Run, plan, operator and times",
     pending: "The result follows the last reading.",
 
