@@ -7,12 +7,13 @@ from drivers.lines.modbus_words import ModbusWords
 from drivers.lines.on_line import OnLine, line_of
 from drivers.lines.playback import Departed, Playback
 from drivers.lines.retrying import within
-from drivers.lines.serial import Happening, SerialLine
+from drivers.lines.serial import XON, Happening, SerialLine
 from drivers.lines.traffic import Traffic
 from drivers.lines.url import NetAddress, SerialAddress
 from drivers.lines.wire_log import WireEvent, WireLog, wire_events
 
 __all__ = [
+    "XON",
     "Departed",
     "Happening",
     "ModbusBus",

@@ -159,11 +159,14 @@ class Machine:
         self._stands_deg = None
         if not all(self._known[axis.name].connected for axis in self.devices.axes):
             return
+        angles = []
         try:
-            first, second = (axis.feedback_deg() for axis in self.devices.axes)
+            for axis in self.devices.axes:
+                with self.using(axis):
+                    angles.append(axis.feedback_deg())
         except DeviceError:
             return
-        self._stands_deg = (first, second)
+        self._stands_deg = (angles[0], angles[1])
 
     def ready_axes(self) -> None:
         """Reset what alarm can be reset and power both axes.  :raises DeviceError:"""

@@ -6,7 +6,7 @@ import struct
 from collections.abc import Iterable, Iterator
 from typing import Literal
 
-from drivers.lines import ModbusWords, WireEvent, wire_events
+from drivers.lines import XON, ModbusWords, WireEvent, wire_events
 from drivers.scales import SCALES
 from drivers.servos import SERVOS
 from station.records import WireExchange, WireHeader
@@ -73,11 +73,12 @@ class _Reader:
     def exchange(self, asked: WireEvent, came: WireEvent | None) -> WireExchange:
         took_ms = None if came is None else round((came.at_s - asked.at_s) * 1000, 1)
         if asked.line == _SCALE:
+            resumes = asked.data == XON
             return WireExchange(
                 at_s=asked.at_s,
                 device="scale",
-                action="read",
-                subject=self._scale(asked.data),
+                action="other" if resumes else "read",  # nothing answers to XON
+                subject="resume sending (XON)" if resumes else self._scale(asked.data),
                 answer=self._scale(came.data) if came else "",
                 took_ms=took_ms,
                 beside=not asked.own,

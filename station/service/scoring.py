@@ -10,8 +10,8 @@ from station.service.challenges import Kind
 POSSIBLE = 0.05
 """An explanation that is this probable counts as one that the station names as possible."""
 UNNAMED = "unnamed"
-_WORDS = {"scale": ("scale", "readout", "head"), "line": ("drive", "axis", "line", "gateway")}
-"""How a reason names what failed."""
+_WORDS = {"scale": ("scale", "readout", "head"), "line": ("drive", "axis", "line", "gateway", "broke while")}
+"""How a reason names what failed; a line that broke is named by its address."""
 
 
 def scored(

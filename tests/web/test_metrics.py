@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import json
+import re
 import time
 from datetime import UTC, datetime
+from pathlib import Path
 
 import pytest
 from prometheus_client.openmetrics.parser import text_string_to_metric_families as open_families
@@ -13,6 +16,7 @@ from drivers.errors import LinkLost
 from tests.web.conftest import Service
 
 Samples = dict[tuple[str, frozenset[tuple[str, str]]], float]
+ROOT = Path(__file__).parents[2]
 OPEN_METRICS = "application/openmetrics-text; version=1.0.0"
 
 
@@ -115,3 +119,15 @@ def test_open_metrics_for_whoever_asks_for_it(service: Service) -> None:
 def test_a_key_is_needed_where_the_station_is_not_open(closed: Service) -> None:
     assert closed.client.get("/metrics").status_code == 401
     assert closed.client.get("/metrics", headers=closed.key("viewer")).status_code == 200
+
+
+def test_the_example_dashboard_asks_only_for_what_there_is(service: Service) -> None:
+    service.complete()
+    service.client.post("/api/v1/stop")
+    text = service.client.get("/metrics").text
+    known = {line.split()[2] for line in text.splitlines() if line.startswith("# TYPE")}
+    known |= {sample.name for f in text_string_to_metric_families(text) for sample in f.samples}
+    dashboard = json.loads((ROOT / "deploy/grafana-dashboard.json").read_text(encoding="utf-8"))
+    asked = [target["expr"] for panel in dashboard["panels"] for target in panel["targets"]]
+    names = {name for expression in asked for name in re.findall(r"station_\w+", expression)}
+    assert len(names) >= 9 and names <= known

@@ -20,7 +20,7 @@ ASK_POSITION = "0001 0000 0006 02 03 602c 0002"
 POSITION = "0001 0000 0007 02 03 04 fffffff6"  # -10 pulses
 STOP = "0002 0000 0006 01 06 6002 0040"
 LINES = (
-    f"0 2> {ASK_POSITION}", f"41 2< {POSITION}", f"10 2>* {STOP}", "100 1> 02", "300 1< 2b313233",
+    f"0 2> {ASK_POSITION}", f"41 2< {POSITION}", f"10 2>* {STOP}", "5 1> 11", "100 1> 02", "300 1< 2b313233",
     "5 1! 67 6f 6e 65", f"9 2> {ASK_POSITION}",
 )  # fmt: skip
 
@@ -33,7 +33,9 @@ def keep(service: Service, run: int) -> None:
 def test_each_request_stands_with_its_answer_and_its_time(service: Service) -> None:
     run = service.complete()
     keep(service, run)
-    first, stop, scale, broken, last = service.client.get(f"/api/v1/calibrations/{run}/wire").json()["items"]
+    first, stop, resumed, scale, broken, last = service.client.get(f"/api/v1/calibrations/{run}/wire").json()[
+        "items"
+    ]
     assert (first["device"], first["action"], first["subject"]) == ("drive 2", "read", "position, pulses")
     assert (first["took_ms"], first["angle_deg"], first["beside"]) == (4.1, 179.982, False)
     assert (stop["device"], stop["action"], stop["took_ms"], stop["beside"]) == (
@@ -42,6 +44,7 @@ def test_each_request_stands_with_its_answer_and_its_time(service: Service) -> N
         None,
         True,
     )
+    assert (resumed["action"], resumed["took_ms"]) == ("other", None), "nothing answers to XON"
     assert (scale["device"], scale["subject"], scale["took_ms"]) == ("scale", "what is the value?", 30.0)
     assert (broken["action"], broken["answer"]) == ("broken", "gone")
     assert last["answer"] == "" and last["took_ms"] is None, "nothing came"
@@ -54,7 +57,7 @@ def test_pages_follow_each_other(service: Service) -> None:
     page = service.client.get(url, params={"limit": 3}).json()
     assert page["next"] == 3
     rest = service.client.get(url, params={"limit": 3, "cursor": page["next"]}).json()
-    assert (len(page["items"]), len(rest["items"]), rest["next"]) == (3, 2, None)
+    assert (len(page["items"]), len(rest["items"]), rest["next"]) == (3, 3, None)
 
 
 def test_a_run_without_a_log_says_so(service: Service) -> None:

@@ -16,7 +16,9 @@ function texts(node: unknown, path = ""): [string, string][] {
   return Object.entries(node as object).flatMap(([key, value]) => texts(value, `${path}.${key}`));
 }
 
-const LISTS = new Set<unknown>([t, de, zh].flatMap(({ listed, both }) => [listed, both]));
+const LISTS = new Set<unknown>(
+  [t, de, zh].flatMap(({ listed, both, maintenance }) => [listed, both, maintenance.either]),
+);
 const sample = (message: { length: number }) =>
   LISTS.has(message) ? [["7"]] : Array.from({ length: message.length }, () => "7");
 

@@ -13,6 +13,8 @@ export const maintenance: typeof english = {
   versionsPart: "Versionen",
   trainingPart: "Übung",
   needs: (roles, mine) => `Braucht die Rolle ${roles}. Ihre Rolle ist ${mine}.`,
+  either: (names) =>
+    names.length < 2 ? names.join("") : `${names.slice(0, -1).join(", ")} oder ${names.at(-1)}`,
   nobody: "keine",
   done: "Fertig.",
   working: "In Arbeit …",
@@ -66,7 +68,7 @@ export const maintenance: typeof english = {
   wireOther: (device, subject) => `Gesendet an ${device}: ${subject}`,
   wireBroken: (text) => `▲ Die Leitung brach ab: ${text}`,
   wireRefused: (text) => `▲ Die Leitung ließ sich nicht öffnen: ${text}`,
-  wireAngle: (angle) => `${angle}°`,
+  wirePosition: (device, angle) => `Anfrage an ${device}, Position: ${angle}°`,
   wireSilent: "▲ keine Antwort",
   wireBeside: "nicht vom Lauf selbst",
 

@@ -17,6 +17,8 @@ export const maintenance = {
   versionsPart: "Versions",
   trainingPart: "Training",
   needs: (roles: string, mine: string) => `Needs the role ${roles}. Your role is ${mine}.`,
+  either: (names: string[]) =>
+    names.length < 2 ? names.join("") : `${names.slice(0, -1).join(", ")} or ${names.at(-1)}`,
   nobody: "none",
   done: "Done.",
   working: "Working …",
@@ -69,7 +71,7 @@ export const maintenance = {
   wireOther: (device: string, subject: string) => `Sent to ${device}: ${subject}`,
   wireBroken: (text: string) => `▲ The line broke: ${text}`,
   wireRefused: (text: string) => `▲ The line could not be opened: ${text}`,
-  wireAngle: (angle: string) => `${angle}°`,
+  wirePosition: (device: string, angle: string) => `Asked ${device} for its position: ${angle}°`,
   wireSilent: "▲ no reply",
   wireBeside: "not by the run itself",
 
@@ -80,7 +82,7 @@ export const maintenance = {
   tries: "Tries",
   detail: "Last reply",
   resend: "Send again",
-  resendOf: (id: number) => `Send delivery ${id} again`,
+  resendOf: (id: number) => `Send again: delivery ${id}`,
   noDeliveries: "No delivery matches.",
   deliveryStates: {
     waiting: "waiting",

@@ -13,6 +13,8 @@ export const maintenance: typeof english = {
   versionsPart: "版本",
   trainingPart: "训练",
   needs: (roles, mine) => `需要角色 ${roles}。您的角色是 ${mine}。`,
+  either: (names) =>
+    names.length < 2 ? names.join("") : `${names.slice(0, -1).join("、")}或${names.at(-1)}`,
   nobody: "无",
   done: "完成。",
   working: "处理中 …",
@@ -64,7 +66,7 @@ export const maintenance: typeof english = {
   wireOther: (device, subject) => `发送到${device}：${subject}`,
   wireBroken: (text) => `▲ 线路中断：${text}`,
   wireRefused: (text) => `▲ 线路无法打开：${text}`,
-  wireAngle: (angle) => `${angle}°`,
+  wirePosition: (device, angle) => `向${device}询问位置：${angle}°`,
   wireSilent: "▲ 无应答",
   wireBeside: "不属于该运行",
 

@@ -19,7 +19,7 @@ export function may(permission: Permission): boolean {
 export function Needs({ permission, children }: { permission: Permission; children: ComponentChildren }) {
   if (may(permission)) return <>{children}</>;
   if (session.value === undefined) return <p class="empty">{t.shared.loading}</p>;
-  const roles = ROLES[permission].map((role) => t.maintenance.roles[role]).join(", ");
+  const roles = t.maintenance.either(ROLES[permission].map((role) => t.maintenance.roles[role]));
   const mine = session.value?.role;
   return (
     <p class="note">

@@ -1,5 +1,6 @@
 /** What is to be wrong: kind, joint and size. */
 import { useComputed, useSignal } from "@preact/signals";
+import { local } from "../../format";
 import { station } from "../../live";
 import { t } from "../../messages";
 import type { Challenge, Training } from "../../types";
@@ -19,7 +20,7 @@ export function ChooseExercise({ challenges, after }: Props) {
   const first = challenges[0]!;
   const kind = useSignal(first.kind);
   const joint = useSignal("1");
-  const size = useSignal(String(first.usual ?? ""));
+  const size = useSignal(local(String(first.usual ?? "")));
   const chosen = useComputed(() => challenges.find((one) => one.kind === kind.value) ?? first);
   const { smallest, largest, unit, joint: atJoint } = chosen.value;
   const act = () => {
@@ -43,7 +44,7 @@ export function ChooseExercise({ challenges, after }: Props) {
           value={kind.value}
           onChange={(event) => {
             kind.value = event.currentTarget.value;
-            size.value = String(chosen.value.usual ?? "");
+            size.value = local(String(chosen.value.usual ?? ""));
           }}
         >
           {GROUPS.map((group) => (
@@ -76,7 +77,7 @@ export function ChooseExercise({ challenges, after }: Props) {
       {smallest !== null && (
         <TextField
           id="exercise-size"
-          label={t.training.size(unitOf(unit), String(smallest), String(largest))}
+          label={t.training.size(unitOf(unit), local(String(smallest)), local(String(largest)))}
           value={size}
           numeric
         />

@@ -14,7 +14,7 @@ import { OperatorField } from "../../parts/operator-field";
 import type { DeviceDetail } from "../../types";
 import { Retract } from "../station/retract";
 import { Pending } from "./action";
-import { Needs } from "./allowed";
+import { may, Needs } from "./allowed";
 import { devices } from "./calls";
 import { Doctor } from "./doctor";
 import { TextField } from "./fields";
@@ -80,7 +80,7 @@ function DeviceRow({ device }: { device: DeviceDetail }) {
       </td>
       <td class="text wrapped">{device.identity || "–"}</td>
       <td class="text">{heard}</td>
-      <td class="text">{fixed(device.round_trip_ms, 1)}</td>
+      <td class="text">{fixed(device.round_trip_ms, 2)}</td>
       <td class="text">{device.errors}</td>
       <td class="text wrapped">{device.address}</td>
     </tr>
@@ -89,16 +89,12 @@ function DeviceRow({ device }: { device: DeviceDetail }) {
 
 function WayBack() {
   const needed = station.value?.retract.needed;
+  if (needed && may("operate")) return <Retract />;
   return (
-    <Needs permission="operate">
-      {!needed && (
-        <section class="panel" aria-labelledby="way-back-title">
-          <h2 id="way-back-title">{t.maintenance.wayBack}</h2>
-          <p>{t.maintenance.wayBackNotNeeded}</p>
-        </section>
-      )}
-      <Retract />
-    </Needs>
+    <section class="panel part" aria-labelledby="way-back-title">
+      <h2 id="way-back-title">{t.maintenance.wayBack}</h2>
+      {needed ? <Needs permission="operate">{null}</Needs> : <p>{t.maintenance.wayBackNotNeeded}</p>}
+    </section>
   );
 }
 
@@ -129,7 +125,7 @@ function Check() {
           <TextField id="check-serial" label={t.maintenance.checkSerial} value={serial} />
           <OperatorField id="check-operator" />
         </div>
-        <ConfirmedButton label={t.maintenance.checkStart} disabled={!ready} act={act}>
+        <ConfirmedButton label={t.maintenance.checkStart} disabled={!ready} act={act} about={wanted}>
           <strong>{t.shared.willMove(wanted)}</strong>
           {t.result.wholeWorkspace} {t.shared.clear}
         </ConfirmedButton>

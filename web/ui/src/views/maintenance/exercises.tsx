@@ -1,5 +1,5 @@
 /** Exercises: what was wrong, what the station said, and the score. */
-import { percent } from "../../format";
+import { local, percent } from "../../format";
 import { t } from "../../messages";
 import { effectName, readable } from "../../names";
 import { Link } from "../../parts/link";
@@ -25,7 +25,7 @@ export function wrongWith({ challenge, joint, size }: Exercise): string {
   if (challenge === null) return t.training.notRevealed;
   const name = challengeName(challenge.kind);
   const at = joint === null ? name : t.training.at(name, joint);
-  return size === null ? at : t.training.sized(at, `${size} ${unitOf(challenge.unit)}`);
+  return size === null ? at : t.training.sized(at, `${local(String(size))} ${unitOf(challenge.unit)}`);
 }
 
 /** What the run found, in words. */
@@ -57,7 +57,7 @@ export function Saying({ exercise }: { exercise: Exercise }) {
           <dt>{t.training.score}</dt>
           <dd>
             <strong class={ALARM[score]}>{t.training.scores[score].name}</strong>{" "}
-            {t.training.scores[score].text}
+            <small>{t.training.scores[score].text}</small>
           </dd>
         </div>
       )}

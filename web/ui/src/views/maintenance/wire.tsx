@@ -78,15 +78,15 @@ function Exchanges({ run, cursor }: { run: number; cursor: number }) {
   );
 }
 
-/** "Asked drive 2 for: position: 12.345°". */
+/** "Asked drive 2 for its position: 12.345°". */
 export function inWords(exchange: WireExchange): string {
   const m = t.maintenance;
   const device = m.wireDevices[exchange.device];
   if (exchange.action === "broken") return m.wireBroken(exchange.answer);
   if (exchange.action === "refused") return m.wireRefused(exchange.answer);
-  const say = { read: m.wireRead, write: m.wireWrite, other: m.wireOther }[exchange.action];
-  const angle = exchange.angle_deg == null ? null : m.wireAngle(fixed(exchange.angle_deg, 3));
-  const answer = exchange.took_ms === null ? m.wireSilent : (angle ?? exchange.answer);
   const beside = exchange.beside ? ` (${m.wireBeside})` : "";
-  return `${say(device, exchange.subject)} → ${answer}${beside}`;
+  if (exchange.angle_deg != null) return m.wirePosition(device, fixed(exchange.angle_deg, 3)) + beside;
+  const say = { read: m.wireRead, write: m.wireWrite, other: m.wireOther }[exchange.action];
+  const silent = exchange.action === "other" ? "–" : m.wireSilent;
+  return `${say(device, exchange.subject)} → ${exchange.took_ms === null ? silent : exchange.answer}${beside}`;
 }
