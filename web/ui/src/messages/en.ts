@@ -262,7 +262,7 @@ export const en = {
     remedy: (text: string) => `Recommended: ${text}`,
 
     notValid: "not valid",
-    notValidNote: "This run was not accepted. Its numbers are shown for the search for the cause only.",
+    notValidNote: "This run was not accepted. Its numbers must not be used.",
 
     decision: {
       limited: (bound: string, limit: string) =>
@@ -325,6 +325,10 @@ export const en = {
         button: "Start the deciding experiment",
         text: "Further readings distinguish the possible causes.",
       },
+      decide_by_plan: {
+        button: "Prepare the experiment",
+        text: "The station shows the start form with this robot and the plan of the experiment.",
+      },
       decide_by_hand: {
         button: "Show the experiments",
         text: "An experiment by hand distinguishes the possible causes.",
@@ -361,6 +365,8 @@ export const en = {
         `x ${x} mm, y ${y} mm: before ${before} mm; after at most ${bound} mm (95 %), expected ${expected} mm.`,
       closed: (x: string, y: string) => `x ${x} mm, y ${y} mm: outside the limits of the joints.`,
       noLimit: "No limit was given.",
+      notValid:
+        "Not valid: this run was not accepted. The map shows what its explanation of the readings expects.",
       limit: {
         everywhere: (mm: string) => `After: the limit of ${mm} mm is kept everywhere.`,
         partly: (mm: string) => `After: the line is the limit of ${mm} mm; beyond it the limit is not kept.`,
