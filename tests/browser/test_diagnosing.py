@@ -306,7 +306,8 @@ def inside(chart: Locator, container: str) -> bool:
     script = """async (svg, container) => {
       for (let k = 0; k < 100; k++) {
         const [own, room] = [svg, svg.closest(container)].map(e => e.getBoundingClientRect());
-        if (own.right <= room.right + 1 && own.width > 0.9 * room.width) return true;
+        const wide = own.right <= room.right + 1 && own.width > 0.9 * room.width;
+        if (wide && own.height > 100) return true;
         await new Promise(done => setTimeout(done, 20));
       }
       return false;

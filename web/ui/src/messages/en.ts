@@ -266,8 +266,8 @@ export const en = {
 
     decision: {
       limited: (bound: string, limit: string) =>
-        `position error at most ${bound} mm (95 %), limit ${limit} mm`,
-      unlimited: (bound: string) => `position error at most ${bound} mm (95 %), no limit was given`,
+        `position error at most ${bound}\u00a0mm (95\u00a0%), limit ${limit}\u00a0mm`,
+      unlimited: (bound: string) => `position error at most ${bound}\u00a0mm (95\u00a0%), no limit was given`,
       sized: (effect: string, size: string) => `${effect}, ${size}`,
       notIdentified: "no robot within its tolerances gives these readings",
       undecided: (cause: string, percent: string, others: string) => `${cause} (${percent} %) or ${others}`,
@@ -474,7 +474,7 @@ export const en = {
 
     explanations: "Explanations",
     explanationsTitle: "Explanations of the readings, most probable first",
-    explanation: "Explanation",
+    explanationSized: "Explanation, size ± U",
     noError: "No error: the base model alone",
     outsideCatalogue: "not in the catalogue",
 
