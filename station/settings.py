@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tomllib
 from collections.abc import Mapping
 from pathlib import Path
@@ -9,7 +10,7 @@ from typing import Annotated, Any, Literal, Self
 from urllib.parse import urlsplit
 
 from pydantic import (
-    BaseModel,
+    AfterValidator,
     ConfigDict,
     Field,
     IPvAnyNetwork,
@@ -22,13 +23,14 @@ from pydantic_core import ErrorDetails
 
 from drivers.driver import DriverSettings
 from drivers.scaling import JointScaling
+from drivers.strict_numbers import StrictNumbers
 from station.errors import InputRefused
-from station.records import EventType
+from station.records import EventType, ScaleCertificate
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 
 
-class _Section(BaseModel):
+class _Section(StrictNumbers):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 
@@ -217,6 +219,39 @@ class QualitySettings(_Section):
     """The newest so many finished runs are looked at."""
 
 
+def _pattern(text: str) -> str:
+    try:
+        re.compile(text, re.ASCII)
+    except re.error as error:
+        raise ValueError(f"is no regular expression: {error}") from error
+    if re.search(r"\(\?(?!:)|\\[AZ]", text):
+        raise ValueError("may group with ( ) and (?: ), but use no other (?...), \\A or \\Z")
+    return text
+
+
+Pattern = Annotated[str, Field(min_length=1, max_length=200), AfterValidator(_pattern)]
+"""A regular expression of the whole text that reads alike in Python and in the page."""
+
+
+class ScanSettings(_Section):
+    """`[scan]`: what barcode scanners at the page read.  A code must fit its pattern as a whole; the one that
+    confirms is looked for first, then a badge, then a serial number."""
+
+    serial: Pattern = r"[A-Za-z0-9][A-Za-z0-9._/-]{0,63}"
+    """Regular expression of the serial number of a robot."""
+    badge: Pattern = r"BADGE:(.{1,64})"
+    """Regular expression of a badge.  What its first group matches, else the whole text, is the name of the
+    operator where nobody signs in."""
+    confirm: Annotated[str, Field(pattern=r"^[!-~]{3,64}$")] = "CONFIRM"
+    """The one code that confirms what waits for a confirmation."""
+
+    @model_validator(mode="after")
+    def _badge_does_not_confirm(self) -> Self:
+        if re.fullmatch(self.badge, self.confirm, re.ASCII):
+            raise ValueError("the code that confirms must not fit the pattern of a badge")
+        return self
+
+
 EventTypes = tuple[EventType, ...]
 
 
@@ -260,6 +295,12 @@ class FolderSettings(_Section):
     """Types of event that are written."""
 
 
+class ScaleCertificateSettings(StrictNumbers, ScaleCertificate):
+    """`[scale_certificate]`: the calibration of the linear scale.  Outside its dates nothing passes."""
+
+    model_config = ConfigDict(extra="forbid")
+
+
 class OutboxSettings(_Section):
     """`[outbox]`: who is told of runs and alarms."""
 
@@ -293,6 +334,8 @@ class Settings(_Section):
     backup: BackupSettings = BackupSettings()
     retention: RetentionSettings = RetentionSettings()
     quality: QualitySettings = QualitySettings()
+    scale_certificate: ScaleCertificateSettings | None = None
+    scan: ScanSettings = ScanSettings()
     outbox: OutboxSettings = OutboxSettings()
     emulated: EmulatedSettings = EmulatedSettings()
 

@@ -181,5 +181,7 @@ def _result(
     )
 
 
-APPLY = register(RunKind("apply", start_apply, check=check_apply))
-ROLL_BACK = register(RunKind("rollback", start_roll_back, check=check_roll_back, done_by=rolled_back_by))
+APPLY = register(RunKind("apply", start_apply, check=check_apply, rests_on_scale=False))
+ROLL_BACK = register(
+    RunKind("rollback", start_roll_back, check=check_roll_back, done_by=rolled_back_by, rests_on_scale=False)
+)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from station.store.chain import Chained, Verified, link_hash
 from station.store.health import too_full
 from station.store.opening import restore
 from station.store.rewinding import found, rewind
@@ -10,11 +11,14 @@ from station.store.store import Store
 from station.store.tables import Columns
 
 __all__ = [
+    "Chained",
     "Columns",
     "Page",
     "Store",
+    "Verified",
     "compact",
     "found",
+    "link_hash",
     "request_hash",
     "restore",
     "rewind",

@@ -49,7 +49,7 @@ def needed(found: object, what: str) -> None:
 class Station:
     """A `station serve` process on the emulated rig of its home folder."""
 
-    def __init__(self, home: Path, speed: float, rig: Path | None = None) -> None:
+    def __init__(self, home: Path, speed: float, rig: Path | None = None, config: Path | None = None) -> None:
         command = [sys.executable, "-m", "station", "--home", str(home), "serve"]
         self.process = subprocess.Popen(
             [
@@ -59,6 +59,7 @@ class Station:
                 "--speed",
                 str(speed),
                 *(["--emulate", str(rig)] if rig else []),
+                *(["--config", str(config)] if config else []),
             ],
             stdout=subprocess.PIPE,
             stderr=subprocess.DEVNULL,
@@ -112,8 +113,13 @@ def serve(tmp_path: Path) -> Iterator[Serve]:
     needed(*BUILT_PAGE)
     with ExitStack() as opened:
 
-        def serve(home: Path | None = None, speed: float = 200.0, rig: Path | None = None) -> Station:
-            station = Station(home or tmp_path, speed, rig)
+        def serve(
+            home: Path | None = None,
+            speed: float = 200.0,
+            rig: Path | None = None,
+            config: Path | None = None,
+        ) -> Station:
+            station = Station(home or tmp_path, speed, rig, config)
             opened.callback(station.close)
             return station
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from playwright.sync_api import Page, expect
+from playwright.sync_api import Locator, Page, expect
 
 from tests.browser.conftest import ROOT, Station, needed
 
@@ -18,10 +18,21 @@ def open_station(page: Page, station: Station) -> None:
     expect(page.locator("header")).to_contain_text("connected")
 
 
-def scan(page: Page, code: str) -> None:
-    """As a barcode scanner does: characters, then Enter, into whatever has the focus."""
-    page.keyboard.type(code)
-    page.keyboard.press("Enter")
+SCANNER_MS = 5
+"""From one key of a scanner to the next."""
+HOLD_MS = 1200
+"""Longer than what confirms has to be held."""
+
+
+def scan(page: Page, code: str, *, end: str = "Enter", delay: float = SCANNER_MS) -> None:
+    """As a barcode scanner does: key after key, then Enter, into whatever has the focus."""
+    page.keyboard.type(code, delay=delay)
+    page.keyboard.press(end)
+
+
+def confirm(page: Page, within: Locator | None = None) -> None:
+    """Hold the button that confirms, as with a glove."""
+    (within or page).get_by_role("button", name="Confirm").click(delay=HOLD_MS)
 
 
 def arm(page: Page, serial: str = "FB-7") -> None:
@@ -33,7 +44,7 @@ def arm(page: Page, serial: str = "FB-7") -> None:
 
 def start(page: Page, serial: str = "FB-7") -> None:
     arm(page, serial)
-    page.get_by_role("button", name="Confirm").click()
+    confirm(page)
     expect(page.get_by_role("button", name="Abort run")).to_be_enabled()
 
 

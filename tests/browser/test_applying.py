@@ -5,14 +5,14 @@ from __future__ import annotations
 from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import Station
-from tests.browser.steps import add_run, violations
+from tests.browser.steps import add_run, confirm, violations
 
 MARK = "button => button.dataset.mine = 'yes'"
 
 
 def press(page: Page, label: str) -> None:
     page.get_by_role("button", name=label, exact=True).click()
-    page.get_by_role("group", name=f"Confirm: {label}").get_by_role("button", name="Confirm").click()
+    confirm(page, page.get_by_role("group", name=f"Confirm: {label}"))
 
 
 def test_offsets_are_applied_verified_and_rolled_back(page: Page, station: Station) -> None:

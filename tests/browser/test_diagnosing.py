@@ -11,7 +11,7 @@ import pytest
 from playwright.sync_api import Locator, Page, Route, expect
 
 from tests.browser.conftest import LARGE, ROOT, SMALL, Serve, Station
-from tests.browser.steps import add_run, violations
+from tests.browser.steps import add_run, confirm, violations
 from tests.station.simulated import Drawn, to_csv
 
 RIGS = ROOT / "drivers/emulated/rigs"
@@ -30,7 +30,7 @@ def find_cause(page: Page, station: Station, *, serial: str = "FB-D") -> None:
     expect(button).to_be_disabled()
     cause.get_by_label("Operator").fill("ada")
     button.click()
-    cause.get_by_role("button", name="Confirm").click()
+    confirm(page, cause)
     expect(page.get_by_role("heading", level=1)).to_have_text("Result of run 2")
 
 

@@ -6,7 +6,7 @@ import pytest
 from playwright.sync_api import BrowserContext, Page, ViewportSize, expect
 
 from tests.browser.conftest import LARGE, SMALL, Station
-from tests.browser.steps import add_run, arm, open_station, start, violations
+from tests.browser.steps import add_run, arm, confirm, open_station, start, violations
 
 ON_TOP = """button => {
   const box = button.getBoundingClientRect();
@@ -40,8 +40,7 @@ def test_nothing_is_cut_off_and_stop_is_always_at_hand(
     check(page)
     arm(page)
     check(page)
-    start_button = page.get_by_role("button", name="Confirm")
-    start_button.click()
+    confirm(page)
     expect(page.locator(".readings tbody tr").first).to_be_visible()
     check(page)
     expect(page.locator(".outcome")).to_be_visible()

@@ -81,6 +81,9 @@ def test_without_a_file_the_defaults_name_no_devices() -> None:
         (('format=8N2"', 'format=8N2"\ntimeout_s = 20'), r"\[servo\] timeout_s: .*10.*given: 20"),
         (("zero_at_deg = 180", "zero_at_deg = nan"), r"\[servo.joint.1\] zero_at_deg"),
         (('name = "Line 3"', "name = "), "is not valid TOML"),
+        (("[scale]", "[scan]\nserial = '('\n[scale]"), r"\[scan\] serial: is no regular expression"),
+        (("[scale]", "[scan]\nbadge = '(?P<n>.)'\n[scale]"), r"\[scan\] badge: .*no other \(\?"),
+        (("[scale]", "[scan]\nbadge = '.*'\n[scale]"), r"\[scan\].*must not fit the pattern of a badge"),
     ],
 )
 def test_what_is_wrong_is_named_with_section_option_bounds_and_value(

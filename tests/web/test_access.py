@@ -37,6 +37,15 @@ def ada(closed: Service) -> Service:
     return closed
 
 
+def test_who_signs_in_takes_the_place_of_who_was_there(ada: Service) -> None:
+    sign_in(ada)
+    earlier = ada.client.cookies[COOKIE]
+    assert sign_in(ada).status_code == 201
+    ada.client.cookies.clear()
+    ada.client.cookies.set(COOKIE, earlier)
+    assert "has ended" in refusal(ada.client.get(SESSION))[1]
+
+
 def sign_in(service: Service, name: str = "ada", password: str = PASSWORD) -> Any:
     return service.client.post(SESSION, json={"name": name, "password": password})
 

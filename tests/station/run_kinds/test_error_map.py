@@ -19,7 +19,7 @@ from station.records import Complex, ErrorMap, JointAngle, Real, State
 from station.run_kinds import RUN_KINDS, Start, error_map
 from station.settings import JointSettings, Settings
 from station.store import Store
-from station.studies.plans.drawn import drawn, robot_of
+from station.studies.drawn import drawn, robot_of
 from station.studies.simulation import SimulatedMachine, true_positions
 from tests.station.asking import asked
 from tests.station.run_kinds.test_diagnose import BACKLASH, machine, run

@@ -8,8 +8,10 @@ import type {
   ErrorMap,
   PlanDocument,
   Problem,
+  RefusedScan,
   ResidualList,
   Robot,
+  ScanCodes,
   Separating,
   SignedIn,
   Solution,
@@ -33,8 +35,8 @@ export class Refused extends Error {
   }
 }
 
-async function call<T>(
-  method: "GET" | "POST" | "DELETE",
+export async function call<T>(
+  method: "GET" | "POST" | "PATCH" | "DELETE",
   path: string,
   options: RequestInit = {},
   accepted?: number,
@@ -118,6 +120,20 @@ export const signIn = (body: { name: string; password: string }) =>
 
 export const firstAdministrator = (body: { secret: string; name: string; password: string }) =>
   call<SignedIn>("POST", "/session/first", {
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify(body),
+  });
+
+export const signInByBadge = (body: { badge: string; pin: string }) =>
+  call<SignedIn>("POST", "/session", {
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify(body),
+  });
+
+export const scanCodes = () => call<ScanCodes>("GET", "/scans");
+
+export const refusedScan = (body: RefusedScan) =>
+  call<null>("POST", "/scans/refused", {
     headers: { "Content-Type": "application/json" },
     body: JSON.stringify(body),
   });

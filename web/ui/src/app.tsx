@@ -1,7 +1,9 @@
 /** The frame: a header that never scrolls away, and one view below it. */
+import { t } from "./messages";
 import { Header } from "./parts/header";
+import { useLoaded } from "./parts/load";
 import { path } from "./router";
-import { session } from "./session";
+import { badge, session } from "./session";
 import { DiagnosisView } from "./views/diagnosis/diagnosis";
 import { HistoryView } from "./views/history/history";
 import { ResultView } from "./views/result/result";
@@ -20,10 +22,18 @@ export function App() {
 }
 
 function View() {
-  if (session.value === null) return <SignInView />;
+  if (session.value === null || badge.value !== null) return <SignInView />;
   const [, view, id] = path.value.split("/");
   if (view === "history") return <HistoryView />;
+  if (view === "maintenance") return <Maintenance />;
   if (view === "diagnosis") return <DiagnosisView id={Number(id)} />;
   if (view === "result") return <ResultView id={id ? Number(id) : null} />;
   return <StationView />;
+}
+
+/** Comes when it is needed, not with the page. */
+function Maintenance() {
+  const { value: view, trouble } = useLoaded("", () => import("./views/maintenance/maintenance")).value;
+  if (view) return <view.MaintenanceView />;
+  return <p class="panel empty">{trouble === null ? t.shared.loading : t.refusals.noAnswer}</p>;
 }

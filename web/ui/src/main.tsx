@@ -1,11 +1,17 @@
 import { render } from "preact";
 import { App } from "./app";
+import { watchArmed } from "./armed";
 import { connect } from "./live";
 import { t } from "./messages";
+import { scanned, watchScans } from "./scanned";
+import { listen } from "./scanner";
 import { watchSession } from "./session";
 
 document.documentElement.lang = t.language;
 document.title = t.title;
 connect();
 watchSession();
+watchArmed();
+watchScans();
+listen(scanned);
 render(<App />, document.getElementById("app")!);

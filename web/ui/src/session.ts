@@ -7,6 +7,8 @@ import type { SignedIn } from "./types";
 const LOOK_MS = 10_000;
 
 export const session = signal<SignedIn | null | undefined>(undefined);
+/** A badge that was scanned and waits for its PIN; who is signed in stays so until then. */
+export const badge = signal<string | null>(null);
 
 function begin(known: SignedIn): void {
   session.value = known;
@@ -30,6 +32,12 @@ async function look(): Promise<void> {
 
 export async function signIn(name: string, password: string): Promise<void> {
   begin(await api.signIn({ name, password }));
+}
+
+/** Who shows the badge that was scanned, in place of whoever was signed in. */
+export async function signInByBadge(pin: string): Promise<void> {
+  begin(await api.signInByBadge({ badge: badge.peek() ?? "", pin }));
+  badge.value = null;
 }
 
 /** With the secret of the link that the station printed at its first start. */

@@ -32,6 +32,8 @@ export type Solution = Schemas["Solution"];
 export type Separating = Schemas["Separating"];
 export type Robot = Schemas["Robot"];
 export type Stopped = Schemas["Stopped"];
+export type ScanCodes = Schemas["ScanCodes"];
+export type RefusedScan = Schemas["RefusedScan"];
 export type Problem = Schemas["Problem"];
 
 /** One message of the live feed, by its type. */
@@ -72,3 +74,22 @@ export type Mistake = NonNullable<Diagnosis["mistake"]>;
 
 /** Of the position over the workspace, mm. */
 export type PositionError = Schemas["PositionError"];
+
+export type Role = NonNullable<SignedIn["role"]>;
+export type DeviceDetail = Schemas["DeviceDetail"];
+export type Found = Schemas["Found"];
+export type WireExchange = Schemas["WireExchange"];
+export type WireList = Schemas["WireList"];
+export type Delivery = Schemas["Delivery"];
+export type DeliveryList = Schemas["DeliveryList"];
+export type BackupMade = Schemas["BackupMade"];
+export type BackupDrill = Schemas["BackupDrill"];
+export type User = Schemas["User"];
+export type ApiKey = Schemas["ApiKey"];
+export type NewKey = Schemas["NewKey"];
+export type AuditEntry = Schemas["AuditEntry"];
+export type AuditList = Schemas["AuditList"];
+export type Versions = Schemas["Versions"];
+export type Training = Schemas["TrainingView"];
+export type Exercise = Schemas["Exercise"];
+export type Challenge = Schemas["Challenge"];

@@ -16,6 +16,7 @@ import type {
   State,
   Verdict,
 } from "../types";
+import { maintenance, training } from "./en-maintenance";
 
 /** How a thing is called, and what it is in one sentence. */
 interface Entry {
@@ -113,6 +114,9 @@ export const en = {
     confirm: "Confirm",
     confirmLabel: (label: string) => `Confirm: ${label}`,
     back: "Back",
+    /** Below the name of a button. */
+    hold: "hold for 1 s",
+    armedFor: (seconds: number) => `Hold the button, or scan the confirmation code, within ${seconds} s.`,
     /** Before every motion; the first part is emphasised. */
     willMove: (serial: string) => `Robot ${serial} will move`,
     clear: "Keep clear of its reach.",
@@ -133,7 +137,20 @@ export const en = {
     status: (status: number) => `The station responded with HTTP status ${status}.`,
   },
 
+  scan: {
+    notSerial: (text: string) => `Not a serial: ${text}`,
+    /** Read while a secret was being typed: its text is not shown. */
+    unknown: "Not a badge. Nothing was entered.",
+    unreadable: "The code could not be read completely. Scan it again.",
+    nothingToConfirm: "Nothing waits for a confirmation. Press what is to be done first.",
+    noCodes: "The station has not sent its codes yet. Scan again.",
+    signInFirst: "Sign in first.",
+    signedOn: (name: string) => `Operator: ${name}`,
+  },
   signIn: {
+    badge: "Sign in with your badge",
+    pin: "PIN",
+    scanBadge: "Or scan your badge.",
     title: "Sign in",
     first: "Make the first administrator",
     name: "Name",
@@ -149,6 +166,7 @@ export const en = {
     station: "Station",
     result: "Result",
     history: "History",
+    maintenance: "Maintenance",
     offline: "▲ OFFLINE",
     stale: "values may be old",
     connected: "connected",
@@ -191,9 +209,9 @@ export const en = {
     promptNumber: (unit: string) => `Type a number, in ${unit}.`,
     promptLeft: (time: string) => `The run ends if nobody answers within ${time}.`,
     promptSend: "Answer",
+    promptAnswer: (answer: string) => `Answer: ${answer}.`,
     promptDone: "Done",
     locked: "Calibrated work is locked",
-    confirmStart: "Confirm the start",
     serialMissing: "Scan or type the serial number of the robot.",
     operatorMissing: "Scan or type the name of the operator.",
     devices: "Devices",
@@ -582,6 +600,9 @@ export const en = {
     quantity: "Quantity",
     remark: "Remark",
   },
+
+  maintenance,
+  training,
 
   history: {
     title: "History",

@@ -1,8 +1,13 @@
-/** Two steps for what writes or forgets: press, then confirm.  Nothing is replaced while it updates. */
+/** Two steps for what moves, writes or forgets: press, then confirm.  Nothing is replaced while it updates. */
 import { useSignal } from "@preact/signals";
-import type { ComponentChildren } from "preact";
+import type { ComponentChildren, RefObject } from "preact";
 import { useEffect, useRef } from "preact/hooks";
+import { arm, armed, confirm, disarm, secondsLeft } from "../armed";
 import { t } from "../messages";
+import { HoldButton } from "./hold";
+
+/** A scan puts a field back as it was; only what stays changed for longer was meant. */
+const MEANT_MS = 60;
 
 interface Props {
   label: string;
@@ -12,70 +17,74 @@ interface Props {
   /** What is to be done next, rather than what may be. */
   prominent?: boolean;
   act: () => Promise<unknown>;
+  /** Before the question is asked: whether there is something to ask. */
+  check?: () => boolean;
+  /** What the question is about; another one withdraws it. */
+  about?: string;
+  button?: RefObject<HTMLButtonElement | null>;
 }
 
-export function ConfirmedButton({ label, children, disabled, prominent, act }: Props) {
-  const armed = useSignal(false);
+export function ConfirmedButton({ label, children, disabled, prominent, act, check, about, button }: Props) {
   const sending = useSignal(false);
   const trouble = useSignal<string | null>(null);
-  const button = useRef<HTMLButtonElement>(null);
-  const confirmButton = useRef<HTMLButtonElement>(null);
-  const wasArmed = useRef(false);
+  const own = useRef<HTMLButtonElement>(null);
+  const first = button ?? own;
+  const holding = useRef<HTMLButtonElement>(null);
+  const wasAsked = useRef(false);
+  const askedAbout = useRef(about);
+  const asked = armed.value?.by === first;
 
   useEffect(() => {
     // only now is the button enabled again and can take the focus
-    if (armed.value) confirmButton.current?.focus();
-    else if (wasArmed.current) button.current?.focus();
-    wasArmed.current = armed.value;
-  }, [armed.value]);
+    if (asked) holding.current?.focus();
+    else if (wasAsked.current && !holding.current?.ownerDocument.activeElement?.matches("input, select")) {
+      first.current?.focus();
+    }
+    wasAsked.current = asked;
+  }, [asked]);
   useEffect(() => {
-    if (disabled) armed.value = false;
+    if (disabled) disarm(first);
   }, [disabled]);
+  useEffect(() => {
+    if (!wasAsked.current || about === askedAbout.current) return;
+    const timer = setTimeout(() => disarm(first), MEANT_MS);
+    return () => clearTimeout(timer);
+  }, [about]);
+  useEffect(() => () => disarm(first), []);
 
-  const confirm = async () => {
-    if (sending.value) return;
+  const send = async () => {
     sending.value = true;
     trouble.value = await act().then(
       () => null,
       (error: Error) => error.message,
     );
     sending.value = false;
-    armed.value = false;
   };
   return (
     <div class="confirmed">
       <button
         type="button"
         class={prominent ? "act" : undefined}
-        ref={button}
-        disabled={disabled || armed.value}
+        ref={first}
+        disabled={disabled || sending.value || asked}
         onClick={() => {
           trouble.value = null;
-          armed.value = true;
+          askedAbout.current = about;
+          if (check?.() ?? true) arm(first, () => void send());
         }}
       >
         {label}
       </button>
-      <div class="confirm" role="group" aria-label={t.shared.confirmLabel(label)} hidden={!armed.value}>
+      <div class="confirm" role="group" aria-label={t.shared.confirmLabel(label)} hidden={!asked}>
         <p>{children}</p>
-        <button
-          class="act"
-          type="button"
-          ref={confirmButton}
-          disabled={disabled || sending.value}
-          onKeyDown={(event) => event.repeat && event.preventDefault()}
-          onClick={() => void confirm()}
-        >
+        <HoldButton disabled={!asked} button={holding} held={confirm}>
           {t.shared.confirm}
-        </button>
-        <button
-          type="button"
-          onClick={() => {
-            armed.value = false;
-          }}
-        >
+          <small>{t.shared.hold}</small>
+        </HoldButton>
+        <button type="button" onClick={() => disarm(first)}>
           {t.shared.back}
         </button>
+        <p class="note">{asked && t.shared.armedFor(secondsLeft.value)}</p>
       </div>
       <p class="trouble" role="alert">
         {trouble.value && `▲ ${trouble.value}`}

@@ -3,6 +3,7 @@ import { clock, connected, offline, station } from "../live";
 import { t } from "../messages";
 import { path } from "../router";
 import { Link } from "./link";
+import { ScanNotice } from "./scan-notice";
 import { StopButton, StopReport } from "./stop";
 import { Who } from "./who";
 
@@ -10,6 +11,7 @@ const VIEWS = [
   { to: "/", text: t.header.station, views: ["/"] },
   { to: "/result", text: t.header.result, views: ["/result", "/diagnosis"] },
   { to: "/history", text: t.header.history, views: ["/history"] },
+  { to: "/maintenance", text: t.header.maintenance, views: ["/maintenance"] },
 ];
 
 export function Header() {
@@ -28,6 +30,7 @@ export function Header() {
       </div>
       <Who />
       <StopReport />
+      <ScanNotice />
     </header>
   );
 }

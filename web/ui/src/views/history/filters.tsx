@@ -1,5 +1,5 @@
 import { t } from "../../messages";
-import { navigate, query } from "../../router";
+import { navigate, path, query } from "../../router";
 import type { Verdict } from "../../types";
 import { address, withFilter } from "./address";
 
@@ -34,6 +34,8 @@ export function Filters() {
 }
 
 function set(name: string, value: string): void {
+  // a field that is left because the view is left still tells of what was typed into it
+  if (path.value !== "/history") return;
   // the address as it is now: another filter may have been set since the form was drawn
   navigate(address(withFilter(query.value, name, value)), { replace: true });
 }

@@ -1,9 +1,10 @@
-/** Name and password; with the link of the first start it makes the first administrator. */
+/** Name and password, or badge and PIN; with the link of the first start it makes the first administrator. */
 import { useSignal } from "@preact/signals";
+import { useEffect, useRef } from "preact/hooks";
 import { Refused } from "../../api";
 import { t } from "../../messages";
 import { navigate } from "../../router";
-import { makeFirst, signIn } from "../../session";
+import { badge, makeFirst, session, signIn, signInByBadge } from "../../session";
 
 const FIRST = "#first=";
 
@@ -12,14 +13,23 @@ export function SignInView() {
   const name = useSignal("");
   const password = useSignal("");
   const refused = useSignal("");
+  const secretField = useRef<HTMLInputElement>(null);
+  const byBadge = badge.value !== null;
+
+  useEffect(() => {
+    password.value = refused.value = "";
+    if (badge.value) secretField.current?.focus();
+  }, [badge.value]);
 
   async function submit(event: Event): Promise<void> {
     event.preventDefault();
     refused.value = "";
+    const begins = !session.value;
     try {
-      if (secret) await makeFirst(secret, name.value, password.value);
+      if (byBadge) await signInByBadge(password.value);
+      else if (secret) await makeFirst(secret, name.value, password.value);
       else await signIn(name.value, password.value);
-      navigate("/", { replace: true });
+      if (begins) navigate("/", { replace: true });
     } catch (error) {
       refused.value = error instanceof Refused ? error.message : String(error);
     }
@@ -28,26 +38,30 @@ export function SignInView() {
 
   return (
     <form class="panel sign-in" onSubmit={(event) => void submit(event)}>
-      <h1>{secret ? t.signIn.first : t.signIn.title}</h1>
+      <h1>{byBadge ? t.signIn.badge : secret ? t.signIn.first : t.signIn.title}</h1>
+      {!byBadge && (
+        <p class="field">
+          <label for="name">{t.signIn.name}</label>
+          <input
+            id="name"
+            autocomplete="username"
+            required
+            maxLength={64}
+            value={name.value}
+            onInput={(event) => {
+              name.value = event.currentTarget.value;
+            }}
+          />
+        </p>
+      )}
       <p class="field">
-        <label for="name">{t.signIn.name}</label>
-        <input
-          id="name"
-          autocomplete="username"
-          required
-          maxLength={64}
-          value={name.value}
-          onInput={(event) => {
-            name.value = event.currentTarget.value;
-          }}
-        />
-      </p>
-      <p class="field">
-        <label for="password">{t.signIn.password}</label>
+        <label for="password">{byBadge ? t.signIn.pin : t.signIn.password}</label>
         <input
           id="password"
+          ref={secretField}
           type="password"
-          autocomplete={secret ? "new-password" : "current-password"}
+          inputMode={byBadge ? "numeric" : undefined}
+          autocomplete={byBadge ? "off" : secret ? "new-password" : "current-password"}
           required
           value={password.value}
           onInput={(event) => {
@@ -58,9 +72,20 @@ export function SignInView() {
       <button class="act" type="submit">
         {t.signIn.button}
       </button>
+      {byBadge && (
+        <button
+          type="button"
+          onClick={() => {
+            badge.value = null;
+          }}
+        >
+          {t.shared.back}
+        </button>
+      )}
       <p class="alarm warn" role="alert" hidden={!refused.value}>
         {refused.value}
       </p>
+      {!byBadge && !secret && <p>{t.signIn.scanBadge}</p>}
       <p>{t.signIn.stopWithout}</p>
     </form>
   );

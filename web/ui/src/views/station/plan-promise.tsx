@@ -1,13 +1,27 @@
+import { useSignal } from "@preact/signals";
+import { useEffect } from "preact/hooks";
 import { plan as readPlan } from "../../api";
 import { duration, fixed } from "../../format";
 import { t } from "../../messages";
 import { useLoaded } from "../../parts/load";
 import { plan, serial } from "./start";
 
+/** A plan is made anew for each serial: only for one that is typed to its end. */
+const TYPED_MS = 300;
+
 /** How long the chosen plan takes and how good it gets, for a robot within its tolerances. */
 export function PlanPromise() {
-  const key = `${plan.value} ${serial.value.trim()}`;
-  const { value } = useLoaded(key, () => readPlan(plan.value, serial.value.trim())).value;
+  const typed = serial.value.trim();
+  const settled = useSignal(typed);
+  useEffect(() => {
+    const timer = setTimeout(() => {
+      settled.value = typed;
+    }, TYPED_MS);
+    return () => clearTimeout(timer);
+  }, [typed]);
+  const { value } = useLoaded(`${plan.value} ${settled.value}`, () =>
+    readPlan(plan.value, settled.value),
+  ).value;
   const predicted = value?.predicted;
   if (!predicted || predicted.duration_s === null) return null;
   return (

@@ -1,12 +1,14 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { answer, Refused } from "../../api";
+import { answer } from "../../api";
 import { duration } from "../../format";
 import { clock, connected, station } from "../../live";
 import { t } from "../../messages";
 import { operator } from "../../operator";
+import { ConfirmedButton } from "../../parts/confirm";
+import { MotionWarning } from "../../parts/motion-warning";
 
-/** What a run that waits asks, with the field for its answer and the time that is left. */
+/** What a run that waits asks, with the field for its answer and the time that is left.  After it the robot moves. */
 export function Prompt() {
   const run = station.value?.run;
   const prompt = run?.prompt ?? null;
@@ -21,26 +23,27 @@ export function Prompt() {
   }, [prompt?.id]);
   if (!run || !prompt) return null;
   const leftS = Math.max(0, (Date.parse(prompt.expires_at) - clock.value.getTime()) / 1000);
-  const send = async (event: Event) => {
-    event.preventDefault();
-    const text = typed.value.trim().replace(",", ".");
-    if (prompt.kind === "number" && (text === "" || !Number.isFinite(Number(text)))) {
-      trouble.value = t.station.promptNumber(prompt.unit ?? "");
-      return;
-    }
-    try {
-      const value = prompt.kind === "number" ? Number(text) : null;
-      await answer(run.id, prompt.id, value, operator.value.trim() || "page");
-    } catch (error) {
-      trouble.value = error instanceof Refused ? error.message : String(error);
-    }
+  const text = typed.value.trim().replace(",", ".");
+  const isNumber = prompt.kind === "number";
+  const check = () => {
+    const wrong = isNumber && (text === "" || !Number.isFinite(Number(text)));
+    trouble.value = wrong ? t.station.promptNumber(prompt.unit ?? "") : "";
+    if (wrong) field.current?.focus();
+    return !wrong;
   };
   return (
-    <form class="prompt" onSubmit={(event) => void send(event)} autocomplete="off">
+    <form
+      class="prompt"
+      onSubmit={(event) => {
+        event.preventDefault();
+        button.current?.focus();
+      }}
+      autocomplete="off"
+    >
       <p role="status">
         <strong>{prompt.text}</strong>
       </p>
-      {prompt.kind === "number" && (
+      {isNumber && (
         <p class="field">
           <label for="answer">{t.station.promptValue(prompt.unit ?? "")}</label>
           <input
@@ -59,9 +62,18 @@ export function Prompt() {
         {trouble.value && `▲ ${trouble.value}`}
       </p>
       <p class="note">{t.station.promptLeft(duration(leftS))}</p>
-      <button class="act" type="submit" ref={button} disabled={!connected.value}>
-        {prompt.kind === "number" ? t.station.promptSend : t.station.promptDone}
-      </button>
+      <ConfirmedButton
+        label={isNumber ? t.station.promptSend : t.station.promptDone}
+        prominent
+        disabled={!connected.value}
+        button={button}
+        about={`${prompt.id} ${text}`}
+        check={check}
+        act={() => answer(run.id, prompt.id, isNumber ? Number(text) : null, operator.value.trim() || "page")}
+      >
+        {isNumber && <strong>{t.station.promptAnswer(`${text} ${prompt.unit ?? ""}`)} </strong>}
+        <MotionWarning serial={run.robot_serial} />
+      </ConfirmedButton>
     </form>
   );
 }

@@ -1,4 +1,4 @@
-/** Two steps to move the machine: Calibrate, then confirm.  Scanner and keyboard alone are enough. */
+/** Two steps to move the machine: Calibrate, then confirm.  A scan fills in fields; it starts nothing. */
 import type { Signal } from "@preact/signals";
 import type { ComponentChildren, RefObject } from "preact";
 import { useEffect, useRef } from "preact/hooks";
@@ -6,62 +6,39 @@ import { connected, station } from "../../live";
 import { t } from "../../messages";
 import { planOf } from "../../names";
 import { operator } from "../../operator";
+import { ConfirmedButton } from "../../parts/confirm";
 import { MotionWarning } from "../../parts/motion-warning";
 import type { Plan } from "../../types";
 import { dismissOutcome } from "./outcome";
 import { PlanPromise } from "./plan-promise";
-import {
-  arm,
-  armed,
-  confirm,
-  disarm,
-  emptyField,
-  plan,
-  type StartField,
-  sending,
-  serial,
-  trouble,
-} from "./start";
+import { begin, body, emptyField, missing, plan, type StartField, scans, serial, trouble } from "./start";
 import { WishFields } from "./wish-fields";
 
 export function StartForm() {
   const serialField = useRef<HTMLInputElement>(null);
   const operatorField = useRef<HTMLInputElement>(null);
   const calibrateButton = useRef<HTMLButtonElement>(null);
-  const confirmButton = useRef<HTMLButtonElement>(null);
   const run = station.value?.run ?? null;
-  const free = connected.value && run === null;
-  const idle = free && !sending.value;
-  const goingBack = useRef(false);
-  const focus = (field: StartField | null, otherwise?: RefObject<HTMLElement | null>) => {
-    const target = { robot_serial: serialField, operator: operatorField };
-    (field ? target[field] : otherwise)?.current?.focus();
+  const wanted = body();
+  const focus = (field: string | null, otherwise?: RefObject<HTMLElement | null>) => {
+    if (field === "robot_serial") serialField.current?.focus();
+    else if (field === "operator") operatorField.current?.focus();
+    else if (field === null) otherwise?.current?.focus();
   };
 
-  useEffect(() => serialField.current?.focus(), []);
   useEffect(() => {
-    if (armed.value) confirmButton.current?.focus();
-    // only now is the button enabled again and can take the focus
-    else if (goingBack.current) calibrateButton.current?.focus();
-    goingBack.current = false;
-  }, [armed.value]);
+    if (scans.value > 0) focus(emptyField(), calibrateButton);
+    else serialField.current?.focus();
+  }, [scans.value]);
   useEffect(() => {
-    // not while sending: after a lost answer the same key has to be sent again
-    if (!free) disarm();
-  }, [free]);
-  useEffect(() => {
-    // what had the focus may have been disabled by the run's start or end: the next scan must not get lost
+    // what had the focus may have been disabled by the run's start or end: what is typed next must not get lost
     if (document.activeElement === document.body || document.activeElement?.matches(":disabled")) {
       serialField.current?.focus();
     }
   }, [run?.id]);
 
-  const confirmed = async () => {
-    if (await confirm()) serialField.current?.focus();
-  };
-
-  /** A scanner ends its code with Enter: that leads to the next field that is empty. */
-  const scanned = (event: SubmitEvent) => {
+  /** Enter leads to the next field that is empty; it never starts anything. */
+  const entered = (event: SubmitEvent) => {
     event.preventDefault();
     trouble.value = null;
     if (document.activeElement === serialField.current && serial.value.trim()) dismissOutcome();
@@ -70,7 +47,7 @@ export function StartForm() {
 
   return (
     <section class="start" aria-label={t.station.start}>
-      <form onSubmit={scanned} autocomplete="off">
+      <form onSubmit={entered} autocomplete="off">
         <TextField name="robot_serial" label={t.station.serial} input={serialField} value={serial} />
         <TextField name="operator" label={t.shared.operator} input={operatorField} value={operator} />
         <PlanField />
@@ -84,39 +61,21 @@ export function StartForm() {
       <p id="trouble" class={trouble.value ? "trouble" : ""} role="alert">
         {trouble.value && `▲ ${trouble.value.text}`}
       </p>
-      <button
-        class="act"
-        type="button"
-        ref={calibrateButton}
-        disabled={!idle || armed.value !== null}
-        onClick={() => focus(arm())}
+      <ConfirmedButton
+        label={t.station.calibrate}
+        prominent
+        disabled={!connected.value || run !== null}
+        button={calibrateButton}
+        about={JSON.stringify(wanted)}
+        check={() => {
+          const field = missing();
+          focus(field);
+          return field === null;
+        }}
+        act={() => begin(wanted)}
       >
-        {t.station.calibrate}
-      </button>
-      <div class="confirm" role="group" aria-label={t.station.confirmStart} hidden={armed.value === null}>
-        <p>
-          <MotionWarning serial={serial.value.trim()} />
-        </p>
-        <button
-          class="act"
-          type="button"
-          ref={confirmButton}
-          disabled={!idle}
-          onKeyDown={(event) => event.repeat && event.preventDefault()}
-          onClick={() => void confirmed()}
-        >
-          {t.shared.confirm}
-        </button>
-        <button
-          type="button"
-          onClick={() => {
-            goingBack.current = true;
-            disarm();
-          }}
-        >
-          {t.shared.back}
-        </button>
-      </div>
+        <MotionWarning serial={wanted.robot_serial} />
+      </ConfirmedButton>
     </section>
   );
 }
@@ -141,7 +100,6 @@ function TextField({ name, label, input, value }: TextFieldProps) {
         aria-invalid={trouble.value?.field === name}
         onInput={(event) => {
           value.value = event.currentTarget.value;
-          disarm();
         }}
       />
     </Field>
@@ -157,7 +115,6 @@ function PlanField() {
         aria-describedby="plan-explanation"
         onChange={(event) => {
           plan.value = event.currentTarget.value as Plan;
-          disarm();
         }}
       >
         {(station.value?.station.plans ?? ["paper"]).map((name) => (

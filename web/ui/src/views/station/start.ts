@@ -1,9 +1,9 @@
-/** What a start needs, and its two steps: arm, then confirm. */
+/** What a start needs. */
 import { signal } from "@preact/signals";
 import { newKey, Refused, start } from "../../api";
 import { t } from "../../messages";
 import { keepOperator, operator } from "../../operator";
-import type { Plan } from "../../types";
+import type { CalibrationBody, Plan } from "../../types";
 import { dismissOutcome } from "./outcome";
 import { forgetWishes, said } from "./wishes";
 
@@ -11,10 +11,18 @@ export type StartField = "robot_serial" | "operator";
 
 export const serial = signal("");
 export const plan = signal<Plan>("paper");
-/** The confirmed start's key; null while nothing waits to be confirmed. */
-export const armed = signal<string | null>(null);
-export const sending = signal(false);
 export const trouble = signal<{ text: string; field: string | null } | null>(null);
+/** How many scans filled in a field: each one leads on to what is missing. */
+export const scans = signal(0);
+
+/** A scanned serial replaces what was there; what was measured at another robot does not hold for this one. */
+export function takeSerial(text: string): void {
+  if (serial.value.trim() && serial.value.trim() !== text) forgetWishes();
+  serial.value = text;
+  trouble.value = null;
+  dismissOutcome();
+  scans.value += 1;
+}
 
 /** The first field that is still empty. */
 export function emptyField(): StartField | null {
@@ -22,46 +30,45 @@ export function emptyField(): StartField | null {
   return operator.value.trim() ? null : "operator";
 }
 
-/** Waits for the confirmation if nothing is missing; else answers the field that is. */
-export function arm(): StartField | null {
+/** What has to be filled in or corrected first; null when nothing is missing. */
+export function missing(): string | null {
   const field = emptyField();
   const text = field === "robot_serial" ? t.station.serialMissing : t.station.operatorMissing;
-  trouble.value = field && { text, field };
-  if (field) return field;
   const { wrong } = said();
-  if (wrong) trouble.value = { text: t.station.wishWrong, field: wrong };
-  else armed.value = newKey();
-  return null;
+  trouble.value = field ? { text, field } : wrong && { text: t.station.wishWrong, field: wrong };
+  return trouble.value?.field ?? null;
 }
 
-export function disarm(): void {
-  armed.value = null;
+/** As the fields are now. */
+export const body = (): CalibrationBody => ({
+  robot_serial: serial.value.trim(),
+  plan: plan.value,
+  operator: operator.value.trim(),
+  ...said().body,
+});
+
+let unanswered: { text: string; key: string } | null = null;
+
+/** The same start after a lost answer has the same key, so that it is one run. */
+function keyOf(wanted: CalibrationBody): string {
+  const text = JSON.stringify(wanted);
+  const key = unanswered?.text === text ? unanswered.key : newKey();
+  unanswered = { text, key };
+  return key;
 }
 
-/** Starts what is armed; answers whether it did.  After a refusal the same start can be confirmed again. */
-export async function confirm(): Promise<boolean> {
-  const key = armed.value;
-  if (!key || sending.value) return false;
-  sending.value = true;
+/** Starts a run; a refusal is shown at its field. */
+export async function begin(wanted: CalibrationBody): Promise<void> {
   try {
-    const body = {
-      robot_serial: serial.value.trim(),
-      plan: plan.value,
-      operator: operator.value.trim(),
-      ...said().body,
-    };
-    await start(body, key);
+    await start(wanted, keyOf(wanted));
+    unanswered = null;
     keepOperator();
     forgetWishes();
     trouble.value = null;
-    disarm();
     dismissOutcome();
-    return true;
   } catch (error) {
     const { message, field } = error instanceof Refused ? error : { message: String(error), field: null };
+    if (error instanceof Refused && error.status !== null) unanswered = null;
     trouble.value = { text: message, field };
-    return false;
-  } finally {
-    sending.value = false;
   }
 }

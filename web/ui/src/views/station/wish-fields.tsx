@@ -1,5 +1,5 @@
 import { t } from "../../messages";
-import { disarm, trouble } from "./start";
+import { trouble } from "./start";
 import { type Wish, wishes } from "./wishes";
 
 /** The wanted accuracy, and references behind a fold: few runs have any. */
@@ -16,7 +16,6 @@ export function WishFields() {
             value={wishes.joint.value}
             onChange={(event) => {
               wishes.joint.value = event.currentTarget.value;
-              disarm();
             }}
           >
             <option value="1">1</option>
@@ -46,7 +45,6 @@ function NumberField({ name, label }: { name: Wish; label: string }) {
         aria-invalid={trouble.value?.field === name}
         onInput={(event) => {
           wishes[name].value = event.currentTarget.value;
-          disarm();
         }}
       />
     </p>

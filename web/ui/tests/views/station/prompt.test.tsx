@@ -2,6 +2,7 @@ import { render } from "preact";
 import { act } from "preact/test-utils";
 import { afterEach, beforeEach, expect, it, vi } from "vitest";
 import type * as Api from "../../../src/api";
+import { confirm } from "../../../src/armed";
 import { now, station } from "../../../src/live";
 import { operator } from "../../../src/operator";
 import { Prompt } from "../../../src/views/station/prompt";
@@ -13,9 +14,13 @@ vi.mock("../../../src/api", async (load) => ({ ...(await load<typeof Api>()), an
 const ASKED = { id: "p1", text: "Read the level.", kind: "number" as const, unit: "deg", expires_at: "" };
 let place: HTMLElement;
 const shown = () => act(() => render(<Prompt />, place));
-const submit = () =>
+const press = () =>
   act(async () => {
-    place.querySelector("form")!.dispatchEvent(new Event("submit", { cancelable: true }));
+    place.querySelector("button")!.click();
+  });
+const confirmed = () =>
+  act(async () => {
+    confirm();
   });
 
 beforeEach(() => {
@@ -41,7 +46,8 @@ it("asks for a number and sends it with the prompt it answers", async () => {
   station.value = stationNow({ run: run({ state: "waiting", prompt: { ...ASKED, expires_at } }) });
   await shown();
   expect(place.textContent).toContain("Read the level.");
-  await submit();
+  await press();
+  await confirmed();
   expect(sent).not.toHaveBeenCalled();
   expect(place.querySelector("[role=alert]")!.textContent).toContain("Type a number");
   const field = place.querySelector("input")!;
@@ -49,7 +55,9 @@ it("asks for a number and sends it with the prompt it answers", async () => {
   await act(async () => {
     field.dispatchEvent(new Event("input", { bubbles: true }));
   });
-  await submit();
+  await press();
+  expect(sent).not.toHaveBeenCalled();
+  await confirmed();
   expect(sent).toHaveBeenCalledWith(2, "p1", 0.125, "ada");
 });
 
@@ -58,6 +66,8 @@ it("asks for a confirmation without a field", async () => {
   station.value = stationNow({ run: run({ state: "waiting", prompt }) });
   await shown();
   expect(place.querySelector("input")).toBeNull();
-  await submit();
+  await press();
+  expect(sent).not.toHaveBeenCalled();
+  await confirmed();
   expect(sent).toHaveBeenCalledWith(2, "p1", null, "ada");
 });

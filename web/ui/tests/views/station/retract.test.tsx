@@ -2,6 +2,7 @@ import { render } from "preact";
 import { act } from "preact/test-utils";
 import { afterEach, beforeEach, expect, it, vi } from "vitest";
 import type * as Api from "../../../src/api";
+import { confirm } from "../../../src/armed";
 import { now, station } from "../../../src/live";
 import { operator } from "../../../src/operator";
 import { Retract } from "../../../src/views/station/retract";
@@ -37,9 +38,10 @@ it("is offered outside, says how far, and moves only after a confirmation", asyn
   station.value = stationNow({ retract: OUTSIDE });
   await shown();
   expect(place.textContent).toContain("91.2 mm outside");
-  const [press, confirm] = [...place.querySelectorAll("button")];
-  await act(() => press!.click());
+  await act(() => place.querySelector("button")!.click());
   expect(sent).not.toHaveBeenCalled();
-  await act(() => confirm!.click());
+  await act(() => {
+    confirm();
+  });
   expect(sent).toHaveBeenCalledWith("ada", expect.any(String));
 });

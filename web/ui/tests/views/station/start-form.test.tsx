@@ -3,19 +3,22 @@ import { act } from "preact/test-utils";
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import type * as Api from "../../../src/api";
 import { Refused } from "../../../src/api";
+import { confirm, disarm, watchArmed } from "../../../src/armed";
 import { now, station } from "../../../src/live";
 import { operator } from "../../../src/operator";
-import { armed, plan, sending, serial, trouble } from "../../../src/views/station/start";
+import { plan, serial, takeSerial, trouble } from "../../../src/views/station/start";
 import { StartForm } from "../../../src/views/station/start-form";
+import { wishes } from "../../../src/views/station/wishes";
 import { run, stationNow, summary } from "../../samples";
 
 const sent = vi.hoisted(() => vi.fn<typeof Api.start>());
 vi.mock("../../../src/api", async (load) => ({ ...(await load<typeof Api>()), start: sent }));
 
 let place: HTMLElement;
+let unwatch: () => void;
 const field = (id: string) => place.querySelector<HTMLInputElement>(`#${id}`)!;
 const button = (text: string) =>
-  [...place.querySelectorAll("button")].find((one) => one.textContent === text)!;
+  [...place.querySelectorAll("button")].find((one) => one.textContent?.startsWith(text))!;
 const press = (text: string) =>
   act(async () => {
     button(text).click();
@@ -28,8 +31,13 @@ const type = (id: string, text: string) =>
     field(id).value = text;
     field(id).dispatchEvent(new Event("input", { bubbles: true }));
   });
-/** As a scanner does: characters, then Enter. */
-const scan = async (id: string, text: string) => {
+const confirmed = () =>
+  act(async () => {
+    confirm();
+    await new Promise((settled) => setTimeout(settled));
+  });
+/** As a person does: characters, then Enter. */
+const enter = async (id: string, text: string) => {
   await type(id, text);
   await act(() => {
     place.querySelector("form")?.dispatchEvent(new Event("submit", { bubbles: true, cancelable: true }));
@@ -40,25 +48,27 @@ beforeEach(async () => {
   sent.mockReset().mockResolvedValue(summary());
   serial.value = operator.value = "";
   plan.value = "paper";
-  armed.value = trouble.value = null;
-  sending.value = false;
+  trouble.value = null;
+  disarm();
   now.value = performance.now();
   station.value = stationNow();
   place = document.body.appendChild(document.createElement("div"));
+  unwatch = watchArmed();
   await act(() => render(<StartForm />, place));
 });
 
 afterEach(() => {
+  unwatch();
   render(null, place);
   place.remove();
 });
 
 describe("a start", () => {
-  it("begins at the serial, and a scanner leads from field to field", async () => {
+  it("begins at the serial, and Enter leads from field to field", async () => {
     expect(document.activeElement).toBe(field("robot_serial"));
-    await scan("robot_serial", "FB-1");
+    await enter("robot_serial", "FB-1");
     expect(document.activeElement).toBe(field("operator"));
-    await scan("operator", "ada");
+    await enter("operator", "ada");
     expect(document.activeElement).toBe(button("Calibrate"));
     expect(sent).not.toHaveBeenCalled();
   });
@@ -92,11 +102,8 @@ describe("a start", () => {
     await type("robot_serial", " FB-1 ");
     await type("operator", "ada ");
     await press("Calibrate");
-    const confirm = button("Confirm");
-    await act(async () => {
-      confirm.click();
-      confirm.click();
-    });
+    await confirmed();
+    await confirmed();
     expect(sent).toHaveBeenCalledTimes(1);
     const [body, key] = sent.mock.calls[0]!;
     expect(body).toEqual({ robot_serial: "FB-1", plan: "full", operator: "ada" });
@@ -122,7 +129,7 @@ describe("an armed start", () => {
 
   it.each(["robot_serial", "operator"])("is withdrawn when the %s changes", async (id) => {
     await type(id, "other");
-    expect(asked()).toBe(false);
+    await vi.waitFor(() => expect(asked()).toBe(false));
   });
 
   it("is withdrawn when the plan changes", async () => {
@@ -131,7 +138,7 @@ describe("an armed start", () => {
       select.value = "full";
       select.dispatchEvent(new Event("change", { bubbles: true }));
     });
-    expect(asked()).toBe(false);
+    await vi.waitFor(() => expect(asked()).toBe(false));
     expect(place.textContent).toContain("eight further readings");
   });
 
@@ -146,37 +153,53 @@ describe("an armed start", () => {
     expect(button("Calibrate").disabled).toBe(true);
   });
 
-  it("is not confirmed by a key that is held down", () => {
-    const key = (repeat: boolean) =>
-      new KeyboardEvent("keydown", { key: "Enter", repeat, cancelable: true, bubbles: true });
-    const [held, pressed] = [key(true), key(false)];
-    button("Confirm").dispatchEvent(held);
-    button("Confirm").dispatchEvent(pressed);
-    expect([held.defaultPrevented, pressed.defaultPrevented]).toEqual([true, false]);
+  it("starts what it named, whatever is in the fields by then", async () => {
+    serial.value = "FB-1CONFIRM";
+    confirm();
+    await vi.waitFor(() => expect(sent).toHaveBeenCalledTimes(1));
+    expect(sent.mock.calls[0]![0].robot_serial).toBe("FB-1");
   });
 
-  it("shows a refusal at its field, and sends the same key again", async () => {
-    let refuse = () => {};
-    const refused = new Refused("The serial has a space.", "robot_serial");
-    sent.mockReturnValueOnce(
-      new Promise((_, reject) => {
-        refuse = () => reject(refused);
-      }),
-    );
-    await press("Confirm");
-    expect(button("Confirm").disabled).toBe(true);
-    await act(async () => {
-      refuse();
-      await new Promise((settled) => setTimeout(settled));
-    });
+  it("shows a refusal at its field, and is asked anew", async () => {
+    sent.mockRejectedValueOnce(new Refused("The serial has a space.", "robot_serial", 422));
+    await confirmed();
     expect(alert()).toBe("▲ The serial has a space.");
     expect(field("robot_serial").getAttribute("aria-invalid")).toBe("true");
     expect(field("operator").getAttribute("aria-invalid")).toBe("false");
-    expect(asked()).toBe(true);
-    await press("Confirm");
-    const keys = sent.mock.calls.map(([, key]) => key);
-    expect(keys).toHaveLength(2);
-    expect(new Set(keys).size).toBe(1);
+    expect(asked()).toBe(false);
+    expect(button("Calibrate").disabled).toBe(false);
+  });
+
+  it.each([
+    ["has the same key after a lost answer", null, 1],
+    ["has another key after a refusal", 409, 2],
+  ])("%s", async (_, status, keys) => {
+    sent.mockRejectedValueOnce(new Refused("No.", null, status));
+    await confirmed();
+    await press("Calibrate");
+    await confirmed();
+    expect(new Set(sent.mock.calls.map(([, key]) => key)).size).toBe(keys);
+  });
+});
+
+describe("a scanned serial", () => {
+  it("replaces the one before, and leads to what is missing", async () => {
+    await act(() => takeSerial("FB-6"));
+    await act(() => takeSerial("FB-7"));
+    expect(field("robot_serial").value).toBe("FB-7");
+    expect(document.activeElement).toBe(field("operator"));
+    await type("operator", "ada");
+    await act(() => takeSerial("FB-8"));
+    expect(document.activeElement).toBe(button("Calibrate"));
+  });
+
+  it("forgets the references of another robot", async () => {
+    await act(() => takeSerial("FB-6"));
+    wishes.at.value = "0.1";
+    await act(() => takeSerial("FB-6"));
+    expect(wishes.at.value).toBe("0.1");
+    await act(() => takeSerial("FB-7"));
+    expect(wishes.at.value).toBe("");
   });
 });
 

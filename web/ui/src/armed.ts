@@ -1,0 +1,71 @@
+/** What waits for a confirmation: one thing at a time, ten seconds at most; whatever else happens withdraws it. */
+import { computed, effect, signal } from "@preact/signals";
+import { connected, now, station } from "./live";
+import { path } from "./router";
+import { session } from "./session";
+
+const LASTS_MS = 10_000;
+
+interface Armed {
+  /** Whose question it is. */
+  by: object;
+  /** By the page's clock. */
+  until: number;
+  confirmed: () => void;
+}
+
+export const armed = signal<Armed | null>(null);
+/** The page's clock ticks now and then: what was armed since its last tick has all its time. */
+export const secondsLeft = computed(() => {
+  const leftMs = armed.value ? armed.value.until - now.value : 0;
+  return Math.ceil(Math.min(Math.max(leftMs, 0), LASTS_MS) / 1000);
+});
+
+export function arm(by: object, confirmed: () => void): void {
+  armed.value = { by, until: performance.now() + LASTS_MS, confirmed };
+}
+
+/** Whatever waits, or only what this one asks. */
+export function disarm(by?: object): void {
+  if (by === undefined || armed.peek()?.by === by) armed.value = null;
+}
+
+/** Does what waits, once; answers whether anything did. */
+export function confirm(): boolean {
+  const waiting = armed.peek();
+  armed.value = null;
+  if (!waiting || performance.now() >= waiting.until) return false;
+  waiting.confirmed();
+  return true;
+}
+
+/** Withdraw it when its time is over, and after all that may have changed what it means. */
+export function watchArmed(): () => void {
+  const escaped = (event: KeyboardEvent) => {
+    if (event.key === "Escape") disarm();
+  };
+  const away = () => disarm();
+  document.addEventListener("keydown", escaped, { capture: true });
+  document.addEventListener("visibilitychange", away);
+  addEventListener("pagehide", away);
+  const who = computed(() => session.value?.name);
+  const run = computed(() => station.value?.run?.id);
+  const online = computed(() => connected.value);
+  const effects = [
+    effect(() => {
+      if (armed.value && now.value >= armed.value.until) disarm();
+    }),
+    ...[path, who, run, online].map((changed) =>
+      effect(() => {
+        changed.value;
+        disarm();
+      }),
+    ),
+  ];
+  return () => {
+    document.removeEventListener("keydown", escaped, { capture: true });
+    document.removeEventListener("visibilitychange", away);
+    removeEventListener("pagehide", away);
+    for (const stop of effects) stop();
+  };
+}

@@ -1,0 +1,107 @@
+/** What each scan does, wherever the page is. */
+import { effect, signal } from "@preact/signals";
+import * as api from "./api";
+import { confirm, disarm } from "./armed";
+import { connected, station } from "./live";
+import { t } from "./messages";
+import { operator } from "./operator";
+import { navigate, path } from "./router";
+import type { Scan } from "./scanner";
+import { badge, session } from "./session";
+import type { RefusedScan, ScanCodes } from "./types";
+import { scans, takeSerial } from "./views/station/start";
+
+const RETRY_MS = 2000;
+const LONGEST = 64;
+/** So many refused scans wait for a station that does not respond. */
+const MOST_UNSENT = 50;
+
+/** What the last scan led to, in words. */
+export const notice = signal<{ text: string; refused: boolean } | null>(null);
+const codes = signal<ScanCodes | null>(null);
+let unsent: RefusedScan[] = [];
+
+/** The patterns come from the station, however long it takes; refused scans go to it. */
+export function watchScans(): void {
+  const load = () =>
+    api.scanCodes().then(
+      (known) => {
+        codes.value = known;
+      },
+      () => {
+        setTimeout(() => void load(), RETRY_MS);
+      },
+    );
+  void load();
+  effect(() => {
+    if (connected.value) void send();
+  });
+}
+
+export function scanned({ text, readable, secret }: Scan): void {
+  const known = codes.peek();
+  notice.value = null;
+  if (readable && known && text === known.confirm) {
+    if (!confirm()) refuse(text, "nothing_to_confirm", t.scan.nothingToConfirm);
+    return;
+  }
+  disarm();
+  const badgeOf = readable && known ? matching(known.badge, text) : null;
+  if (!known) notice.value = { text: t.scan.noCodes, refused: true };
+  else if (!readable) refuse(secret ? "" : text, "unreadable", t.scan.unreadable);
+  else if (badgeOf) signOn(text, badgeOf[1] ?? text);
+  else if (!secret && matching(known.serial, text)) toStation(text);
+  else refuse(secret ? "" : text, "unknown", secret ? t.scan.unknown : t.scan.notSerial(shortened(text)));
+}
+
+/** The pattern holds for the whole text; one that this browser does not take fits nothing. */
+function matching(pattern: string, text: string): RegExpExecArray | null {
+  try {
+    return new RegExp(`^(?:${pattern})$`).exec(text);
+  } catch {
+    return null;
+  }
+}
+
+const shortened = (text: string) => (text.length > LONGEST ? `${text.slice(0, LONGEST - 1)}…` : text);
+
+function signOn(text: string, name: string): void {
+  if (!station.peek()?.station.open) badge.value = text;
+  else {
+    operator.value = shortened(name);
+    scans.value += 1;
+    notice.value = { text: t.scan.signedOn(operator.value), refused: false };
+  }
+}
+
+function toStation(text: string): void {
+  if (!session.peek()) {
+    notice.value = { text: t.scan.signInFirst, refused: true };
+    return;
+  }
+  if (path.peek() !== "/") navigate("/");
+  takeSerial(text);
+}
+
+function refuse(text: string, because: RefusedScan["because"], why: string): void {
+  notice.value = { text: why, refused: true };
+  // biome-ignore lint/suspicious/noControlCharactersInRegex: the service takes none
+  const kept = text.replace(/[\x00-\x1f\x7f]/g, "").slice(0, LONGEST);
+  unsent = [...unsent, { text: kept, because }].slice(-MOST_UNSENT);
+  void send();
+}
+
+/** One after the other, in their order.  What the station refuses is not sent again. */
+async function send(): Promise<void> {
+  const waiting = unsent;
+  unsent = [];
+  for (const [n, scan] of waiting.entries()) {
+    try {
+      await api.refusedScan(scan);
+    } catch (error) {
+      if (error instanceof api.Refused && error.status !== null) continue;
+      unsent = [...waiting.slice(n), ...unsent].slice(-MOST_UNSENT);
+      return;
+    }
+  }
+}

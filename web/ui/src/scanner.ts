@@ -1,0 +1,166 @@
+/**
+ * Tells what a barcode scanner types from what a person types, in any view and with the focus anywhere.
+ *
+ * A scanner is a keyboard whose keys follow each other within a few milliseconds, ended by Enter or Tab.  Until
+ * that end nobody can know, so that characters arrive as usual; then what they did to a field is taken back.
+ */
+
+/** From one key to the next, and from pressing a key to releasing it: a person takes longer. */
+const FAST_MS = 30;
+/** From one key to the next where the link or the computer is slow, but each key is released as fast. */
+const SLOWED_MS = 60;
+/** Keys further apart do not belong together; a pause within a scan may be so long. */
+const TOGETHER_MS = 300;
+const FEWEST = 2;
+
+/** What was read. */
+export interface Scan {
+  text: string;
+  /** False when keys came among it that are no characters: some of the text may be missing. */
+  readable: boolean;
+  /** Whether a secret was being typed where it was read. */
+  secret: boolean;
+}
+
+type Key = Pick<
+  KeyboardEvent,
+  "key" | "timeStamp" | "repeat" | "isComposing" | "ctrlKey" | "altKey" | "metaKey" | "getModifierState"
+>;
+type Field = HTMLInputElement | HTMLSelectElement | HTMLTextAreaElement;
+
+const MODIFIERS = ["Shift", "Control", "Alt", "AltGraph", "Meta", "CapsLock", "NumLock"];
+/** Some scanners send a line feed or carriage return as a control key. */
+const ENDS_BY_CONTROL = ["j", "m"];
+
+const withControl = (key: Key) =>
+  (key.ctrlKey || key.altKey || key.metaKey) && !key.getModifierState("AltGraph");
+const isCharacter = (key: Key) => [...key.key].length === 1 && !withControl(key);
+const isEnd = (key: Key) =>
+  key.key === "Enter" ||
+  key.key === "Tab" ||
+  (key.ctrlKey && ENDS_BY_CONTROL.includes(key.key.toLowerCase()));
+
+/** Keys that came together, as far as they have come. */
+export class Burst {
+  private text = "";
+  /** For each key after the first, whether a machine pressed it. */
+  private fast: boolean[] = [];
+  private readable = true;
+  private last = Number.NEGATIVE_INFINITY;
+  private released = Number.NEGATIVE_INFINITY;
+  private endedAt = Number.NEGATIVE_INFINITY;
+
+  /** Whether the key taken last was the first character. */
+  began = false;
+
+  /** What a key means: a scan that it ends, "machine" for another key that no person has pressed, else null. */
+  take(key: Key): Omit<Scan, "secret"> | "machine" | null {
+    this.began = false;
+    if (MODIFIERS.includes(key.key)) return null;
+    const gap = key.timeStamp - this.last;
+    if (key.repeat || key.isComposing || gap > TOGETHER_MS) this.forget();
+    if (key.repeat || key.isComposing) return null;
+    if (isEnd(key)) return this.end(key, gap);
+    const fast = this.isFast(gap);
+    if (!isCharacter(key)) {
+      if (fast) this.readable = false;
+      else this.forget();
+      return null;
+    }
+    this.began = this.text === "";
+    if (!this.began) this.fast.push(fast);
+    this.text += key.key;
+    this.last = key.timeStamp;
+    return fast && !this.began ? "machine" : null;
+  }
+
+  /** That the key pressed last is released. */
+  release(timeStamp: number): void {
+    this.released = timeStamp;
+  }
+
+  private isFast(gap: number): boolean {
+    const heldMs = this.released - this.last;
+    return gap < FAST_MS || (gap < SLOWED_MS && heldMs >= 0 && heldMs < FAST_MS);
+  }
+
+  private end(key: Key, gap: number): ReturnType<Burst["take"]> {
+    const { text, readable } = this;
+    const last = this.isFast(gap);
+    const fast = [...this.fast, last].filter(Boolean).length;
+    const most = fast > (this.fast.length + 1) / 2;
+    this.forget();
+    // what sends two ends, as CR and LF do, has sent one too many
+    if (text === "") return key.timeStamp - this.endedAt < TOGETHER_MS ? "machine" : null;
+    const whole = text.length >= FEWEST && most;
+    if (!whole && !last) return null;
+    this.endedAt = key.timeStamp;
+    return whole ? { text, readable } : "machine";
+  }
+
+  private forget(): void {
+    this.text = "";
+    this.fast = [];
+    this.readable = true;
+    this.last = Number.NEGATIVE_INFINITY;
+  }
+}
+
+/** Answers every scan anywhere in the document. */
+export function listen(scanned: (scan: Scan) => void): () => void {
+  const burst = new Burst();
+  let before = fieldNow();
+  let blankSwallowed = false;
+  const swallow = (event: KeyboardEvent) => {
+    event.preventDefault();
+    event.stopImmediatePropagation();
+  };
+  const pressed = (event: KeyboardEvent) => {
+    const meaning = burst.take(event);
+    if (burst.began) before = fieldNow();
+    if (meaning === null) return;
+    if (meaning === "machine") {
+      // a blank presses buttons, letters choose from lists; in a text they may still be a person's
+      if (!isEnd(event) && isText(document.activeElement)) return;
+      blankSwallowed = event.key === " ";
+      swallow(event);
+      return;
+    }
+    swallow(event);
+    before?.restore();
+    scanned({ ...meaning, secret: before?.secret ?? false });
+  };
+  // one browser presses a button when the blank is let go
+  const released = (event: KeyboardEvent) => {
+    burst.release(event.timeStamp);
+    if (event.key !== " " || !blankSwallowed) return;
+    blankSwallowed = false;
+    swallow(event);
+  };
+  document.addEventListener("keydown", pressed, { capture: true });
+  document.addEventListener("keyup", released, { capture: true });
+  return () => {
+    document.removeEventListener("keydown", pressed, { capture: true });
+    document.removeEventListener("keyup", released, { capture: true });
+  };
+}
+
+const isField = (element: Element | null): element is Field => !!element?.matches("input, select, textarea");
+const isText = (element: Element | null) => isField(element) && !element.matches("select, [type=checkbox]");
+
+/** The field that has the focus, and the way back to what it holds now. */
+function fieldNow() {
+  const field = document.activeElement;
+  if (!isField(field)) return null;
+  const { value } = field;
+  return {
+    secret: field instanceof HTMLInputElement && field.type === "password",
+    restore: () => {
+      if (field.value === value) return;
+      field.value = value;
+      field.dispatchEvent(new Event("input", { bubbles: true }));
+      // of a list or a day the page hears when it is chosen, of a text only when the field is left
+      if (field.matches("select, [type=date]")) field.dispatchEvent(new Event("change", { bubbles: true }));
+    },
+  };
+}

@@ -1,0 +1,61 @@
+import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
+import { arm, armed, confirm, disarm, secondsLeft, watchArmed } from "../src/armed";
+import { now, station } from "../src/live";
+import { navigate } from "../src/router";
+import { session } from "../src/session";
+import { run, stationNow } from "./samples";
+
+const confirmed = vi.fn();
+let stop: () => void;
+
+beforeEach(() => {
+  confirmed.mockReset();
+  navigate("/");
+  now.value = performance.now();
+  station.value = stationNow();
+  stop = watchArmed();
+  arm({}, confirmed);
+});
+afterEach(() => stop());
+
+describe("what waits for a confirmation", () => {
+  it("is done once", () => {
+    expect(confirm()).toBe(true);
+    expect(confirm()).toBe(false);
+    expect(confirmed).toHaveBeenCalledTimes(1);
+  });
+
+  it("counts down ten seconds", () => {
+    expect(secondsLeft.value).toBe(10);
+    stop(); // a station that is silent for so long would be lost
+    now.value += 9_500;
+    expect(secondsLeft.value).toBe(1);
+    now.value += 600;
+    expect(secondsLeft.value).toBe(0);
+  });
+
+  it("is not done after its time, even where the page was too busy to withdraw it", () => {
+    vi.spyOn(performance, "now").mockReturnValue(performance.now() + 11_000);
+    expect(confirm()).toBe(false);
+    expect(confirmed).not.toHaveBeenCalled();
+  });
+
+  it("is withdrawn by its owner only", () => {
+    disarm({});
+    expect(armed.value).not.toBeNull();
+  });
+
+  it.each([
+    ["Escape", () => document.dispatchEvent(new KeyboardEvent("keydown", { key: "Escape" }))],
+    ["hiding the tab", () => document.dispatchEvent(new Event("visibilitychange"))],
+    ["leaving the page", () => dispatchEvent(new Event("pagehide"))],
+    ["another view", () => navigate("/history")],
+    ["another person", () => Object.assign(session, { value: { name: "bo", via: "user" } })],
+    ["a run that starts", () => Object.assign(station, { value: stationNow({ run: run() }) })],
+    ["a lost connection", () => Object.assign(now, { value: now.value + 5_000 })],
+  ])("is withdrawn by %s", (_, happens) => {
+    happens();
+    expect(armed.value).toBeNull();
+    expect(confirm()).toBe(false);
+  });
+});
