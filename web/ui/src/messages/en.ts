@@ -263,6 +263,7 @@ export const en = {
     duration: "Duration",
     method: "Method",
     diagnosis: "Diagnosis",
+    certificate: "Certificate (PDF)",
     robotHistory: "History of this robot",
     run: "Run, plan, operator and times",
     pending: "The result follows the last reading.",

@@ -48,7 +48,7 @@ export function RunFacts({ result }: { result: Calibration }) {
 }
 
 /** From a result to everything else of its run and its robot. */
-export function Ways({ result: { id, of, method, robot_serial } }: { result: Calibration }) {
+export function Ways({ result: { id, of, method, robot_serial, verdict } }: { result: Calibration }) {
   const diagnosed = method === "diagnosis";
   return (
     <p class="actions wide">
@@ -65,6 +65,11 @@ export function Ways({ result: { id, of, method, robot_serial } }: { result: Cal
       {diagnosed && (
         <a class="button" href={`/api/v1/calibrations/${id}/report.html`}>
           {t.shared.report}
+        </a>
+      )}
+      {verdict !== null && (
+        <a class="button" href={`/api/v1/calibrations/${id}/certificate.pdf?language=${t.language}`}>
+          {t.result.certificate}
         </a>
       )}
       <a class="button" href={`/api/v1/calibrations/${id}/readings.csv`} download>
