@@ -1,4 +1,5 @@
 /** Why a run ended as it did: the template of its code, filled with its parameters. */
+import { local } from "./format";
 import { t } from "./messages";
 import { capital, dependence, inSentence, labelName, readable, withNames } from "./names";
 import type { Summary } from "./types";
@@ -17,7 +18,8 @@ export function formatted(template: string, params: Params): string | null {
     if (value != null && digits === undefined) return String(value);
     if (typeof value === "number" && Number.isFinite(value)) {
       const plus = sign && value >= 0 ? sign : "";
-      return plus + (kind === "f" ? value.toFixed(Number(digits)) : general(value, Number(digits) || 1));
+      const text = kind === "f" ? value.toFixed(Number(digits)) : general(value, Number(digits) || 1);
+      return plus + local(text);
     }
     complete = false;
     return "";

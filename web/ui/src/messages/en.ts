@@ -175,6 +175,7 @@ export const en = {
     notReady: "◆ NOT READY",
     ready: "READY",
     device: (name: string, state: string) => `▲ ${name}: ${state}`,
+    language: "Language",
     emulated: (name: string) => `${name} (emulated)`,
   },
 
@@ -263,8 +264,8 @@ export const en = {
     duration: "Duration",
     method: "Method",
     diagnosis: "Diagnosis",
-    certificate: "Certificate (PDF)",
     robotHistory: "History of this robot",
+    certificate: (form: string) => `Certificate (${form})`,
     run: "Run, plan, operator and times",
     pending: "The result follows the last reading.",
 

@@ -1,7 +1,8 @@
-import { timeOfDay } from "../format";
+import { timeOfDay, zone } from "../format";
 import { clock, connected, offline, station } from "../live";
 import { t } from "../messages";
 import { path } from "../router";
+import { LanguageChoice } from "./language-choice";
 import { Link } from "./link";
 import { ScanNotice } from "./scan-notice";
 import { StopButton, StopReport } from "./stop";
@@ -28,7 +29,10 @@ export function Header() {
         <StationStatus />
         <StopButton />
       </div>
-      <Who />
+      <div class="under">
+        <Who />
+        <LanguageChoice />
+      </div>
       <StopReport />
       <ScanNotice />
     </header>
@@ -48,7 +52,9 @@ function StationStatus() {
       </div>
       <div class="where">
         <span class="name">{info?.emulated ? t.header.emulated(info.name) : (info?.name ?? t.title)}</span>
-        <time>{timeOfDay(clock.value)}</time>
+        <time>
+          {timeOfDay(clock.value)} <small>{zone(clock.value)}</small>
+        </time>
       </div>
     </div>
   );

@@ -48,7 +48,11 @@ export function RunFacts({ result }: { result: Calibration }) {
 }
 
 /** From a result to everything else of its run and its robot. */
-export function Ways({ result: { id, of, method, robot_serial, verdict } }: { result: Calibration }) {
+export function Ways({
+  result: { id, of, method, robot_serial, verdict, ended_at },
+}: {
+  result: Calibration;
+}) {
   const diagnosed = method === "diagnosis";
   return (
     <p class="actions wide">
@@ -67,11 +71,9 @@ export function Ways({ result: { id, of, method, robot_serial, verdict } }: { re
           {t.shared.report}
         </a>
       )}
-      {verdict !== null && (
-        <a class="button" href={`/api/v1/calibrations/${id}/certificate.pdf?language=${t.language}`}>
-          {t.result.certificate}
-        </a>
-      )}
+      {verdict &&
+        ended_at &&
+        ["html", "pdf", "json"].map((form) => <CertificateLink key={form} id={id} form={form} />)}
       <a class="button" href={`/api/v1/calibrations/${id}/readings.csv`} download>
         {t.shared.readingsCsv}
       </a>
@@ -79,6 +81,15 @@ export function Ways({ result: { id, of, method, robot_serial, verdict } }: { re
         {t.result.robotHistory}
       </Link>
     </p>
+  );
+}
+
+function CertificateLink({ id, form }: { id: number; form: string }) {
+  const inLanguage = form === "json" ? "" : `?language=${t.language}`;
+  return (
+    <a class="button" href={`/api/v1/calibrations/${id}/certificate.${form}${inLanguage}`}>
+      {t.result.certificate(form.toUpperCase())}
+    </a>
   );
 }
 
