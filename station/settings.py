@@ -25,7 +25,7 @@ from drivers.driver import DriverSettings
 from drivers.scaling import JointScaling
 from drivers.strict_numbers import StrictNumbers
 from station.errors import InputRefused
-from station.records import EventType, ScaleCertificate
+from station.records import EventType, ScaleCertificate, said
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 
@@ -376,7 +376,7 @@ def _sentence(error: ErrorDetails, inside: tuple[int | str, ...] = ()) -> str:
         return _sentence(options.errors()[0], loc)
     *section, option = ["", *(str(part) for part in loc)]
     where = f"[{'.'.join(section[1:])}] {option}" if len(section) > 1 else f"[{option}]" if option else ""
-    message = error["msg"].removeprefix("Value error, ")
+    message = said(error)
     if error["type"] == "extra_forbidden":
         return f"{where} is not an option; check its spelling and section."
     if error["type"] == "missing":

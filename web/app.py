@@ -13,6 +13,7 @@ from station.people import Access
 from station.service import Runtime, Timer, listens_on_loopback
 from web import etags, methods, pages, problems
 from web.borders import Borders, Forwarded
+from web.compression import Compression
 from web.headers import SecurityHeaders
 from web.known_query import known_query
 from web.live import LiveFeed
@@ -37,6 +38,7 @@ from web.routes import (
     readings,
     retract,
     robots,
+    run_table,
     scans,
     sessions,
     station,
@@ -60,8 +62,8 @@ JSON_BYTES = 1_000_000
 NOTE_USE_S = 60.0
 ROUTES = (
     station, audit, backups, calibrations, certificates, datasets, devices, diagnoses, emulator, error_maps,
-    events, keys, plans, quality, readings, retract, robots, scans, sessions, stop, training, users, versions,
-    wire,
+    events, keys, plans, quality, readings, retract, robots, run_table, scans, sessions, stop, training,
+    users, versions, wire,
 )  # fmt: skip
 LIVE_ROUTES = (live,)
 TOP_ROUTES = (metrics,)
@@ -112,6 +114,7 @@ def create_app(runtime: Runtime, *, access: Access | None = None, static: Path =
     problems.add_schema(app.openapi())
     app.add_middleware(SlowBodies)
     app.add_middleware(etags.ETags, prefix=f"{API}/calibrations/")
+    app.add_middleware(Compression)
     app.add_middleware(Borders, hosts=service.hosts)
     app.add_middleware(Forwarded, proxies=service.trusted_proxies)
     app.add_middleware(SecurityHeaders)

@@ -48,8 +48,10 @@ def _as_value(check: Callable[[str], str]) -> AfterValidator:
 
 Serial = Annotated[
     str,
-    StringConstraints(strip_whitespace=True, min_length=1, max_length=64, pattern=r"^[\w.\-/]+$"),
+    StringConstraints(strip_whitespace=True, min_length=1, max_length=64),
     _as_value(checked_serial),
+    # for those who read the schema; a person gets the sentence of the check
+    Field(json_schema_extra={"pattern": r"^[\w.\-/]+$"}),
 ]
 Name = Annotated[
     str,

@@ -25,6 +25,7 @@ from station.errors import (
     StoreUnavailable,
     TooManyTries,
 )
+from station.records import said
 from web.live_messages import LIVE_MESSAGE
 from web.methods import allowed
 
@@ -109,7 +110,7 @@ def add(app: FastAPI) -> None:
 
     @app.exception_handler(RequestValidationError)
     async def invalid(request: Request, error: RequestValidationError) -> ProblemResponse:
-        errors = [FieldAtFault(field=_field(e["loc"]), detail=e["msg"]) for e in error.errors()]
+        errors = [FieldAtFault(field=_field(e["loc"]), detail=said(e)) for e in error.errors()]
         first = errors[0]
         return problem(
             422, f"{first.field}: {first.detail}", kind="invalid", field=first.field, errors=errors

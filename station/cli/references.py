@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 from pydantic import ValidationError
 
-from station.records import AnyReference, JointAngle, MountingError, ReferenceUse
+from station.records import AnyReference, JointAngle, MountingError, ReferenceUse, said
 
 FORMS = "joint=1,at=0.0,reads=0.012,sd=0.005 or drm_x=1.02,sd=0.02"
 
@@ -31,7 +31,7 @@ def _reference(text: str) -> AnyReference:
     except ValidationError as error:
         first = error.errors()[0]
         where = " ".join(str(part) for part in first["loc"])
-        raise click.UsageError(f"--reference {text}: {where}: {first['msg'].lower()}.") from error
+        raise click.UsageError(f"--reference {text}: {where}: {said(first).lower()}.") from error
     except ValueError as error:
         raise click.UsageError(f"--reference {text}: joint must be 1 or 2.") from error
     raise click.UsageError(f"--reference {text} is not understood; write {FORMS}.")

@@ -13,13 +13,14 @@ from station.plans.drawing import plan_as_text, plan_page
 from station.plans.duration import USUAL, Pace
 from station.plans.full import candidates, full_positions, inset_grid
 from station.plans.next_position import Contradiction, changes_of, gains, with_readings
-from station.plans.plan import PLANS, PlanDesign, Visits, each_once, make_plan, register
+from station.plans.plan import PLANS, RECOMMENDED, PlanDesign, Visits, each_once, make_plan, register
 from station.plans.prediction import predict
 from station.plans.quickest import Quickest
 
 __all__ = [
     "FRESH_PLACES",
     "PLANS",
+    "RECOMMENDED",
     "REST_P",
     "SHIFT_P",
     "SIDES",

@@ -49,6 +49,8 @@ class PlanDesign:
     """The kind of run that measures by this plan: a name of `station.run_kinds`."""
 
 
+RECOMMENDED: PlanName = "full"
+"""Where nothing speaks for another plan."""
 _PLANS: dict[PlanName, PlanDesign] = {}
 PLANS: Mapping[PlanName, PlanDesign] = MappingProxyType(_PLANS)
 """Every plan by its name."""

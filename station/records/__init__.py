@@ -153,6 +153,7 @@ from station.records.sections import (
     Section,
     Sections,
     refusal,
+    said,
     sections_of_toml,
     sections_to_toml,
 )
@@ -359,6 +360,7 @@ __all__ = [
     "recorded_columns",
     "refusal",
     "residual_rows",
+    "said",
     "sections_of_toml",
     "sections_to_toml",
     "translated",

@@ -23,6 +23,8 @@ class StationInfo(Record):
     """The options of `[limits]` in the station file."""
     plans: tuple[PlanName, ...]
     """Plans that this station can run."""
+    recommended_plan: PlanName
+    """Where nothing speaks for another one."""
     open: bool = False
     """Whether anybody at this computer may do everything without signing in."""
 
@@ -147,6 +149,8 @@ class RunBrief(Record):
     elapsed_s: float | None = None
     remaining_s: float | None = None
     walk: SequenceTitle | None = None
+    progress: float = 0.0
+    """Of the whole run, 0 to 1; an estimate that never falls."""
     step: int | None = None
     steps: int | None = None
     iterations: tuple[Iteration, ...] = ()
@@ -175,6 +179,8 @@ class StationView(Record):
     """Of the robot measured last."""
     run: RunView | None
     last: CalibrationSummary | None
+    finished: RunView | None = None
+    """The last run with its positions and readings; null while another is under way."""
 
     def as_open(self, open: bool) -> StationView:
         """The same of a station that is open, or is not."""

@@ -100,6 +100,8 @@ class MeasurementSequence:
     stops: tuple[Stop, ...]
     mount: str | None = None
     """Where the mechanism is mounted; None: at the robot file's `c`."""
+    last: bool = False
+    """Whether nothing is measured after it, as far as can be known."""
 
 
 @dataclass(frozen=True, slots=True)

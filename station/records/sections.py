@@ -7,6 +7,7 @@ import tomllib
 from typing import Annotated, Any
 
 from pydantic import ConfigDict, Field, ValidationError
+from pydantic_core import ErrorDetails
 
 from drivers.strict_numbers import StrictNumbers
 from station.errors import InputRefused
@@ -31,11 +32,18 @@ def sections_of_toml(content: bytes, source: str) -> Sections:
         raise InputRefused(f"{source} is not valid TOML: {error}.") from error
 
 
+def said(error: ErrorDetails) -> str:
+    """What is wrong with one value, in words for a person: no pattern, no name of a check."""
+    if error["type"] == "string_pattern_mismatch":
+        return "Input holds characters that cannot be here, or lacks some that must"
+    return error["msg"].removeprefix("Value error, ")
+
+
 def refusal(error: ValidationError, source: str) -> InputRefused:
     """The first value at fault, with the file, the section and the key."""
     first = error.errors()[0]
     where = ".".join(str(part) for part in first["loc"])
-    return InputRefused(f"{source}: [{where}] {first['msg']} (given: {first['input']!r}).")
+    return InputRefused(f"{source}: [{where}] {said(first)} (given: {first['input']!r}).")
 
 
 def sections_to_toml(sections: Sections, path: str = "") -> str:

@@ -11,7 +11,7 @@ from pydantic import ValidationError
 
 from station.errors import InputRefused
 from station.records.record import Record
-from station.records.sections import Finite, Section
+from station.records.sections import Finite, Section, said
 
 COLUMNS = ("position", "theta1_deg", "theta2_deg")
 
@@ -50,7 +50,7 @@ def read_taught(text: str, source: str) -> tuple[TaughtPosition, ...]:
         except ValidationError as error:
             first = error.errors()[0]
             where = f"{source}: row {number}: column {first['loc'][0]}"
-            raise InputRefused(f"{where}: {first['msg'].lower()} (given: {first['input']!r}).") from error
+            raise InputRefused(f"{where}: {said(first).lower()} (given: {first['input']!r}).") from error
     if not out:
         raise InputRefused(f"{source}: no positions.")
     return tuple(out)

@@ -139,7 +139,7 @@ def roll_back(source: Source, verified_shift: Angles | None) -> Procedure:
 def _measured(fit: Identification[FiveBar], title: str, number: int, count: int | None = None) -> _Measured:
     """Fresh readings and what they say about a model."""
     stops = fresh_stops(fit, seed=number) if count is None else fresh_stops(fit, count, number, "C")
-    readings: list[Reading] = yield MeasurementSequence(title, number, stops)
+    readings: list[Reading] = yield MeasurementSequence(title, number, stops, last=True)
     return readings, verify(fit, from_readings(readings), offset_known=False)
 
 

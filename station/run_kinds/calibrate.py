@@ -67,7 +67,9 @@ def published(robot: Robot, wanted_mm: float | None = None) -> Procedure:
     if result.outcome != "not_verified":
         return without_jump(result, robot, everything)
     stops = fresh_stops_of(robot, run.total, seed=len(everything))
-    fresh: list[Reading] = yield MeasurementSequence("Verifying at fresh positions", number + 1, stops)
+    fresh: list[Reading] = yield MeasurementSequence(
+        "Verifying at fresh positions", number + 1, stops, last=True
+    )
     result = without_jump(_verified(run, result, fresh), robot, [*everything, *fresh])
     return with_accuracy(result, _published_accuracy(run, everything, wanted_mm))
 

@@ -75,7 +75,7 @@ def check_run(fit: Identification[FiveBar], age_days: float, until: datetime) ->
     """Four readings, and whether they are as predicted."""
     robot = fit.mechanism.robot
     stops = make_plan("check", robot, fit.dtheta).stops
-    readings: list[Reading] = yield MeasurementSequence("Checking", 1, stops)
+    readings: list[Reading] = yield MeasurementSequence("Checking", 1, stops, last=True)
     mechanism = FiveBar(robot, from_readings(readings, fit.measurements.mounts))
     at = mechanism.observe(fit.p, mechanism.theta)
     sd = mechanism.row_sd * fit.lasting.noise_ratio * fit.sd_factor

@@ -59,7 +59,7 @@ def judged(
     found = findings_of(diagnose(robot, sequence))
     zeros = np.radians([q.value for q in found.parameters[:2]])
     fresh = yield MeasurementSequence(
-        "Confirming at fresh positions", 2, diagnostic_fresh_stops(robot, zeros, _seed(sequence))
+        "Confirming at fresh positions", 2, diagnostic_fresh_stops(robot, zeros, _seed(sequence)), last=True
     )
     found = diagnosed(robot, [*readings, *fresh])
     result = result_of(found, readings, _described(readings), robot)

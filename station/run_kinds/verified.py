@@ -34,7 +34,7 @@ def identified_and_verified(
     except InputRefused as refusal:
         return without_jump(not_identified(str(refusal)), robot, readings)
     fresh: list[Reading] = yield MeasurementSequence(
-        "Verifying at fresh positions", 2, fresh_stops(fit), mount=mount
+        "Verifying at fresh positions", 2, fresh_stops(fit), mount=mount, last=True
     )
     result = result_of(fit, readings, fresh).model_copy(
         update={"lasting": fit.lasting.record(), "advice": advice_of(fit)}

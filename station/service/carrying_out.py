@@ -29,6 +29,7 @@ from station.records import (
 from station.run_kinds import RunKind, Start
 from station.service.procedures import follow_procedure
 from station.service.run import Run
+from station.service.so_far import SoFar
 from station.service.traceability import traced
 from station.settings import Settings
 from station.store import Store
@@ -83,14 +84,16 @@ class CarryingOut:
         zeroing = Zeroing(run.id, self.machine, positioner, self.store)
         zeroing.settle()
         began_at = self.store.summary(run.id).created_at
+        so_far = SoFar(run.robot)
         procedure = kind.procedure(Start(self.store, run.request, run.robot, began_at, self.settings.limits))
 
         def carry_out(step: Step) -> Any:
             match step:
                 case MeasurementSequence():
-                    return self._sequence(positioner, step)
+                    return self._sequence(positioner, step, so_far)
                 case SetZeros():
                     self._begin(step)
+                    so_far.renew()
                     return zeroing.carry_out(step)
                 case Retract():
                     self._begin(step)
@@ -124,7 +127,9 @@ class CarryingOut:
         )
         self.listeners.publish("run", self.run.brief())
 
-    def _sequence(self, positioner: Positioner, sequence: MeasurementSequence) -> list[Reading]:
+    def _sequence(
+        self, positioner: Positioner, sequence: MeasurementSequence, so_far: SoFar
+    ) -> list[Reading]:
         run = self.run
         self.listeners.publish("walk", run.begin_sequence(sequence))
         self._set_state(State.RUNNING)
@@ -140,6 +145,8 @@ class CarryingOut:
             readings.append(reading)
             row = run.add_reading(index, reading, self.machine.shown_place(reading.theta_deg))
             self.listeners.publish("reading", row)
+            if residuals := so_far.add(reading):
+                self.listeners.publish("residuals", run.add_residuals(residuals))
             self.listeners.publish("run", run.brief())
         return readings
 

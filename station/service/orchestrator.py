@@ -35,7 +35,7 @@ from station.motion import (
     LiveEvent,
     Machine,
 )
-from station.plans import PLANS
+from station.plans import PLANS, RECOMMENDED
 from station.records import (
     STATION,
     Actor,
@@ -44,6 +44,7 @@ from station.records import (
     DeviceDetail,
     Prompt,
     Reason,
+    RunView,
     State,
     StationInfo,
     StationView,
@@ -58,6 +59,7 @@ from station.service.clock_watch import ClockWatch
 from station.service.ending import Ending
 from station.service.idle_look import IdleLook, Looker
 from station.service.interlock_record import InterlockRecord
+from station.service.last_run import last_run
 from station.service.made_here import made_here
 from station.service.recording import Recording
 from station.service.robot_fits import check_fits
@@ -96,8 +98,10 @@ class Orchestrator:
         self._run: Run | None = None
         self._last = store.last_on_rig()
         self._clock = ClockWatch(store)
+        self._finished: RunView | None = None
         if self._last is not None:
             self._machine.robot = store.robot_or_nominal(self._last.robot_serial)
+            self._finished = last_run(store, self._last, self._machine.shown_place)
         self._holds = self._calibration_holds()
         self._closing = False
         self._stop_records = StopRecords(store)
@@ -300,7 +304,7 @@ class Orchestrator:
     def snapshot(self) -> StationView:
         """Everything a page needs.  Never waits for a device."""
         with self._lock:
-            run, last, holds = self._run, self._last, self._holds
+            run, last, finished, holds = self._run, self._last, self._finished, self._holds
         robot = run.robot if run else self._machine.robot
         return StationView(
             station=StationInfo(
@@ -308,6 +312,7 @@ class Orchestrator:
                 emulated=self._machine.devices.emulated,
                 limits=self._settings.limits.model_dump(),
                 plans=tuple(PLANS),
+                recommended_plan=RECOMMENDED,
             ),
             devices=self._machine.device_views(),
             interlocks=self._machine.interlocks(),
@@ -317,6 +322,7 @@ class Orchestrator:
             calibration=holds,
             run=run.view() if run else None,
             last=last,
+            finished=None if run else finished,
         )
 
     def device_details(self) -> tuple[DeviceDetail, ...]:
@@ -377,6 +383,7 @@ class Orchestrator:
             summary = run.unread(because("store_failed", text=str(error)))
         with self._lock:
             self._last, self._run, self._holds = summary, None, self._calibration_holds()
+            self._finished = run.view()
         run.ended.set()
         self._listeners.publish("ended", summary)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import statistics
 import time
+from collections.abc import Iterable
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from threading import Event, Lock
@@ -20,6 +21,7 @@ from station.records import (
     Prompt,
     Reading,
     Reason,
+    Residual,
     ResidualOfReading,
     RunBrief,
     RunReading,
@@ -31,6 +33,8 @@ from station.records import (
 )
 
 Place = tuple[float, float] | None
+TO_COME = 8
+"""Readings that are reckoned with as long as another sequence may follow: as many verify a calibration."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,6 +69,7 @@ class Run:
     _asked: Ask | None = None
     _answer: Answer | None = None
     _sequence: MeasurementSequence | None = None
+    _progress: float = 0.0
     _stops: list[RunStop] = field(default_factory=list)
     _readings: list[RunReading] = field(default_factory=list)
     _started: float = field(default_factory=time.monotonic)
@@ -134,9 +139,13 @@ class Run:
 
     def add_result(self, result: CalibrationResult) -> list[ResidualOfReading]:
         """Returns the `residuals` event."""
-        residuals = {row.reading: row for row in result.residuals}
+        self.iterations = result.iterations
+        return self.add_residuals(result.residuals)
+
+    def add_residuals(self, rows: Iterable[Residual]) -> list[ResidualOfReading]:
+        """Returns the `residuals` event."""
+        residuals = {row.reading: row for row in rows}
         with self._lock:
-            self.iterations = result.iterations
             for k, row in enumerate(self._readings):
                 if found := residuals.get(row.reading):
                     judged = {"residual_mm": found.residual_mm, "limit_mm": found.limit_mm}
@@ -175,11 +184,18 @@ class Run:
             elapsed_s=round(elapsed_s, 1),
             remaining_s=round(to_do * elapsed_s / own, 1) if own else None,
             walk=SequenceTitle(number=sequence.number, title=sequence.title) if sequence else None,
+            progress=round(self._so_far(own), 4),
             step=self.step,
             steps=self.steps,
             iterations=self.iterations,
             prompt=self.prompt,
         )
+
+    def _so_far(self, own: int) -> float:
+        """Share of the run that is done; what is announced later makes it slower, but takes nothing back."""
+        follows = 0 if self._sequence is not None and self._sequence.last else TO_COME
+        self._progress = max(self._progress, own / max(self.steps - self.inherited + follows, 1))
+        return self._progress
 
     def unread(self, reason: Reason) -> CalibrationSummary:
         """How it ended, where the store does not give it back."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from station.store.chain import Chained, Verified, link_hash
+from station.store.filters import Filters, Order
 from station.store.health import too_full
 from station.store.opening import restore
 from station.store.rewinding import found, rewind
@@ -13,6 +14,8 @@ from station.store.tables import Columns
 __all__ = [
     "Chained",
     "Columns",
+    "Filters",
+    "Order",
     "Page",
     "Store",
     "Verified",

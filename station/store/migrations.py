@@ -272,5 +272,11 @@ def settings_in_use(db: Database) -> None:
     db.execute("CREATE TABLE settings_in_use (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID")
 
 
+@migrations()
+def search(db: Database) -> None:
+    """Serials are found by their beginning, in capitals or not."""
+    db.execute("CREATE INDEX calibrations_serial_nocase ON calibrations (robot_serial COLLATE NOCASE)")
+
+
 def _expand(blob: bytes) -> bytes:
     return zlib.decompressobj(zdict=_WORDS).decompress(blob)

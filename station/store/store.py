@@ -31,6 +31,7 @@ from station.records import (
 )
 from station.store.chain import Verified, append, verify
 from station.store.ends import End, UnstoredEnds, end_of
+from station.store.filters import FEW, Filters, Order, where
 from station.store.outbox import Outbox
 from station.store.people import People
 from station.store.provenance import Provenance
@@ -311,6 +312,8 @@ class Store(
         *,
         limit: int = 50,
         cursor: int | str | None = None,
+        order: Order = "newest",
+        search: str | None = None,
         robot_serial: str | None = None,
         state: str | None = None,
         verdict: str | None = None,
@@ -320,52 +323,37 @@ class Store(
         until: datetime | None = None,
         ended_since: datetime | None = None,
     ) -> Page:
-        """A page of summaries, newest first; `cursor` is the `next` of the page before.
+        """A page of summaries; `cursor` is the `next` of the page before.  The rest as `Filters`.
 
-        :param since: created then or later; a time without a zone is UTC.
-        :param until: created before.
-        :param ended_since: ended then or later.
         :raises InputRefused: a cursor that is none.
         """
-        conditions: list[str] = []
-        values: list[str | int] = []
-        for column, wanted in (
-            ("work_order", work_order),
-            ("robot_serial", robot_serial),
-            ("verdict", verdict),
-            ("state", state),
-            ("plan", plan),
-        ):
-            if wanted is not None:
-                # Only the first, most selective one may choose the index: + takes the others out.
-                conditions.append(f"{'+' if conditions else ''}{column} = ?{self._or_unstored(column)}")
-                values.append(wanted)
+        filters = Filters(search, robot_serial, state, verdict, plan, work_order, since, until, ended_since)
+        conditions, values = filters.conditions(self._or_unstored, few_found=self._finds_few(search))
         if cursor is not None:
-            conditions.append("id < ?")
+            conditions.append("id < ?" if order == "newest" else "id > ?")
             values.append(row_id(cursor))
-        if since is not None:
-            conditions.append(
-                # times may fall where the clock was set back: the range narrows, the time decides
-                "id >= (SELECT min(id) FROM calibrations WHERE created_ms >= ?) AND +created_ms >= ?"
-            )
-            values += [millis(since)] * 2
-        if until is not None:
-            conditions.append(
-                "id <= (SELECT max(id) FROM calibrations WHERE created_ms < ?) AND +created_ms < ?"
-            )
-            values += [millis(until)] * 2
-        if ended_since is not None:
-            conditions.append("ended_ms >= ?")
-            values.append(millis(ended_since))
-        where = f" WHERE {' AND '.join(f'({condition})' for condition in conditions)}" if conditions else ""
         rows = self._readers.all(
-            f"SELECT {LIST_COLUMNS} FROM calibrations LEFT JOIN results ON calibration_id = id{where}"
-            " ORDER BY id DESC LIMIT ?",
+            f"SELECT {LIST_COLUMNS} FROM calibrations LEFT JOIN results ON calibration_id = id"
+            f"{where(conditions)} ORDER BY id {'DESC' if order == 'newest' else 'ASC'} LIMIT ?",
             [*values, limit + 1],
         )
         items = [self._as_ended(summary_from_row(row)) for row in rows[:limit]]
         matching = [item for item in items if state in (None, item.state) and verdict in (None, item.verdict)]
         return Page(matching, items[-1].id if len(rows) > limit else None)
+
+    def count(self, filters: Filters) -> int:
+        """How many runs these filters let through."""
+        conditions, values = filters.conditions(self._or_unstored)
+        row = self._readers.one(f"SELECT count(*) AS n FROM calibrations{where(conditions)}", values)
+        return 0 if row is None else int(row["n"])
+
+    def _finds_few(self, search: str | None) -> bool:
+        conditions, values = Filters(search=search).conditions(self._or_unstored)
+        if not search:
+            return True
+        some = f"SELECT 1 FROM calibrations{where(conditions)} LIMIT {FEW + 1}"
+        row = self._readers.one(f"SELECT count(*) AS n FROM ({some})", values)
+        return row is None or row["n"] <= FEW
 
     def _or_unstored(self, column: str) -> str:
         """SQL that lets runs through whose stored state and verdict are not those that are shown."""

@@ -35,22 +35,23 @@ def confirm(page: Page, within: Locator | None = None) -> None:
     (within or page).get_by_role("button", name="Confirm").click(delay=HOLD_MS)
 
 
-def arm(page: Page, serial: str = "FB-7") -> None:
+def arm(page: Page, serial: str = "FB-7", plan: str = "paper") -> None:
     """Everything up to the confirmation."""
     page.get_by_label("Robot serial").fill(serial)
+    page.get_by_label("Plan").select_option(plan)
     page.get_by_label("Operator").fill("ada")
     page.get_by_role("button", name="Calibrate").click()
 
 
-def start(page: Page, serial: str = "FB-7") -> None:
-    arm(page, serial)
+def start(page: Page, serial: str = "FB-7", plan: str = "paper") -> None:
+    arm(page, serial, plan)
     confirm(page)
     expect(page.get_by_role("button", name="Abort run")).to_be_enabled()
 
 
-def run_to_end(page: Page, serial: str = "FB-7") -> None:
-    start(page, serial)
-    expect(page.locator(".outcome")).to_contain_text(serial)
+def run_to_end(page: Page, serial: str = "FB-7", plan: str = "paper") -> None:
+    start(page, serial, plan)
+    expect(page.locator(".outcome")).to_contain_text(serial, timeout=15_000)
 
 
 def add_run(station: Station, serial: str = "FB-7") -> dict[str, Any]:

@@ -2,14 +2,20 @@
 
 from __future__ import annotations
 
+import csv
+import io
+import sqlite3
 from datetime import timedelta
 from typing import Any
 
 import pytest
 
 from station.records import State
+from station.store import Filters
+from station.store.filters import where
 from tests.station.asking import asked
 from tests.web.conftest import BODY, Service
+from web.routes import run_table
 
 RUNS = "/api/v1/calibrations"
 
@@ -37,6 +43,48 @@ def test_runs_by_work_order_plan_and_end(service: Service) -> None:
     assert second in ids(service, ended_since=ended.isoformat())
     assert ids(service, ended_since=(ended + timedelta(seconds=1)).isoformat()) == []
     assert third not in ids(service, ended_since="2000-01-01T00:00:00Z"), "it has not ended"
+
+
+def test_runs_are_found_by_how_their_serial_begins_counted_and_written_as_a_table(service: Service) -> None:
+    store = service.runtime.store
+    runs = {
+        serial: store.create(asked(serial, "paper", work_order="WO-7"), store.robot_or_nominal(serial))
+        for serial in ("FB-10", "fb-11", "FB-2", "XFB-1", "Fb_1")
+    }
+    found = [runs["fb-11"], runs["FB-10"]]
+    assert ids(service, search="Fb-1") == found
+    assert ids(service, search="fb-1", order="oldest") == found[::-1]
+    assert ids(service, search="fb-1", order="oldest", cursor=found[1]) == [found[0]]
+    assert ids(service, search="%") == []
+    count = service.client.get(f"{RUNS}/count", params={"search": "fb-", "work_order": "WO-7"})
+    assert count.json() == {"count": 3}
+    answer = service.client.get(f"{RUNS}.csv", params={"search": "fb-1"})
+    table = list(csv.DictReader(io.StringIO(answer.text)))
+    assert [row["robot_serial"] for row in table] == ["fb-11", "FB-10"]
+    assert {row["work_order"] for row in table} == {"WO-7"}
+
+
+def test_a_long_table_comes_whole_and_with_one_header(
+    service: Service, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(run_table, "PAGE", 2)
+    store = service.runtime.store
+    made = [store.create(asked("R1", "paper"), store.robot_or_nominal("R1")) for _ in range(5)]
+    table = csv.DictReader(io.StringIO(service.client.get(f"{RUNS}.csv").text))
+    assert [int(row["id"]) for row in table] == made[::-1]
+
+
+def test_a_search_chooses_the_index_where_it_finds_few(service: Service) -> None:
+    """Of many matches the newest are soon met going through all; the planner cannot know which it is."""
+    plans = []
+    for few_found in (True, False):
+        conditions, values = Filters(search="fb").conditions(lambda _: "", few_found=few_found)
+        sql = f"EXPLAIN QUERY PLAN SELECT id FROM calibrations{where(conditions)} ORDER BY id DESC LIMIT 21"
+        db = sqlite3.connect(service.runtime.store.path)
+        plans.append(" ".join(row[3] for row in db.execute(sql, values)))
+        db.close()
+    assert "calibrations_serial_nocase" in plans[0]
+    assert plans[1] == "SCAN calibrations"
 
 
 @pytest.mark.parametrize(

@@ -92,7 +92,7 @@ class Source:
     def snapshot(self) -> StationView:
         nowhere = float("nan")
         return StationView(
-            station=StationInfo(name="source", emulated=True, limits={}, plans=()),
+            station=StationInfo(name="source", emulated=True, limits={}, plans=(), recommended_plan="full"),
             devices=(),
             interlocks=(),
             machine=MachineView(

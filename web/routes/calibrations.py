@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import asdict
 from typing import Annotated, Any, Literal
 
-from fastapi import BackgroundTasks, Query, Response
+from fastapi import BackgroundTasks, Depends, Query, Response
 from starlette.exceptions import HTTPException
 
 from station.errors import Forbidden
@@ -15,11 +16,13 @@ from station.records import (
     Calibration,
     CalibrationRequest,
     CalibrationSummary,
+    Record,
     State,
     Submitted,
 )
 from station.run_kinds import application, change_of, kind_of_plan, translated
 from station.service import Runtime
+from station.store import Filters, Order
 from web.aside import aside, record_later
 from web.bodies import (
     AnswerBody,
@@ -57,11 +60,10 @@ def start_calibration(
     return _started(submitted, runtime, response)
 
 
-@router.get("", response_model=CalibrationList, dependencies=[needs(Permission.READ)])
-def list_calibrations(
-    runtime: TheRuntime,
-    limit: Annotated[int, Query(ge=1, le=500)] = 50,
-    cursor: Annotated[int | None, Query(ge=1, le=LARGEST_ID, description="`next` of the page before")] = None,
+def _filters(
+    search: Annotated[
+        str | None, Query(max_length=64, description="how the serial begins, in any case")
+    ] = None,
     robot_serial: str | None = None,
     state: State | None = None,
     verdict: Literal["pass", "fail"] | None = None,
@@ -70,21 +72,37 @@ def list_calibrations(
     since: Annotated[Moment | None, Query(description="created at or after")] = None,
     until: Annotated[Moment | None, Query(description="created before")] = None,
     ended_since: Annotated[Moment | None, Query(description="ended at or after")] = None,
+) -> Filters:
+    return Filters(search, robot_serial, state, verdict, plan, work_order, since, until, ended_since)
+
+
+TheFilters = Annotated[Filters, Depends(_filters)]
+TheOrder = Annotated[Order, Query(description="by number")]
+
+
+@router.get("", response_model=CalibrationList, dependencies=[needs(Permission.READ)])
+def list_calibrations(
+    runtime: TheRuntime,
+    filters: TheFilters,
+    limit: Annotated[int, Query(ge=1, le=500)] = 50,
+    cursor: Annotated[int | None, Query(ge=1, le=LARGEST_ID, description="`next` of the page before")] = None,
+    order: TheOrder = "newest",
 ) -> CalibrationList:
-    """Newest first, page by page."""
-    page = runtime.store.calibrations(
-        limit=limit,
-        cursor=cursor,
-        robot_serial=robot_serial,
-        state=state,
-        verdict=verdict,
-        plan=plan,
-        work_order=work_order,
-        since=since,
-        until=until,
-        ended_since=ended_since,
-    )
+    """Page by page, newest first unless asked otherwise."""
+    page = runtime.store.calibrations(limit=limit, cursor=cursor, order=order, **asdict(filters))
     return CalibrationList(items=page.items, next=page.next)
+
+
+class RunCount(Record):
+    """How many runs there are in a list."""
+
+    count: int
+
+
+@router.get("/count", response_model=RunCount, dependencies=[needs(Permission.READ)])
+def count_calibrations(runtime: TheRuntime, filters: TheFilters) -> RunCount:
+    """Of the list with the same filters."""
+    return RunCount(count=runtime.store.count(filters))
 
 
 @router.get(

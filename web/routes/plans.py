@@ -5,16 +5,35 @@ from __future__ import annotations
 from typing import Annotated
 
 from fastapi import Query
+from pydantic import Field
 
 from station.people import Permission
-from station.plans import Pace, make_plan
-from station.records import PlanDocument
+from station.plans import PLANS, RECOMMENDED, Pace, make_plan
+from station.records import PlanDocument, PlanName, Record
 from web.bodies import Plan, Serial
 from web.guarded import Router, needs
 from web.problems import documented
 from web.routes.parts import TheRuntime
 
 router = Router(prefix="/plans", tags=["plans"])
+
+
+class PlanOffered(Record):
+    name: PlanName
+    recommended: bool = Field(description="where nothing speaks for another one")
+
+
+class PlanList(Record):
+    """In the order in which they are offered."""
+
+    items: list[PlanOffered]
+    next: None = None
+
+
+@router.get("", response_model=PlanList, dependencies=[needs(Permission.READ)])
+def list_plans() -> PlanList:
+    """Every plan that a start may name."""
+    return PlanList(items=[PlanOffered(name=name, recommended=name == RECOMMENDED) for name in PLANS])
 
 
 @router.get(

@@ -2,6 +2,8 @@ import { defineConfig } from "vite";
 
 export default defineConfig({
   build: {
+    // a browser that a plant keeps for years; tsconfig.json has the same year in `lib`
+    target: ["firefox115", "chrome115"],
     outDir: "../static",
     emptyOutDir: true,
     modulePreload: { polyfill: false },

@@ -29,6 +29,7 @@ from station.records import (
     Span,
     TemperatureReference,
     TermOfModel,
+    said,
     visited_in_degrees,
     visited_ranges,
 )
@@ -139,7 +140,7 @@ def part_of(content: Any, source: str) -> ModelDocument | MixtureDocument:
     except ValidationError as error:
         first = error.errors()[0]
         where = ".".join(str(step) for step in first["loc"])
-        raise InputRefused(f"Model {source}: [model.{where}] {first['msg']}.") from error
+        raise InputRefused(f"Model {source}: [model.{where}] {said(first)}.") from error
 
 
 def learned_model(part: ModelDocument | MixtureDocument, source: str) -> LearnedModel:

@@ -1,4 +1,6 @@
 /** The frame: a header that never scrolls away, and one view below it. */
+import { useEffect, useRef } from "preact/hooks";
+import { followHeading } from "./heading";
 import { t } from "./messages";
 import { Header } from "./parts/header";
 import { useLoaded } from "./parts/load";
@@ -11,10 +13,12 @@ import { SignInView } from "./views/sign-in/sign-in";
 import { StationView } from "./views/station/station";
 
 export function App() {
+  const main = useRef<HTMLElement>(null);
+  useEffect(() => (main.current ? followHeading(main.current) : undefined), []);
   return (
     <>
       <Header />
-      <main>
+      <main ref={main}>
         <View />
       </main>
     </>

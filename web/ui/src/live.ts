@@ -8,8 +8,8 @@ const TICK_MS = 250;
 
 /** The station as last reported; null until the first snapshot. */
 export const station = signal<Station | null>(null);
-/** The run that ended last while this page watched, with its map and readings. */
-export const finished = signal<Run | null>(null);
+/** The run under way, else the last one, with its map and readings. */
+export const shownRun = computed(() => station.value?.run ?? station.value?.finished ?? null);
 /** Milliseconds of the page's own clock; everything that ages reads it. */
 export const now = signal(performance.now());
 const heardAt = signal(performance.now());
@@ -111,8 +111,7 @@ function apply(before: Station, event: LiveEvent): Station {
     case "retract":
       return { ...before, retract: event.data };
     case "ended":
-      if (run) finished.value = run;
-      return { ...before, run: null, last: event.data };
+      return { ...before, run: null, last: event.data, finished: run ?? before.finished ?? null };
     default:
       return before;
   }

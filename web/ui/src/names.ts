@@ -147,3 +147,12 @@ export function shown({ name, value, sd, unit }: Sized): Sized & { text: string 
     unit: um ? unit.replace("mm", "µm") : (units[unit] ?? unit),
   };
 }
+
+export const deviceName = (name: string) => own<string>(t.deviceNames, name) ?? name;
+
+/** What must hold before and during motion; a station of another version may know more. */
+export const interlockName = (id: string, text: string) => own<string>(t.interlocks, id) ?? readable(text);
+
+/** What would raise the accuracy, in the page's language; of a kind that it does not know, in English. */
+export const adviceText = ({ kind, joint, text }: { kind: string; joint?: number | null; text: string }) =>
+  own<(joint: string) => string>(t.result.advices, kind)?.(String(joint ?? "")) ?? readable(text);

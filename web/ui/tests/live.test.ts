@@ -160,7 +160,7 @@ describe("numbered events", () => {
     const now = events({ type: "reading", data: reading() }, { type: "ended", data: summary({ id: 2 }) });
     expect(now.run).toBeNull();
     expect(now.last?.id).toBe(2);
-    expect(live.finished.value?.readings).toHaveLength(1);
+    expect(live.shownRun.value?.readings).toHaveLength(1);
   });
 });
 

@@ -64,6 +64,7 @@ export const run = (given: Partial<Run> = {}): Run => ({
   elapsed_s: null,
   remaining_s: null,
   walk: null,
+  progress: 0,
   step: 0,
   steps: 4,
   stops: [],
@@ -74,7 +75,14 @@ export const run = (given: Partial<Run> = {}): Run => ({
 });
 
 export const stationNow = (given: Partial<Station> = {}): Station => ({
-  station: { name: "Cell 3", emulated: false, limits: {}, open: false, plans: ["paper", "full"] },
+  station: {
+    name: "Cell 3",
+    emulated: false,
+    limits: {},
+    open: false,
+    plans: ["paper", "full"],
+    recommended_plan: "full",
+  },
   devices: [{ name: "scale", kind: "scale", address: "a", state: "ok", text: "" }],
   interlocks: [],
   machine: null,
@@ -83,6 +91,7 @@ export const stationNow = (given: Partial<Station> = {}): Station => ({
   retract: { needed: false, excess_mm: 0, text: "" },
   run: null,
   last: null,
+  finished: null,
   ...given,
 });
 

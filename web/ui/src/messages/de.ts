@@ -69,6 +69,17 @@ export const de: Messages = {
     fault: { name: "Störung", text: "Das Gerät meldet eine Störung." },
   },
 
+  deviceNames: {
+    "linear scale": "Längenmaßstab",
+    "servo axis 1": "Servoachse 1",
+    "servo axis 2": "Servoachse 2",
+  },
+  interlocks: {
+    devices: "Alle Geräte antworten",
+    alarm: "Kein Antrieb meldet einen Alarm",
+    workspace: "Der Arm steht in seinem Arbeitsraum",
+    scale: "Der Maßstab zeigt einen Wert",
+  },
   stages: {
     paper: {
       name: "Veröffentlichtes Modell",
@@ -159,6 +170,8 @@ export const de: Messages = {
       `Offline: Der um ${at} verlangte Stopp erreicht die Station vielleicht nicht. Drücken Sie den Not-Halt.`,
     stopping: (at) => `Hält an, verlangt um ${at} …`,
     stopped: (at) => `Angehalten um ${at}: Beide Antriebe haben es bestätigt.`,
+    wasFailed: (at) =>
+      `Der um ${at} verlangte Stopp wurde nicht bestätigt. Die Station antwortet wieder: Prüfen Sie, dass sich nichts bewegt.`,
     failed: (at, cause) => `STOPP FEHLGESCHLAGEN um ${at}: ${cause} Drücken Sie den Not-Halt.`,
   },
 
@@ -167,6 +180,8 @@ export const de: Messages = {
     start: "Kalibrierung starten",
     serial: "Seriennummer des Roboters",
     plan: "Plan",
+    recommended: (plan) => `${plan} (empfohlen)`,
+    notKnown: "nicht bekannt",
     calibrate: "Kalibrieren",
     accuracy: "Gewünschte Genauigkeit, mm (freiwillig)",
     references: "Referenzen anderer Messgeräte",
@@ -199,7 +214,7 @@ export const de: Messages = {
     retractHow: " Beide Gelenke bewegen sich langsam, Schritt für Schritt, bis der Arm innerhalb steht.",
     runLine: (serial, id, operator) => `${serial} · Lauf ${id} · ${operator}`,
     progress: "Fortschritt",
-    remaining: (duration) => `noch etwa ${duration} in diesem Durchgang`,
+    remaining: (duration) => `noch etwa ${duration} in dieser Messfolge`,
     abort: "Lauf abbrechen",
     scale: "Maßstab",
     age: "Alter",
@@ -347,6 +362,12 @@ export const de: Messages = {
         text: "Keine weitere Messung erhöht die Genauigkeit merklich. Nötig ist eine weitere Grenze oder ein besserer Maßstab.",
       },
       see: { button: "Diagnose anzeigen", text: "Die Diagnose zeigt, wovon der Restfehler abhängt." },
+    },
+    advices: {
+      repeat: () => "Messen Sie dieselben Messungen noch einmal.",
+      joint_angle: (joint) => `Lesen Sie den Winkel von Gelenk ${joint} von einer Wasserwaage ab.`,
+      drm_x: () => "Messen Sie den seitlichen Anbaufehler der Messeinrichtung.",
+      second_mount: () => "Messen Sie von einem zweiten Anbauort.",
     },
     advised: (text, gain, minutes) =>
       `${text} Die Grenze sinkt um ${gain} mm; es dauert etwa ${minutes} min.`,

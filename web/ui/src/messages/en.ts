@@ -96,6 +96,19 @@ export const en = {
     fault: { name: "fault", text: "The device reports a fault." },
   } satisfies Record<Device["state"], Entry>,
 
+  /** By the name that the service gives. */
+  deviceNames: {
+    "linear scale": "linear scale",
+    "servo axis 1": "servo axis 1",
+    "servo axis 2": "servo axis 2",
+  } as Record<string, string>,
+  /** By identifier. */
+  interlocks: {
+    devices: "All devices answer",
+    alarm: "No drive shows an alarm",
+    workspace: "The arm stands within its workspace",
+    scale: "The scale reads",
+  } as Record<string, string>,
   /** By the name of the stage; the others are effects. */
   stages: {
     paper: { name: "Published model", text: "Zero offsets and mounting; the geometry is nominal." },
@@ -186,6 +199,8 @@ export const en = {
       `Offline: the stop requested at ${at} may not reach the station. Press the emergency stop.`,
     stopping: (at: string) => `Stopping, requested at ${at} …`,
     stopped: (at: string) => `Stopped at ${at}: both drives confirmed.`,
+    wasFailed: (at: string) =>
+      `The stop requested at ${at} was not confirmed. The station responds again: check that nothing moves.`,
     failed: (at: string, cause: string) => `STOP FAILED at ${at}: ${cause} Press the emergency stop.`,
   },
 
@@ -194,6 +209,7 @@ export const en = {
     start: "Start a calibration",
     serial: "Robot serial",
     plan: "Plan",
+    recommended: (plan: string) => `${plan} (recommended)`,
     calibrate: "Calibrate",
     accuracy: "Wanted accuracy, mm (optional)",
     references: "References from other instruments",
@@ -219,6 +235,8 @@ export const en = {
     interlocks: "Interlocks",
     interlockOk: "ok",
     interlockNotMet: "◆ not met",
+    /** Of devices and interlocks while the station does not answer. */
+    notKnown: "not known",
     run: "Run",
     noRun: "No run in progress",
     wayBack: "Way back",
@@ -226,7 +244,7 @@ export const en = {
     retractHow: " Both joints move slowly, step by step, until the arm stands inside.",
     runLine: (serial: string, id: number, operator: string) => `${serial} · run ${id} · ${operator}`,
     progress: "Progress",
-    remaining: (duration: string) => `about ${duration} left in this pass`,
+    remaining: (duration: string) => `about ${duration} left in this sequence`,
     abort: "Abort run",
     scale: "Scale",
     age: "Age",
@@ -367,6 +385,13 @@ export const en = {
       },
       see: { button: "Show the diagnosis", text: "The diagnosis shows what the residual depends on." },
     },
+    /** By its kind, with the joint where it is about one. */
+    advices: {
+      repeat: () => "Measure the same readings once more.",
+      joint_angle: (joint: string) => `Read the angle of joint ${joint} from a level.`,
+      drm_x: () => "Measure the sideways mounting error of the mechanism.",
+      second_mount: () => "Measure from a second mounting point.",
+    } as Record<string, (joint: string) => string>,
     advised: (text: string, gain: string, minutes: string) =>
       `${text} The bound falls by ${gain} mm; it takes about ${minutes} min.`,
     advice: "What would raise the accuracy",

@@ -56,6 +56,17 @@ export const zh: Messages = {
     fault: { name: "故障", text: "设备报告故障。" },
   },
 
+  deviceNames: {
+    "linear scale": "光栅尺",
+    "servo axis 1": "伺服轴 1",
+    "servo axis 2": "伺服轴 2",
+  },
+  interlocks: {
+    devices: "所有设备均有应答",
+    alarm: "没有驱动器报警",
+    workspace: "臂位于其工作空间内",
+    scale: "光栅尺有读数",
+  },
   stages: {
     paper: { name: "已发表模型", text: "零点与安装；几何为标称值。" },
     nominal: { name: "标称模型", text: "基座与工具；几何为标称值。" },
@@ -141,6 +152,7 @@ export const zh: Messages = {
     mayNotArrive: (at) => `离线：${at} 请求的停止可能到不了工作站。请按急停。`,
     stopping: (at) => `正在停止，请求于 ${at} …`,
     stopped: (at) => `已于 ${at} 停止：两个驱动器均已确认。`,
+    wasFailed: (at) => `${at} 请求的停止未得到确认。工作站已重新应答：请确认没有任何运动。`,
     failed: (at, cause) => `停止失败（${at}）：${cause} 请按急停。`,
   },
 
@@ -149,6 +161,8 @@ export const zh: Messages = {
     start: "开始标定",
     serial: "机器人序列号",
     plan: "方案",
+    recommended: (plan) => `${plan}（推荐）`,
+    notKnown: "未知",
     calibrate: "标定",
     accuracy: "要求的精度，mm（可选）",
     references: "其他仪器的参考",
@@ -181,7 +195,7 @@ export const zh: Messages = {
     retractHow: " 两个关节缓慢、逐步地运动，直到臂位于工作空间内。",
     runLine: (serial, id, operator) => `${serial} · 运行 ${id} · ${operator}`,
     progress: "进度",
-    remaining: (duration) => `本轮约剩 ${duration}`,
+    remaining: (duration) => `本序列约剩 ${duration}`,
     abort: "中止运行",
     scale: "光栅尺",
     age: "时效",
@@ -291,6 +305,12 @@ export const zh: Messages = {
       },
       no_advice: { text: "进一步测量不会明显提高精度。需要放宽限值或使用更好的光栅尺。" },
       see: { button: "显示诊断", text: "诊断显示残差取决于什么。" },
+    },
+    advices: {
+      repeat: () => "再测量一遍相同的读数。",
+      joint_angle: (joint) => `用水平仪读取关节 ${joint} 的角度。`,
+      drm_x: () => "测量机构的横向安装误差。",
+      second_mount: () => "从第二个安装点测量。",
     },
     advised: (text, gain, minutes) => `${text} 上限降低 ${gain} mm；约需 ${minutes} min。`,
     advice: "提高精度的办法",

@@ -1,6 +1,7 @@
 import { timeOfDay, zone } from "../format";
 import { clock, connected, offline, station } from "../live";
 import { t } from "../messages";
+import { deviceName } from "../names";
 import { path } from "../router";
 import { LanguageChoice } from "./language-choice";
 import { Link } from "./link";
@@ -65,7 +66,7 @@ function status(): { text: string; alarm?: "act" | "warn" } {
   if (offline.value) return { text: t.header.offline, alarm: "act" };
   if (!now) return { text: t.header.notConnected };
   const lost = now.devices.find((device) => device.state === "lost" || device.state === "fault");
-  if (lost) return { text: t.header.device(lost.name, t.devices[lost.state].name), alarm: "act" };
+  if (lost) return { text: t.header.device(deviceName(lost.name), t.devices[lost.state].name), alarm: "act" };
   if (now.run) return { text: t.states[now.run.state].name.toUpperCase() };
   if (now.interlocks.some((interlock) => !interlock.ok)) return { text: t.header.notReady, alarm: "warn" };
   return { text: t.header.ready };

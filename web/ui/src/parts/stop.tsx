@@ -1,29 +1,29 @@
 /** One step to stop.  Always there, always enabled; it reports when the stop did not reach the station. */
 import { signal } from "@preact/signals";
-import { useEffect } from "preact/hooks";
+import { useEffect, useRef } from "preact/hooks";
 import { Refused, stop } from "../api";
 import { timeOfDay } from "../format";
-import { clock, offline, station } from "../live";
+import { clock, connected, offline, station } from "../live";
 import { t } from "../messages";
 
-const report = signal<{ text: string; failed: boolean } | null>(null);
+const report = signal<{ text: string; failed: boolean; at: string } | null>(null);
 
 async function press(): Promise<void> {
   const at = timeOfDay(clock.value);
   report.value = offline.value
-    ? { text: t.stop.mayNotArrive(at), failed: true }
-    : { text: t.stop.stopping(at), failed: false };
+    ? { text: t.stop.mayNotArrive(at), failed: true, at }
+    : { text: t.stop.stopping(at), failed: false, at };
   try {
     const { axes, confirmed } = await stop();
     const troubles = Object.entries(axes).flatMap(([axis, trouble]) =>
       trouble ? [`${axis}: ${trouble}`] : [],
     );
     report.value = confirmed
-      ? { text: t.stop.stopped(at), failed: false }
-      : { text: t.stop.failed(at, troubles.join("; ")), failed: true };
+      ? { text: t.stop.stopped(at), failed: false, at }
+      : { text: t.stop.failed(at, troubles.join("; ")), failed: true, at };
   } catch (error) {
     const cause = error instanceof Refused ? error.message : String(error);
-    report.value = { text: t.stop.failed(at, cause), failed: true };
+    report.value = { text: t.stop.failed(at, cause), failed: true, at };
   }
 }
 
@@ -39,12 +39,21 @@ export function StopButton() {
   );
 }
 
-/** Stays until the next stop or the next start. */
+/** Stays until the next stop or the next start; one that failed is of the past once the station is there again. */
 export function StopReport() {
   const run = station.value?.run?.id;
   useEffect(() => {
     if (run !== undefined) report.value = null;
   }, [run]);
+  const online = connected.value;
+  const wasOnline = useRef(online);
+  useEffect(() => {
+    const said = report.peek();
+    if (online && !wasOnline.current && said?.failed) {
+      report.value = { ...said, text: t.stop.wasFailed(said.at), failed: false };
+    }
+    wasOnline.current = online;
+  }, [online]);
   return (
     <p class={`report ${report.value?.failed ? "alarm act" : ""}`} role="alert" hidden={!report.value}>
       {report.value?.failed && "▲ "}

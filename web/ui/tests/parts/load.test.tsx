@@ -1,7 +1,10 @@
 import { render } from "preact";
 import { act } from "preact/test-utils";
 import { expect, it } from "vitest";
+import { Refused } from "../../src/api";
+import { now, station } from "../../src/live";
 import { useLoaded } from "../../src/parts/load";
+import { stationNow } from "../samples";
 
 /** Answers that come when the test lets them. */
 function stage() {
@@ -51,4 +54,28 @@ it("shows what went wrong", async () => {
   await show("a");
   await act(async () => asked[0]?.reject(new Error("No calibration 9.")));
   expect(text()).toBe("No calibration 9.");
+});
+
+it("asks again what got no answer once the station is there again, and nothing else", async () => {
+  const { asked, show, text } = stage();
+  const online = async (is: boolean) => {
+    await act(() => {
+      station.value = is ? stationNow() : null;
+    });
+    await act(() => new Promise((later) => setTimeout(later, 10)));
+  };
+  now.value = performance.now();
+  await online(false);
+  await show("a");
+  await act(async () => asked[0]?.reject(new Refused("No answer.")));
+  expect(text()).toBe("No answer.");
+  await online(true);
+  expect(asked).toHaveLength(2);
+  await act(async () => asked[1]?.resolve("A"));
+  expect(text()).toBe("A");
+  await show("b");
+  await act(async () => asked[2]?.reject(new Refused("Not there.", null, 404)));
+  await online(false);
+  await online(true);
+  expect(asked).toHaveLength(3);
 });

@@ -5,6 +5,7 @@ import { newKey, start } from "../../api";
 import { duration, fixed } from "../../format";
 import { connected, station } from "../../live";
 import { t } from "../../messages";
+import { deviceName } from "../../names";
 import { keepOperator, operator } from "../../operator";
 import { ConfirmedButton } from "../../parts/confirm";
 import { Link } from "../../parts/link";
@@ -68,7 +69,7 @@ function DeviceRow({ device }: { device: DeviceDetail }) {
   return (
     <tr>
       <th scope="row" class="text">
-        {device.name}
+        {deviceName(device.name)}
       </th>
       <td class="text wrapped">
         <strong class={wrong ? "alarm act" : undefined}>

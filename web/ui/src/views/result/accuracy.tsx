@@ -1,6 +1,6 @@
 import { fixed } from "../../format";
 import { t } from "../../messages";
-import { readable } from "../../names";
+import { adviceText } from "../../names";
 import type { Calibration } from "../../types";
 
 /** What the run promises of positions, beside what was wanted; of a check, how small a shift it finds. */
@@ -49,10 +49,10 @@ function AdviceTable({ advice }: { advice: Calibration["advice"] }) {
         </tr>
       </thead>
       <tbody>
-        {advice.map(({ kind, text, gain_mm, minutes }) => (
+        {advice.map(({ kind, joint, text, gain_mm, minutes }) => (
           <tr key={`${kind} ${text}`}>
             <th scope="row" class="text">
-              {readable(text)}
+              {adviceText({ kind, joint: joint ?? null, text })}
             </th>
             <td>{fixed(gain_mm, 3)}</td>
             <td>{fixed(minutes, 1)}</td>

@@ -1,7 +1,7 @@
 /** The one thing to do next, from what a run came to. */
 import { fixed } from "../../format";
 import { t } from "../../messages";
-import { readable } from "../../names";
+import { adviceText, readable } from "../../names";
 import type { Calibration, Experiment, Plan } from "../../types";
 import { decisionOf } from "./decision";
 
@@ -124,7 +124,7 @@ function afterPass({ application }: Calibration): Step {
 function raise(result: Calibration): Step {
   const [best] = result.advice;
   if (!best) return nothing("no_advice");
-  const more = t.result.advised(readable(best.text), fixed(best.gain_mm, 3), fixed(best.minutes, 1));
+  const more = t.result.advised(adviceText(best), fixed(best.gain_mm, 3), fixed(best.minutes, 1));
   const plan = planOf(best, result.plan);
   return plan ? start("raise", plan, more) : open("raise_by_hand", "/", more);
 }

@@ -1,5 +1,6 @@
-import { station } from "../../live";
+import { connected, station } from "../../live";
 import { t } from "../../messages";
+import { deviceName, interlockName } from "../../names";
 import type { DeviceState } from "../../types";
 
 const ALARMS: Record<DeviceState, { shape: string; alarm: string }> = {
@@ -12,18 +13,19 @@ const ALARMS: Record<DeviceState, { shape: string; alarm: string }> = {
 /** Devices and interlocks, each in words. */
 export function Devices() {
   const now = station.value;
+  const online = connected.value;
   return (
     <section class="devices">
       <h2>{t.station.devices}</h2>
       <ul>
         {now?.devices.map(({ name, state, text }) => (
           <li key={name}>
-            <span>{name}</span>
-            <strong class={ALARMS[state].alarm}>
-              {ALARMS[state].shape}
-              {t.devices[state].name}
+            <span>{deviceName(name)}</span>
+            <strong class={ALARMS[online ? state : "unknown"].alarm}>
+              {ALARMS[online ? state : "unknown"].shape}
+              {online ? t.devices[state].name : t.station.notKnown}
             </strong>
-            {state !== "ok" && <small>{text || t.devices[state].text}</small>}
+            {online && state !== "ok" && <small>{text || t.devices[state].text}</small>}
           </li>
         ))}
       </ul>
@@ -31,11 +33,15 @@ export function Devices() {
       <ul>
         {now?.interlocks.map((interlock) => (
           <li key={interlock.id}>
-            <span>{interlock.text}</span>
-            <strong class={interlock.ok ? "" : "alarm warn"}>
-              {interlock.ok ? t.station.interlockOk : t.station.interlockNotMet}
+            <span>{interlockName(interlock.id, interlock.text)}</span>
+            <strong class={interlock.ok || !online ? "" : "alarm warn"}>
+              {!online
+                ? t.station.notKnown
+                : interlock.ok
+                  ? t.station.interlockOk
+                  : t.station.interlockNotMet}
             </strong>
-            {!interlock.ok && interlock.detail && <small>{interlock.detail}</small>}
+            {online && !interlock.ok && interlock.detail && <small>{interlock.detail}</small>}
           </li>
         ))}
       </ul>

@@ -83,7 +83,8 @@ export function WorkspaceMap({ run }: { run: Run | null }) {
 
 /** One mark for each position: stops that share one are repeats of it. */
 function positionsOf(stops: RunStop[]) {
-  const repeats = Map.groupBy(stops, (stop) => stop.position);
+  const repeats = new Map<string, RunStop[]>();
+  for (const stop of stops) repeats.set(stop.position, [...(repeats.get(stop.position) ?? []), stop]);
   return [...repeats.values()].map((visits) => {
     const done = visits.filter((visit) => visit.done).length;
     return { ...visits[0]!, class: done === visits.length ? "done" : done > 0 ? "partly" : "to-come" };

@@ -1,10 +1,10 @@
 import { fixed, MISSING, micrometres, signedMicrometres } from "../../format";
-import { finished, station } from "../../live";
+import { shownRun } from "../../live";
 import { t } from "../../messages";
 
 /** Reading by reading, the newest first, residual against its limit. */
 export function Readings() {
-  const readings = (station.value?.run ?? finished.value)?.readings ?? [];
+  const readings = shownRun.value?.readings ?? [];
   return (
     <section class="readings">
       <h2>{t.station.readingsTitle(readings.length)}</h2>

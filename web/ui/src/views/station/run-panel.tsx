@@ -1,5 +1,5 @@
 import { duration, fixed } from "../../format";
-import { finished, machineAgeS, remainingS, station } from "../../live";
+import { machineAgeS, remainingS, shownRun, station } from "../../live";
 import { t } from "../../messages";
 import { AbortButton } from "./abort";
 import { WorkspaceMap } from "./map";
@@ -20,14 +20,14 @@ export function RunPanel() {
         <div class="progress" hidden={outcome.value !== null}>
           <h2>{run ? (run.walk?.title ?? t.shared.waiting) : t.station.noRun}</h2>
           <p>{run && t.station.runLine(run.robot_serial, run.id, run.operator)}</p>
-          <progress aria-label={t.station.progress} value={step} max={Math.max(steps, 1)} />
+          <progress aria-label={t.station.progress} value={run?.progress ?? 0} max={1} />
           <p>{run ? t.shared.stepOf(step, steps || "?") : ""}</p>
           <p>{run && remainingS.value !== null ? t.station.remaining(duration(remainingS.value)) : ""}</p>
         </div>
         <AbortButton />
       </div>
       <Prompt />
-      <WorkspaceMap run={run ?? finished.value} />
+      <WorkspaceMap run={shownRun.value} />
       <LiveValues />
     </section>
   );

@@ -8,11 +8,26 @@ import { planOf } from "../../names";
 import { operator } from "../../operator";
 import { ConfirmedButton } from "../../parts/confirm";
 import { MotionWarning } from "../../parts/motion-warning";
+import { navigations } from "../../router";
 import type { Plan } from "../../types";
 import { dismissOutcome } from "./outcome";
 import { PlanPromise } from "./plan-promise";
-import { begin, body, emptyField, missing, plan, type StartField, scans, serial, trouble } from "./start";
+import {
+  begin,
+  body,
+  chosenPlan,
+  emptyField,
+  missing,
+  plan,
+  type StartField,
+  scans,
+  serial,
+  trouble,
+} from "./start";
 import { WishFields } from "./wish-fields";
+
+/** Scans that led on to what was missing. */
+let ledOn = 0;
 
 export function StartForm() {
   const serialField = useRef<HTMLInputElement>(null);
@@ -27,8 +42,9 @@ export function StartForm() {
   };
 
   useEffect(() => {
-    if (scans.value > 0) focus(emptyField(), calibrateButton);
-    else serialField.current?.focus();
+    if (scans.value > ledOn) focus(emptyField(), calibrateButton);
+    else if (navigations.peek() === 0) serialField.current?.focus();
+    ledOn = scans.value;
   }, [scans.value]);
   useEffect(() => {
     // what had the focus may have been disabled by the run's start or end: what is typed next must not get lost
@@ -114,12 +130,14 @@ function PlanField() {
         value={plan.value}
         aria-describedby="plan-explanation"
         onChange={(event) => {
-          plan.value = event.currentTarget.value as Plan;
+          chosenPlan.value = event.currentTarget.value as Plan;
         }}
       >
-        {(station.value?.station.plans ?? ["paper"]).map((name) => (
+        {(station.value?.station.plans ?? [plan.value]).map((name) => (
           <option key={name} value={name}>
-            {planOf(name)?.name ?? name}
+            {name === station.value?.station.recommended_plan
+              ? t.station.recommended(planOf(name)?.name ?? name)
+              : (planOf(name)?.name ?? name)}
           </option>
         ))}
       </select>

@@ -1,6 +1,7 @@
 /** What a start needs. */
-import { signal } from "@preact/signals";
+import { computed, signal } from "@preact/signals";
 import { newKey, Refused, start } from "../../api";
+import { station } from "../../live";
 import { t } from "../../messages";
 import { keepOperator, operator } from "../../operator";
 import type { CalibrationBody, Plan } from "../../types";
@@ -10,7 +11,11 @@ import { forgetWishes, said } from "./wishes";
 export type StartField = "robot_serial" | "operator";
 
 export const serial = signal("");
-export const plan = signal<Plan>("paper");
+/** Null: none was chosen, the recommended one counts. */
+export const chosenPlan = signal<Plan | null>(null);
+export const plan = computed<Plan>(
+  () => chosenPlan.value ?? (station.value?.station.recommended_plan as Plan | undefined) ?? "full",
+);
 export const trouble = signal<{ text: string; field: string | null } | null>(null);
 /** How many scans filled in a field: each one leads on to what is missing. */
 export const scans = signal(0);

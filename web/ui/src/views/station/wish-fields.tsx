@@ -34,7 +34,7 @@ export function WishFields() {
 
 function NumberField({ name, label }: { name: Wish; label: string }) {
   return (
-    <p class="field">
+    <p class={`field ${name === "accuracy" ? "wide" : ""}`}>
       <label for={name}>{label}</label>
       <input
         id={name}

@@ -6,7 +6,7 @@ import { Refused } from "../../../src/api";
 import { confirm, disarm, watchArmed } from "../../../src/armed";
 import { now, station } from "../../../src/live";
 import { operator } from "../../../src/operator";
-import { plan, serial, takeSerial, trouble } from "../../../src/views/station/start";
+import { chosenPlan, serial, takeSerial, trouble } from "../../../src/views/station/start";
 import { StartForm } from "../../../src/views/station/start-form";
 import { wishes } from "../../../src/views/station/wishes";
 import { run, stationNow, summary } from "../../samples";
@@ -47,7 +47,7 @@ const enter = async (id: string, text: string) => {
 beforeEach(async () => {
   sent.mockReset().mockResolvedValue(summary());
   serial.value = operator.value = "";
-  plan.value = "paper";
+  chosenPlan.value = "paper";
   trouble.value = null;
   disarm();
   now.value = performance.now();
@@ -98,7 +98,7 @@ describe("a start", () => {
   });
 
   it("is sent once, trimmed, with a key, when it is confirmed", async () => {
-    plan.value = "full";
+    chosenPlan.value = "full";
     await type("robot_serial", " FB-1 ");
     await type("operator", "ada ");
     await press("Calibrate");
@@ -206,5 +206,5 @@ describe("a scanned serial", () => {
 it("offers the plans that the station can run", () =>
   expect([...place.querySelectorAll("#plan option")].map((one) => one.textContent)).toEqual([
     "Paper",
-    "Full",
+    "Full (recommended)",
   ]));

@@ -1,0 +1,59 @@
+"""How the readings of a run agree while it goes on: to be looked at; the run's own identification judges."""
+
+from __future__ import annotations
+
+import logging
+import time
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from station.errors import InputRefused
+from station.five_bar import FiveBar, Robot
+from station.identification import identify
+from station.records import LIMIT_SDS, Reading, Residual, from_readings, residual_rows
+
+log = logging.getLogger(__name__)
+
+FEWEST = 8
+"""Readings from which the fit says something of each."""
+SHARE = 0.1
+"""Of the worker's time that fits may take."""
+
+
+@dataclass
+class SoFar:
+    """Readings since the zeros of the drives were last written."""
+
+    robot: Robot
+    _readings: list[Reading] = field(default_factory=list)
+    _next_s: float = 0.0
+
+    def renew(self) -> None:
+        """The drives have other zeros: earlier readings say nothing of the next ones."""
+        self._readings.clear()
+
+    def add(self, reading: Reading) -> tuple[Residual, ...]:
+        """Residuals of all readings with this one; nothing while there are too few, or it is too early."""
+        # positions of different sequences are no repeats: plan `paper` visits them at other angles
+        self._readings.append(replace(reading, position=f"{reading.position} {reading.sequence}"))
+        began_s = time.monotonic()
+        if len(self._readings) < FEWEST or began_s < self._next_s:
+            return ()
+        try:
+            return self._residuals()
+        except InputRefused:
+            return ()
+        except Exception:  # what is only looked at must not end a run
+            log.exception("The residuals so far cannot be computed")
+            return ()
+        finally:
+            now_s = time.monotonic()
+            self._next_s = now_s + (now_s - began_s) / SHARE
+
+    def _residuals(self) -> tuple[Residual, ...]:
+        everything = from_readings(self._readings)
+        fit = identify(self.robot, everything)
+        predicted = FiveBar(self.robot, everything).observe(fit.p, everything.theta).value
+        limit = np.full(len(self._readings), LIMIT_SDS * fit.noise.sigma_mm)
+        return residual_rows(self._readings, everything.distance - predicted, limit)

@@ -1,0 +1,74 @@
+"""Which runs a list shows, as conditions of SQL that the indexes of the history serve."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Literal
+
+from station.store.rows import millis
+
+Order = Literal["newest", "oldest"]
+Conditions = tuple[list[str], list[str | int]]
+FEW = 2000
+"""So many matches of a search are sorted; of more, some are soon met going through all runs in order."""
+_AFTER_ALL = "\U0010ffff"
+
+
+@dataclass(frozen=True, slots=True)
+class Filters:
+    """All that are given must hold.  Times without a zone are UTC."""
+
+    search: str | None = None
+    """How the serial begins, in capitals or not."""
+    robot_serial: str | None = None
+    state: str | None = None
+    verdict: str | None = None
+    plan: str | None = None
+    work_order: str | None = None
+    since: datetime | None = None
+    """Created then or later."""
+    until: datetime | None = None
+    """Created before."""
+    ended_since: datetime | None = None
+    """Ended then or later."""
+
+    def conditions(self, or_unstored: Callable[[str], str], *, few_found: bool = True) -> Conditions:
+        """Conditions on `calibrations` and their values.
+
+        :param or_unstored: lets runs through whose stored state is not the one that is shown
+        :param few_found: whether the search is to choose the index
+        """
+        conditions: list[str] = []
+        values: list[str | int] = []
+        if self.search:
+            column = f"{'' if few_found else '+'}robot_serial"
+            conditions.append(f"{column} COLLATE NOCASE >= ? AND {column} COLLATE NOCASE < ?")
+            values += [self.search, self.search + _AFTER_ALL]
+        for name in ("work_order", "robot_serial", "verdict", "state", "plan"):
+            wanted = getattr(self, name)
+            if wanted is not None:
+                # Only the first, most selective one may choose the index: + takes the others out.
+                conditions.append(f"{'+' if conditions else ''}{name} = ?{or_unstored(name)}")
+                values.append(wanted)
+        if self.since is not None:
+            conditions.append(
+                # times may fall where the clock was set back: the range narrows, the time decides
+                "id >= (SELECT min(id) FROM calibrations WHERE created_ms >= ?) AND +created_ms >= ?"
+            )
+            values += [millis(self.since)] * 2
+        if self.until is not None:
+            conditions.append(
+                "id <= (SELECT max(id) FROM calibrations WHERE created_ms < ?) AND +created_ms < ?"
+            )
+            values += [millis(self.until)] * 2
+        if self.ended_since is not None:
+            conditions.append("ended_ms >= ?")
+            values.append(millis(self.ended_since))
+        return conditions, values
+
+
+def where(conditions: list[str]) -> str:
+    """The clause; empty without a condition."""
+    return f" WHERE {' AND '.join(f'({condition})' for condition in conditions)}" if conditions else ""
