@@ -363,7 +363,7 @@ export const de: Messages = {
       },
       see: { button: "Diagnose anzeigen", text: "Die Diagnose zeigt, wovon der Restfehler abhängt." },
     },
-    advices: {
+    adviceByKind: {
       repeat: () => "Messen Sie dieselben Messungen noch einmal.",
       joint_angle: (joint) => `Lesen Sie den Winkel von Gelenk ${joint} von einer Wasserwaage ab.`,
       drm_x: () => "Messen Sie den seitlichen Anbaufehler der Messeinrichtung.",

@@ -386,7 +386,7 @@ export const en = {
       see: { button: "Show the diagnosis", text: "The diagnosis shows what the residual depends on." },
     },
     /** By its kind, with the joint where it is about one. */
-    advices: {
+    adviceByKind: {
       repeat: () => "Measure the same readings once more.",
       joint_angle: (joint: string) => `Read the angle of joint ${joint} from a level.`,
       drm_x: () => "Measure the sideways mounting error of the mechanism.",

@@ -306,7 +306,7 @@ export const zh: Messages = {
       no_advice: { text: "进一步测量不会明显提高精度。需要放宽限值或使用更好的光栅尺。" },
       see: { button: "显示诊断", text: "诊断显示残差取决于什么。" },
     },
-    advices: {
+    adviceByKind: {
       repeat: () => "再测量一遍相同的读数。",
       joint_angle: (joint) => `用水平仪读取关节 ${joint} 的角度。`,
       drm_x: () => "测量机构的横向安装误差。",

@@ -9,7 +9,7 @@ import { MotionWarning } from "../../parts/motion-warning";
 import { OperatorField } from "../../parts/operator-field";
 import { navigate, path } from "../../router";
 import type { Calibration, Experiment, Plan } from "../../types";
-import { plan as planToStart, serial } from "../station/start";
+import { chosenPlan, takeSerial } from "../station/start";
 import { type Act, nextStep } from "./steps";
 
 interface Props {
@@ -54,8 +54,8 @@ type Moving = Exclude<Act, { do: "open" | "prepare" }>;
 
 /** The start form with what is known already; nothing moves before it is confirmed there. */
 function prepare(robot: string, plan: Plan): void {
-  serial.value = robot;
-  planToStart.value = plan;
+  takeSerial(robot);
+  chosenPlan.value = plan;
   navigate("/");
 }
 
