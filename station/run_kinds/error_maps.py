@@ -44,6 +44,8 @@ class _Known:
     """What a run says of the machine."""
 
     robot: Robot
+    wanted: Calibration
+    """The run that a wanted accuracy was given for."""
     fields: Callable[[Complex], ErrorFields]
     bound_mm: float | None
     fresh: tuple[FreshReading, ...]
@@ -64,7 +66,7 @@ def error_map(store: Store, run: int, joints: Sequence[JointSettings]) -> ErrorM
         known = known_of(store, calibration)
     except InputRefused as refusal:
         raise NotApplicable(f"Run {run} has no error map: {refusal}") from refusal
-    promised = calibration.accuracy
+    promised, wish = calibration.accuracy, known.wanted.accuracy
     bound = known.bound_mm if promised is None or promised.bound_95_mm is None else promised.bound_95_mm
     if bound is None or not np.isfinite(bound):
         raise NotApplicable(f"Run {run} has no error map: its position error has no finite bound.")
@@ -85,7 +87,7 @@ def error_map(store: Store, run: int, joints: Sequence[JointSettings]) -> ErrorM
         after_mm=grid(fields.after),
         after_95_mm=grid(fields.within(bound)),
         bound_95_mm=bound,
-        limit_mm=known.robot.accuracy_mm if promised is None else promised.wanted_mm,
+        limit_mm=known.robot.accuracy_mm if wish is None else wish.wanted_mm,
         fresh=known.fresh,
     )
 
@@ -101,27 +103,28 @@ def _of_calibration(store: Store, calibration: Calibration) -> _Known:
     else:
         later = _measurements(source)
         fresh = fresh_readings(source.fit, later, verify(source.fit, later).residual_mm)
-    return _known(source, zeros, fresh)
+    return _known(source, calibration, zeros, fresh)
 
 
 def _of_application(store: Store, calibration: Calibration) -> _Known:
     """What the run left in the drives, not what it meant to write."""
     assert calibration.of is not None
-    source = source_of(store, calibration.of)
+    source, applied = source_of(store, calibration.of), store.calibration(calibration.of)
     writes = store.zero_writes(calibration.robot_serial, since=calibration.of)
     shift = np.radians(shift_of([write for write in writes if write.run_id <= calibration.id]))
     taken = [r for r in store.readings(calibration.id) if r.sequence > 1]
     if not taken or calibration.verdict != "pass":  # zeros that were taken back were others when it read
-        return _known(source, -shift, ())
+        return _known(source, applied, -shift, ())
     moved = source.fit.moved((float(np.degrees(shift[0])), float(np.degrees(shift[1]))))
     later = from_readings(taken, source.fit.measurements.mounts)
     residual_mm = verify(moved, later, offset_known=False).residual_mm
-    return _known(source, -shift, fresh_readings(moved, later, residual_mm))
+    return _known(source, applied, -shift, fresh_readings(moved, later, residual_mm))
 
 
-def _known(source: Source, zeros: Real, fresh: tuple[FreshReading, ...]) -> _Known:
+def _known(source: Source, wanted: Calibration, zeros: Real, fresh: tuple[FreshReading, ...]) -> _Known:
     return _Known(
         robot=source.fit.mechanism.robot,
+        wanted=wanted,
         fields=lambda places: error_fields(source.fit, zeros, places),
         bound_mm=bounds_mm(source.fit, zeros)[0],
         fresh=fresh,
@@ -137,7 +140,7 @@ def _of_diagnosis(store: Store, calibration: Calibration) -> _Known:
         assert known is not None  # of a five-bar it is
         return known
 
-    return _Known(robot, fields, findings.zeros_only_bound_mm, findings.fresh)
+    return _Known(robot, calibration, fields, findings.zeros_only_bound_mm, findings.fresh)
 
 
 _BY_KIND: dict[str, Callable[[Store, Calibration], _Known]] = {

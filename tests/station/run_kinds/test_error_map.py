@@ -156,6 +156,7 @@ def test_of_an_apply_it_is_what_the_drives_hold(store: Store, tmp_path: Path) ->
     assert whole.bound_95_mm == pytest.approx(of.bound_95_mm, abs=1e-5)
     assert values(half.after_mm) == pytest.approx(0.5 * values(of.before_mm), rel=0.1)
     assert half.fresh == ()
+    assert (whole.limit_mm, half.limit_mm) == (ROBOT.accuracy_mm, ROBOT.accuracy_mm)
 
 
 def test_runs_without_zero_offsets_have_none(store: Store, tmp_path: Path) -> None:

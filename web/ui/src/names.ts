@@ -155,4 +155,4 @@ export const interlockName = (id: string, text: string) => own<string>(t.interlo
 
 /** What would raise the accuracy, in the page's language; of a kind that it does not know, in English. */
 export const adviceText = ({ kind, joint, text }: { kind: string; joint?: number | null; text: string }) =>
-  own<(joint: string) => string>(t.result.advices, kind)?.(String(joint ?? "")) ?? readable(text);
+  own<(joint: string) => string>(t.result.adviceByKind, kind)?.(String(joint ?? "")) ?? readable(text);

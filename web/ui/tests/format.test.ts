@@ -11,6 +11,7 @@ import {
   quantity,
   signed,
   signedMicrometres,
+  significant,
   timeOfDay,
 } from "../src/format";
 
@@ -99,3 +100,11 @@ it("a quantity does not break before its unit, and has none without one", () => 
   expect(quantity(1.5, 0.05, "mm")).toBe("1.50 ± 0.10\u00a0mm");
   expect(quantity(20, 0.05, "")).toBe("20.00 ± 0.10");
 });
+
+it.each([
+  [0.012345, "0.012"],
+  [-1234, "\u22121200"],
+  [2, "2"],
+  [null, "–"],
+  [Number.NaN, "–"],
+])("%s to two significant digits is %s", (value, text) => expect(significant(value, 2)).toBe(text));

@@ -270,11 +270,12 @@ export const de: Messages = {
     remedy: (text) => `Empfohlen: ${text}`,
 
     notValid: "nicht gültig",
-    notValidNote: "Dieser Lauf wurde nicht angenommen. Seine Zahlen dienen nur der Suche nach der Ursache.",
+    notValidNote: "Dieser Lauf wurde nicht angenommen. Seine Zahlen dürfen nicht verwendet werden.",
 
     decision: {
-      limited: (bound, limit) => `Positionsfehler höchstens ${bound} mm (95 %), Grenze ${limit} mm`,
-      unlimited: (bound) => `Positionsfehler höchstens ${bound} mm (95 %), keine Grenze genannt`,
+      limited: (bound, limit) =>
+        `Positionsfehler höchstens ${bound}\u00a0mm (95\u00a0%), Grenze ${limit}\u00a0mm`,
+      unlimited: (bound) => `Positionsfehler höchstens ${bound}\u00a0mm (95\u00a0%), keine Grenze genannt`,
       sized: (effect, size) => `${effect}, ${size}`,
       notIdentified: "kein Roboter innerhalb seiner Toleranzen ergibt diese Messungen",
       undecided: (cause, percent, others) => `${cause} (${percent} %) oder ${others}`,
@@ -337,6 +338,10 @@ export const de: Messages = {
         button: "Entscheidenden Versuch starten",
         text: "Weitere Messungen unterscheiden die möglichen Ursachen.",
       },
+      decide_by_plan: {
+        button: "Versuch vorbereiten",
+        text: "Die Station zeigt das Startformular mit diesem Roboter und dem Plan des Versuchs.",
+      },
       decide_by_hand: {
         button: "Versuche anzeigen",
         text: "Ein Versuch von Hand unterscheidet die möglichen Ursachen.",
@@ -358,7 +363,7 @@ export const de: Messages = {
       },
       see: { button: "Diagnose anzeigen", text: "Die Diagnose zeigt, wovon der Restfehler abhängt." },
     },
-    advices: {
+    adviceByKind: {
       repeat: () => "Messen Sie dieselben Messungen noch einmal.",
       joint_angle: (joint) => `Lesen Sie den Winkel von Gelenk ${joint} von einer Wasserwaage ab.`,
       drm_x: () => "Messen Sie den seitlichen Anbaufehler der Messeinrichtung.",
@@ -382,6 +387,8 @@ export const de: Messages = {
         `x ${x} mm, y ${y} mm: vorher ${before} mm; nachher höchstens ${bound} mm (95 %), erwartet ${expected} mm.`,
       closed: (x, y) => `x ${x} mm, y ${y} mm: außerhalb der Grenzen der Gelenke.`,
       noLimit: "Es wurde keine Grenze genannt.",
+      notValid:
+        "Nicht gültig: dieser Lauf wurde nicht angenommen. Die Karte zeigt, was seine Erklärung der Messungen erwarten lässt.",
       limit: {
         everywhere: (mm) => `Nachher: Die Grenze von ${mm} mm wird überall eingehalten.`,
         partly: (mm) =>
@@ -490,7 +497,7 @@ export const de: Messages = {
 
     explanations: "Erklärungen",
     explanationsTitle: "Erklärungen der Messungen, die wahrscheinlichste zuerst",
-    explanation: "Erklärung",
+    explanationSized: "Erklärung, Größe ± U",
     noError: "Kein Fehler: das Grundmodell allein",
     outsideCatalogue: "nicht im Katalog",
 

@@ -300,12 +300,12 @@ export const en = {
     remedy: (text: string) => `Recommended: ${text}`,
 
     notValid: "not valid",
-    notValidNote: "This run was not accepted. Its numbers are shown for the search for the cause only.",
+    notValidNote: "This run was not accepted. Its numbers must not be used.",
 
     decision: {
       limited: (bound: string, limit: string) =>
-        `position error at most ${bound} mm (95 %), limit ${limit} mm`,
-      unlimited: (bound: string) => `position error at most ${bound} mm (95 %), no limit was given`,
+        `position error at most ${bound}\u00a0mm (95\u00a0%), limit ${limit}\u00a0mm`,
+      unlimited: (bound: string) => `position error at most ${bound}\u00a0mm (95\u00a0%), no limit was given`,
       sized: (effect: string, size: string) => `${effect}, ${size}`,
       notIdentified: "no robot within its tolerances gives these readings",
       undecided: (cause: string, percent: string, others: string) => `${cause} (${percent} %) or ${others}`,
@@ -363,6 +363,10 @@ export const en = {
         button: "Start the deciding experiment",
         text: "Further readings distinguish the possible causes.",
       },
+      decide_by_plan: {
+        button: "Prepare the experiment",
+        text: "The station shows the start form with this robot and the plan of the experiment.",
+      },
       decide_by_hand: {
         button: "Show the experiments",
         text: "An experiment by hand distinguishes the possible causes.",
@@ -382,7 +386,7 @@ export const en = {
       see: { button: "Show the diagnosis", text: "The diagnosis shows what the residual depends on." },
     },
     /** By its kind, with the joint where it is about one. */
-    advices: {
+    adviceByKind: {
       repeat: () => "Measure the same readings once more.",
       joint_angle: (joint: string) => `Read the angle of joint ${joint} from a level.`,
       drm_x: () => "Measure the sideways mounting error of the mechanism.",
@@ -406,6 +410,8 @@ export const en = {
         `x ${x} mm, y ${y} mm: before ${before} mm; after at most ${bound} mm (95 %), expected ${expected} mm.`,
       closed: (x: string, y: string) => `x ${x} mm, y ${y} mm: outside the limits of the joints.`,
       noLimit: "No limit was given.",
+      notValid:
+        "Not valid: this run was not accepted. The map shows what its explanation of the readings expects.",
       limit: {
         everywhere: (mm: string) => `After: the limit of ${mm} mm is kept everywhere.`,
         partly: (mm: string) => `After: the line is the limit of ${mm} mm; beyond it the limit is not kept.`,
@@ -513,7 +519,7 @@ export const en = {
 
     explanations: "Explanations",
     explanationsTitle: "Explanations of the readings, most probable first",
-    explanation: "Explanation",
+    explanationSized: "Explanation, size ± U",
     noError: "No error: the base model alone",
     outsideCatalogue: "not in the catalogue",
 

@@ -251,11 +251,11 @@ export const zh: Messages = {
     remedy: (text) => `建议：${text}`,
 
     notValid: "无效",
-    notValidNote: "该运行未被接受。其数值仅供查找原因。",
+    notValidNote: "该运行未被接受。其数值不得使用。",
 
     decision: {
-      limited: (bound, limit) => `位置误差至多 ${bound} mm（95 %），限值 ${limit} mm`,
-      unlimited: (bound) => `位置误差至多 ${bound} mm（95 %），未给出限值`,
+      limited: (bound, limit) => `位置误差至多 ${bound}\u00a0mm（95\u00a0%），限值 ${limit}\u00a0mm`,
+      unlimited: (bound) => `位置误差至多 ${bound}\u00a0mm（95\u00a0%），未给出限值`,
       sized: (effect, size) => `${effect}，${size}`,
       notIdentified: "公差内没有任何机器人会给出这些读数",
       undecided: (cause, percent, others) => `${cause}（${percent} %）或${others}`,
@@ -295,6 +295,7 @@ export const zh: Messages = {
         text: "模型缺少一个效应。120 次读数显示残差取决于什么；40 次新读数检验所找到的原因。",
       },
       decide: { button: "开始判定试验", text: "进一步的读数可区分可能的原因。" },
+      decide_by_plan: { button: "准备试验", text: "工作站会显示启动表单，并已填入该机器人和试验的方案。" },
       decide_by_hand: { button: "显示试验", text: "一次手动试验可区分可能的原因。" },
       repaired: { button: "已修理：重新测量", text: "请修理原因，然后重新测量：运行会显示是否已排除。" },
       raise: { button: "提高精度", text: "就所需时间而言，这样最能提高精度。" },
@@ -305,7 +306,7 @@ export const zh: Messages = {
       no_advice: { text: "进一步测量不会明显提高精度。需要放宽限值或使用更好的光栅尺。" },
       see: { button: "显示诊断", text: "诊断显示残差取决于什么。" },
     },
-    advices: {
+    adviceByKind: {
       repeat: () => "再测量一遍相同的读数。",
       joint_angle: (joint) => `用水平仪读取关节 ${joint} 的角度。`,
       drm_x: () => "测量机构的横向安装误差。",
@@ -328,6 +329,7 @@ export const zh: Messages = {
         `x ${x} mm，y ${y} mm：标定前 ${before} mm；标定后至多 ${bound} mm（95 %），预期 ${expected} mm。`,
       closed: (x, y) => `x ${x} mm，y ${y} mm：超出关节限位。`,
       noLimit: "未给出限值。",
+      notValid: "无效：该运行未被接受。图中显示的是按其对读数的解释所预期的误差。",
       limit: {
         everywhere: (mm) => `标定后：处处满足 ${mm} mm 的限值。`,
         partly: (mm) => `标定后：线为 ${mm} mm 的限值；线外不满足。`,
@@ -427,7 +429,7 @@ export const zh: Messages = {
 
     explanations: "解释",
     explanationsTitle: "对读数的解释，最可能的在前",
-    explanation: "解释",
+    explanationSized: "解释，大小 ± U",
     noError: "无误差：仅基本模型",
     outsideCatalogue: "不在目录中",
 

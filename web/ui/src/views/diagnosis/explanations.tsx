@@ -14,10 +14,7 @@ export function Explanations({ found: { explanations = [] } }: { found: Diagnosi
         <thead>
           <tr>
             <th scope="col" class="text">
-              {t.diagnosis.explanation}
-            </th>
-            <th scope="col" class="text">
-              {t.diagnosis.size}
+              {t.diagnosis.explanationSized}
             </th>
             <th scope="col" class="text" colSpan={2}>
               {t.diagnosis.probability}
@@ -36,13 +33,14 @@ export function Explanations({ found: { explanations = [] } }: { found: Diagnosi
 }
 
 function Row({ explanation: { effects, probability, named } }: { explanation: Explanation }) {
+  const size = t.listed(effects.flatMap(sizes));
   return (
     <tr>
       <th scope="row" class="text">
         {effects.length === 0 ? t.diagnosis.noError : errors(effects)}
         {!named && <small> ({t.diagnosis.outsideCatalogue})</small>}
+        {size && <small> {size}</small>}
       </th>
-      <td class="text">{t.listed(effects.flatMap(sizes))}</td>
       <td class="part">
         <progress value={probability} max={1} aria-hidden="true" />
       </td>

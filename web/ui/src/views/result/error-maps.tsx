@@ -6,6 +6,7 @@ import { t } from "../../messages";
 import { useLoaded } from "../../parts/load";
 import type { Calibration, ErrorMap } from "../../types";
 import { scaleOf } from "./colours";
+import { isValid } from "./decision";
 import { type Cell, kept, stepped, worst } from "./field";
 import { FieldMap } from "./field-map";
 import { ScaleBar } from "./scale-bar";
@@ -17,18 +18,20 @@ const mm = (value: number | null | undefined) => fixed(value, DIGITS);
 export const hasMap = ({ kind, verdict, zero_offsets }: Calibration) =>
   verdict !== null && zero_offsets.length > 0 && kind !== "rollback";
 
-/** @param on asked again when this changes */
-export function ErrorMaps({ id, on }: { id: number; on: string }) {
-  const { value: map, trouble } = useLoaded(`${id} ${on}`, () => errorMap(id)).value;
+export function ErrorMaps({ result }: { result: Calibration }) {
+  const { id, application } = result;
+  const key = `${id} ${application?.state}`;
+  const { value: map, trouble } = useLoaded(key, () => errorMap(id)).value;
+  const valid = isValid(result) || result.outcome === "not_accurate_enough";
   return (
     <section class="panel wide error-maps" aria-label={t.result.map.title}>
       <h2>{t.result.map.title}</h2>
-      {map ? <Maps map={map} /> : <p role="status">{trouble ?? t.shared.loading}</p>}
+      {map ? <Maps map={map} valid={valid} /> : <p role="status">{trouble ?? t.shared.loading}</p>}
     </section>
   );
 }
 
-function Maps({ map }: { map: ErrorMap }) {
+function Maps({ map, valid }: { map: ErrorMap; valid: boolean }) {
   const cursor = useSignal<Cell | null>(null);
   const grid = { x: map.x_mm, y: map.y_mm };
   const { limit_mm: limit } = map;
@@ -72,15 +75,19 @@ function Maps({ map }: { map: ErrorMap }) {
         />
       </div>
       <ScaleBar scale={scale} limit={limit} />
-      <output id="map-value" class="value" aria-live="polite">
+      <output id="map-value" class={valid ? "value" : "value not-valid"} aria-live="polite">
         {valueAt(map, at)}
       </output>
       <p class="note">
-        {limit === null ? t.result.map.noLimit : t.result.map.limit[kept(map.after_95_mm, limit)](mm(limit))}{" "}
-        {freshText(map.fresh)} {t.result.map.how}.
+        {valid ? limitText(map) : t.result.map.notValid} {freshText(map.fresh)} {t.result.map.how}.
       </p>
     </>
   );
+}
+
+function limitText({ limit_mm, after_95_mm }: ErrorMap): string {
+  if (limit_mm === null) return t.result.map.noLimit;
+  return t.result.map.limit[kept(after_95_mm, limit_mm)](mm(limit_mm));
 }
 
 function valueAt(map: ErrorMap, { i, j }: Cell): string {

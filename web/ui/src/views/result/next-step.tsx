@@ -8,7 +8,8 @@ import { Link } from "../../parts/link";
 import { MotionWarning } from "../../parts/motion-warning";
 import { OperatorField } from "../../parts/operator-field";
 import { navigate, path } from "../../router";
-import type { Calibration, Experiment } from "../../types";
+import type { Calibration, Experiment, Plan } from "../../types";
+import { chosenPlan, takeSerial } from "../station/start";
 import { type Act, nextStep } from "./steps";
 
 interface Props {
@@ -34,13 +35,29 @@ export function NextStep({ result, experiments }: Props) {
           </Link>
         </p>
       )}
+      {act?.do === "prepare" && (
+        <p class="actions">
+          <button type="button" class="act" onClick={() => prepare(result.robot_serial, act.plan)}>
+            {button}
+          </button>
+        </p>
+      )}
       {/* another step is another button: a press that was meant for one must never do the other */}
-      {act && act.do !== "open" && <Confirmed key={why} label={button} act={act} result={result} />}
+      {act && act.do !== "open" && act.do !== "prepare" && (
+        <Confirmed key={why} label={button} act={act} result={result} />
+      )}
     </section>
   );
 }
 
-type Moving = Exclude<Act, { do: "open" }>;
+type Moving = Exclude<Act, { do: "open" | "prepare" }>;
+
+/** The start form with what is known already; nothing moves before it is confirmed there. */
+function prepare(robot: string, plan: Plan): void {
+  takeSerial(robot);
+  chosenPlan.value = plan;
+  navigate("/");
+}
 
 function Confirmed({ label, act, result }: { label: string; act: Moving; result: Calibration }) {
   const idle = connected.value && !station.value?.run && operator.value.trim() !== "";

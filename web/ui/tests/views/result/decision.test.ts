@@ -5,7 +5,8 @@ import { calibration, finding } from "../../samples";
 
 const line = (given: Partial<Calibration>) => {
   const { look, sentence } = decisionOf(calibration(given));
-  return `${look.word}: ${sentence}`;
+  // values do not break before their units
+  return `${look.word}: ${sentence}`.replaceAll("\u00a0", " ");
 };
 const accuracy = (bound_95_mm: number | null, wanted_mm: number | null) => ({
   bound_95_mm,
@@ -40,7 +41,7 @@ describe("the decision", () => {
   it("names the defect and its size, and says nowhere that it passed", () => {
     const repair: Partial<Calibration> = { outcome: "repair", findings: [finding()] };
     for (const verdict of ["pass", "fail"] as const) {
-      expect(line({ ...repair, verdict })).toBe("REPAIR: Backlash of joint 2, 0.04960 ± 0.00020\u00a0°");
+      expect(line({ ...repair, verdict })).toBe("REPAIR: Backlash of joint 2, 0.04960 ± 0.00020 °");
     }
     const two = [finding(), finding({ joint: 1, label: "backlash of joint 1", parameters: [] })];
     expect(line({ ...repair, verdict: "fail", findings: two })).toMatch(

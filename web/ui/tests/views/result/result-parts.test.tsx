@@ -93,7 +93,16 @@ describe("the head of a result", () => {
   });
 
   it("leads to the diagnosis where there is one, and to the run that it belongs to", () => {
-    expect(links({})).toEqual(["Readings (CSV)", "History of this robot"]);
+    const always = ["Readings (CSV)", "History of this robot"];
+    const ended_at = "2024-03-05T07:02:05Z";
+    expect(links({ ended_at })).toEqual([
+      "Certificate (HTML)",
+      "Certificate (PDF)",
+      "Certificate (JSON)",
+      ...always,
+    ]);
+    // of what was not judged there is nothing to certify
+    expect(links({ ended_at, state: "aborted", verdict: null })).toEqual(always);
     expect(links({ method: "diagnosis" })).toContain("Diagnosis");
     expect(links({ of: 4 })).toContain("Result 4");
   });

@@ -108,6 +108,7 @@ describe("the next step after a diagnosis", () => {
   it("is a repair, and the run after it", () => expect(diagnosis("repair")).toEqual(["repaired", "full"]));
   it("is a calibration where nothing is missing", () =>
     expect(diagnosis("good")).toEqual(["calibrate", "full"]));
+  const ambiguous = calibration({ kind: "diagnose", verdict: "fail", outcome: "ambiguous" });
   it("is the experiment that is most probable to decide", () => {
     const both = [experiment("payload", 0.3), experiment("motion", 0.9)];
     expect(diagnosis("ambiguous", both)).toEqual(["decide", "separate"]);
@@ -120,6 +121,11 @@ describe("the next step after a diagnosis", () => {
       "decide_by_hand",
       "open",
     ]);
+    expect(diagnosis("ambiguous", [experiment("second_mount", 0.9)])).toEqual(["decide_by_plan", "prepare"]);
+    expect(nextStep(ambiguous, [experiment("joint_reference", 0.9)]).act).toEqual({
+      do: "prepare",
+      plan: "reference",
+    });
     expect(diagnosis("ambiguous")).toEqual(["see", "open"]);
   });
   it("is its details where the cause was not found, and for a file", () => {
