@@ -7,13 +7,17 @@ PAGE := $(shell find web/ui \( -name node_modules -o -name tests -o -name api-ty
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 NPM := $(BIN)/python deploy/node.py
 
-.PHONY: run test record lint format bench mutate reference lock clean
+.PHONY: run test coverage record lint format bench mutate reference lock clean
 
 run: $(VENV)/installed  ## install and start the service on the emulated rig; prints the address
 	$(BIN)/station serve
 
 test: $(VENV)/installed-for-tests  ## everything that can be checked
 	$(NPM) test
+	deploy/debian-packages chromium mbpoll mosquitto
+	$(BIN)/pytest --numprocesses 3 --dist loadfile
+
+coverage: $(VENV)/installed-for-tests  ## the same tests, with the lines that none of them runs (slower)
 	deploy/debian-packages chromium mbpoll mosquitto
 	$(BIN)/pytest --numprocesses 3 --dist loadfile --cov=station --cov=drivers --cov=web
 

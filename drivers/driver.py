@@ -10,16 +10,17 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Annotated, Generic, TypeVar
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import ConfigDict, Field
 
 from drivers.lines import ModbusWords
 from drivers.protocols import LinearScale, ServoAxis
 from drivers.scaling import JointScaling
+from drivers.strict_numbers import StrictNumbers
 
 Seconds = Annotated[float, Field(gt=0, le=10)]
 
 
-class DriverSettings(BaseModel):
+class DriverSettings(StrictNumbers):
     """Options of a driver in the station file.  Each driver adds its own; an unknown one is refused."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -60,6 +61,8 @@ class ServoDriver(Generic[S]):
     """One axis a drive, in this order; nothing is opened yet.  :raises BadUrl:"""
     registers: Mapping[int, str] = field(default_factory=dict)
     """Names by address, for whoever reads a wire log."""
+    position_register: int | None = None
+    """Where the pulses of the joint's position begin, two registers."""
 
     def words(self, url: str) -> ModbusWords:
         """What frames on the line with this URL mean."""

@@ -11,7 +11,6 @@ from urllib.parse import urlsplit
 
 from pydantic import (
     AfterValidator,
-    BaseModel,
     ConfigDict,
     Field,
     IPvAnyNetwork,
@@ -24,13 +23,14 @@ from pydantic_core import ErrorDetails
 
 from drivers.driver import DriverSettings
 from drivers.scaling import JointScaling
+from drivers.strict_numbers import StrictNumbers
 from station.errors import InputRefused
-from station.records import EventType, said
+from station.records import EventType, ScaleCertificate, said
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 
 
-class _Section(BaseModel):
+class _Section(StrictNumbers):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
 
@@ -295,6 +295,12 @@ class FolderSettings(_Section):
     """Types of event that are written."""
 
 
+class ScaleCertificateSettings(StrictNumbers, ScaleCertificate):
+    """`[scale_certificate]`: the calibration of the linear scale.  Outside its dates nothing passes."""
+
+    model_config = ConfigDict(extra="forbid")
+
+
 class OutboxSettings(_Section):
     """`[outbox]`: who is told of runs and alarms."""
 
@@ -328,6 +334,7 @@ class Settings(_Section):
     backup: BackupSettings = BackupSettings()
     retention: RetentionSettings = RetentionSettings()
     quality: QualitySettings = QualitySettings()
+    scale_certificate: ScaleCertificateSettings | None = None
     scan: ScanSettings = ScanSettings()
     outbox: OutboxSettings = OutboxSettings()
     emulated: EmulatedSettings = EmulatedSettings()

@@ -17,16 +17,22 @@ from web.compression import Compression
 from web.headers import SecurityHeaders
 from web.known_query import known_query
 from web.live import LiveFeed
+from web.metrics import Metrics
 from web.routes import (
     audit,
     backups,
     calibrations,
+    certificates,
     datasets,
+    devices,
     diagnoses,
     emulator,
+    error_maps,
     events,
     health,
+    keys,
     live,
+    metrics,
     plans,
     quality,
     readings,
@@ -37,6 +43,10 @@ from web.routes import (
     sessions,
     station,
     stop,
+    training,
+    users,
+    versions,
+    wire,
 )
 from web.slow_bodies import SlowBodies
 
@@ -51,10 +61,13 @@ JSON_BYTES = 1_000_000
 """Largest body of JSON."""
 NOTE_USE_S = 60.0
 ROUTES = (
-    station, audit, backups, calibrations, datasets, diagnoses, emulator, events, plans, quality, readings,
-    retract, robots, run_table, scans, sessions, stop,
+    station, audit, backups, calibrations, certificates, datasets, devices, diagnoses, emulator, error_maps,
+    events, keys, plans, quality, readings, retract, robots, run_table, scans, sessions, stop, training, users,
+    versions, wire,
 )  # fmt: skip
 LIVE_ROUTES = (live,)
+TOP_ROUTES = (metrics,)
+"""Where the tools that ask for them expect them."""
 
 
 def create_app(runtime: Runtime, *, access: Access | None = None, static: Path = pages.STATIC) -> FastAPI:
@@ -68,7 +81,7 @@ def create_app(runtime: Runtime, *, access: Access | None = None, static: Path =
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         noting = Timer("use of keys and sessions", access.note_use, NOTE_USE_S, first_s=NOTE_USE_S)
-        with app.state.feed.attached(), noting:
+        with app.state.feed.attached(), app.state.metrics.attached(), noting:
             yield
 
     app = FastAPI(
@@ -84,6 +97,7 @@ def create_app(runtime: Runtime, *, access: Access | None = None, static: Path =
     app.state.access = access
     app.state.runtime = runtime
     app.state.feed = LiveFeed(runtime.orchestrator, build=pages.build_id(static), open=access.open)
+    app.state.metrics = Metrics(runtime, lambda: app.state.feed.clients)
     for module in ROUTES:
         app.include_router(
             module.router,
@@ -93,6 +107,8 @@ def create_app(runtime: Runtime, *, access: Access | None = None, static: Path =
         )
     app.include_router(live.router, prefix=API)
     app.include_router(health.router)
+    for module in TOP_ROUTES:
+        app.include_router(module.router)
     pages.add(app, static)
     problems.add(app)
     problems.add_schema(app.openapi())

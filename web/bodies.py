@@ -7,7 +7,6 @@ from typing import Annotated, Literal
 
 from pydantic import (
     AfterValidator,
-    BaseModel,
     ConfigDict,
     Field,
     JsonValue,
@@ -15,6 +14,7 @@ from pydantic import (
     WithJsonSchema,
 )
 
+from drivers.strict_numbers import StrictNumbers
 from station.errors import InputRefused
 from station.five_bar import Robot as RobotFile
 from station.plans import PLANS
@@ -73,10 +73,14 @@ Plan = Annotated[
 ]
 
 
-class CalibrationBody(BaseModel):
-    """What to calibrate, how, and who asks."""
+class Body(StrictNumbers):
+    """What is sent: a field that is not known is refused."""
 
     model_config = ConfigDict(extra="forbid")
+
+
+class CalibrationBody(Body):
+    """What to calibrate, how, and who asks."""
 
     robot_serial: Serial
     plan: Plan
@@ -94,10 +98,8 @@ class CalibrationBody(BaseModel):
     )
 
 
-class DatasetFields(BaseModel):
+class DatasetFields(Body):
     """Whose readings are imported, and by whom; in the query, or as fields beside the files."""
-
-    model_config = ConfigDict(extra="forbid")
 
     robot_serial: Serial = Field(
         default=RobotFile.default().serial, description="without a file kept here: the paper's robot"
@@ -106,27 +108,21 @@ class DatasetFields(BaseModel):
     work_order: Name | None = None
 
 
-class ApplyBody(BaseModel):
+class ApplyBody(Body):
     """Who writes zero offsets to the drives, takes them back, or continues a run."""
-
-    model_config = ConfigDict(extra="forbid")
 
     operator: Name
 
 
-class AnswerBody(BaseModel):
+class AnswerBody(Body):
     """The answer to what a run asks."""
-
-    model_config = ConfigDict(extra="forbid")
 
     prompt: str = Field(description="`id` of the prompt")
     value: float | None = Field(default=None, description="where a number is asked for")
 
 
-class TranslateBody(BaseModel):
+class TranslateBody(Body):
     """Positions that were taught under other zeros."""
-
-    model_config = ConfigDict(extra="forbid")
 
     positions: list[TaughtPosition] = Field(min_length=1, max_length=10_000)
     taught_under: int | None = Field(
@@ -141,10 +137,8 @@ class TranslatedList(Record):
     next: None = None
 
 
-class ClearBody(BaseModel):
+class ClearBody(Body):
     """Who lets a robot work again after a failed check, and why."""
-
-    model_config = ConfigDict(extra="forbid")
 
     operator: Name
     reason: Annotated[str, StringConstraints(strip_whitespace=True, min_length=3, max_length=500)]
@@ -199,10 +193,8 @@ Finite = Annotated[float, Field(allow_inf_nan=False)]
 MOST_TARGETS = 10_000
 
 
-class Target(BaseModel):
+class Target(Body):
     """Where P is to go, and what an effect may depend on there."""
-
-    model_config = ConfigDict(extra="forbid")
 
     x_mm: Finite
     y_mm: Finite
@@ -212,10 +204,8 @@ class Target(BaseModel):
     payload_kg: Finite | None = None
 
 
-class SolveBody(BaseModel):
+class SolveBody(Body):
     """Targets to be commanded under the identified model."""
-
-    model_config = ConfigDict(extra="forbid")
 
     targets: list[Target] = Field(min_length=1, max_length=MOST_TARGETS)
 

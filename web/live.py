@@ -42,6 +42,11 @@ class LiveFeed:
         self._number = 0
         self._clients: set[_Client] = set()
 
+    @property
+    def clients(self) -> int:
+        """How many are fed at this moment."""
+        return len(self._clients)
+
     @contextmanager
     def attached(self) -> Iterator[None]:
         """Listen to the orchestrator, from within the running event loop."""

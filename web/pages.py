@@ -17,7 +17,15 @@ from starlette.types import Scope
 from web.problems import problem
 
 STATIC = Path(__file__).parent / "static"
-VIEWS = ("/", "/result", "/result/{calibration_id}", "/diagnosis/{calibration_id}", "/history", "/sign-in")
+VIEWS = (
+    "/",
+    "/result",
+    "/result/{calibration_id}",
+    "/diagnosis/{calibration_id}",
+    "/history",
+    "/maintenance",
+    "/sign-in",
+)
 """The page's own addresses: each answers the same HTML, the page shows the view."""
 
 DOCS_FILES = Path(fastapi_offline.__file__).parent / "static"

@@ -14,15 +14,16 @@ import signal
 import sys
 from pathlib import Path
 
-from pydantic import BaseModel, ConfigDict, ValidationError
+from pydantic import ConfigDict, ValidationError
 
 from drivers.emulated.imperfections import AnyEffect
 from drivers.emulated.orders import FaultOrder
 from drivers.emulated.rig import EmulatedRig, StateFileError
 from drivers.emulated.rig_file import DEFAULT_RIG, RigFileError, load_rig
+from drivers.strict_numbers import StrictNumbers
 
 
-class Order(BaseModel):
+class Order(StrictNumbers):
     """A line of standard input: what replaces what was ordered before; what is not given stays."""
 
     model_config = ConfigDict(extra="forbid")

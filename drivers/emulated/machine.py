@@ -249,9 +249,10 @@ class Machine:
     # -- effects on order ----------------------------------------------------------------------
 
     def replace_effects(self, effects: Sequence[Effect]) -> None:
-        """These and no others from now on."""
+        """These and no others from now on; to them the machine was switched on at this moment."""
         with self._lock:
             self._look()
+            self._on_s, self._stops = self._clock(), 0
             self._take(effects)
             self._start_memories()
 

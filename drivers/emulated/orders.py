@@ -11,7 +11,9 @@ from collections.abc import Callable, Iterable
 from threading import Lock
 from typing import Annotated, Literal, Self
 
-from pydantic import BaseModel, ConfigDict, Field, TypeAdapter, model_validator
+from pydantic import ConfigDict, Field, TypeAdapter, model_validator
+
+from drivers.strict_numbers import StrictNumbers
 
 Device = Literal["scale", "axis1", "axis2", "line"]
 Kind = Literal[
@@ -73,7 +75,7 @@ LATE_S = 1.5
 Seconds = Annotated[float, Field(ge=0, le=86_400, allow_inf_nan=False)]
 
 
-class FaultOrder(BaseModel):
+class FaultOrder(StrictNumbers):
     """One fault of an emulated device."""
 
     model_config = ConfigDict(frozen=True, extra="forbid")

@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import ConfigDict, Field
 
 from drivers.emulated.imperfections import AnyEffect
 from drivers.emulated.orders import FaultOrder
+from drivers.strict_numbers import StrictNumbers
 
 Pair = tuple[float, float]
 Positive = Annotated[float, Field(gt=0)]
 
 
-class _Table(BaseModel):
+class _Table(StrictNumbers):
     model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
 
 

@@ -8,6 +8,7 @@ from drivers.lines.on_line import OnLine, line_of
 from drivers.lines.playback import Departed, Playback
 from drivers.lines.retrying import within
 from drivers.lines.serial import Happening, SerialLine
+from drivers.lines.traffic import Traffic
 from drivers.lines.url import NetAddress, SerialAddress
 from drivers.lines.wire_log import WireEvent, WireLog, wire_events
 
@@ -21,6 +22,7 @@ __all__ = [
     "Playback",
     "SerialAddress",
     "SerialLine",
+    "Traffic",
     "UnansweredWrite",
     "WireEvent",
     "WireLog",

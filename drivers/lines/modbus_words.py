@@ -23,7 +23,7 @@ class ModbusWords:
 
     def request(self, frame: bytes) -> str:
         """What was sent."""
-        unit, pdu = self._taken_apart(frame)
+        unit, pdu = self.taken_apart(frame)
         if pdu is None or len(pdu) < 5:
             return _bytes(frame)
         function, address, count = struct.unpack_from(">BHH", pdu)
@@ -39,7 +39,7 @@ class ModbusWords:
 
     def answer(self, frame: bytes) -> str:
         """What came: one chunk, which need not be a whole frame."""
-        unit, pdu = self._taken_apart(frame)
+        unit, pdu = self.taken_apart(frame)
         if pdu is None or len(pdu) < 2:
             return _bytes(frame)
         if pdu[0] & _EXCEPTION:
@@ -50,7 +50,8 @@ class ModbusWords:
             return f"drive {unit}: done"
         return f"drive {unit}: function {pdu[0]:02X}h, {pdu[1:].hex(' ')}"
 
-    def _taken_apart(self, frame: bytes) -> tuple[int, bytes | None]:
+    def taken_apart(self, frame: bytes) -> tuple[int, bytes | None]:
+        """The drive and what it is told or tells, from the function on; None where it is no whole frame."""
         if self._over_tcp:
             if len(frame) <= _HEADER_BYTES:
                 return 0, None
@@ -61,6 +62,10 @@ class ModbusWords:
 
     def _span(self, address: int, count: int) -> str:
         return self._name(address) + (f" and {count - 1} more" if count > 1 else "")
+
+    def name(self, address: int) -> str:
+        """Of a register, else its address."""
+        return self._registers.get(address, f"{address:04X}h")
 
     def _name(self, address: int) -> str:
         name = self._registers.get(address, "")

@@ -11,6 +11,7 @@ from typing import Literal
 
 from drivers.errors import DeviceError, GarbledReply, LinkLost
 from drivers.lines.ports import Opener, Port, open_port, reason
+from drivers.lines.traffic import Traffic
 from drivers.lines.url import NetAddress, SerialAddress, parse_line_url
 
 Happening = Literal["tx", "rx", "nothing", "broken", "refused"]
@@ -53,6 +54,7 @@ class SerialLine:
     def _set_up(self, address: SerialAddress | NetAddress, *, flow_control: bool) -> None:
         self.address = address
         self.recorder: Recorder | None = None
+        self.traffic = Traffic()
         self.opener: Opener = open_port
         """What opens its port; a recording may be played back in place of one."""
         self._flow_control = flow_control
@@ -208,5 +210,6 @@ class SerialLine:
         return LinkLost(f"{self.address} broke while {while_doing}: {why}.")
 
     def _record(self, what: Happening, data: bytes) -> None:
+        self.traffic.note(what)
         if self.recorder is not None:
             self.recorder(what, data)

@@ -303,4 +303,4 @@ REGISTERS = {
     PATH_0 + 1: "target of path 0, pulses",
 }
 
-DRIVER = ServoDriver(LeadshineSettings, _make, REGISTERS)
+DRIVER = ServoDriver(LeadshineSettings, _make, REGISTERS, FEEDBACK)

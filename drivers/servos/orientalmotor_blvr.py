@@ -312,4 +312,4 @@ REGISTERS = {
     WATCHDOG: "communication watchdog, ms",
 }
 
-DRIVER = ServoDriver(OrientalMotorSettings, _make, REGISTERS)
+DRIVER = ServoDriver(OrientalMotorSettings, _make, REGISTERS, FEEDBACK)

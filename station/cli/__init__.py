@@ -18,6 +18,7 @@ _COMMANDS = {
     "backup": ("archive", "A copy of the whole history in one new file, made while the station works."),
     "bench": ("studies", "Figures of speed and size, beside those of others where they are installed."),
     "calibrate": ("calibrate", "One calibration run, with live progress."),
+    "certificate": ("certificate", "The certificate of a run, as HTML, PDF or JSON."),
     "columns": ("columns", "Propose a column map for a file of measurements made elsewhere."),
     "confusion": ("confusion", "The diagnosis judged on random emulated machines."),
     "diagnose": ("diagnosis", "Trace what the model leaves over to its cause."),
@@ -43,8 +44,10 @@ _COMMANDS = {
     "show": ("history", "One run."),
     "solve": ("diagnosis", "Joint commands for target positions under the identified model."),
     "user": ("people", "People who sign in at the page."),
+    "verify-certificate": ("certificate", "Whether a certificate says what was certified."),
     "verify": ("archive", "Whether every finished run is as it ended."),
     "wire": ("wire", "Every request and answer of one run, with its time, in plain words."),
+    "study": ("study", "Many random machines, calibrated or diagnosed, and what came of it."),
     "translate": ("translate", "Taught joint positions under the zeros that the drives have now."),
     "transfer": ("diagnosis", "Apply the effects learned on one log, unchanged, to another log."),
 }

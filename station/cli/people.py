@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Sequence
-from datetime import UTC, datetime, timedelta
+from datetime import datetime
 from pathlib import Path
 
 import click
@@ -13,9 +13,10 @@ from rich.box import SIMPLE
 from rich.console import Console
 from rich.table import Table
 
+from station.certificate import public_key_pem
 from station.cli.kept import at_terminal, config_option, kept, open_or_begin
 from station.errors import InputRefused
-from station.people import KEY_PREFIX, ROLES, hashed_password, hashed_pin, new_secret, secret_hash
+from station.people import ROLES, Administration, NewUser, hashed_password
 from station.records import AuditEntry, PersonName, Role, csv_text
 
 _NAME: TypeAdapter[str] = TypeAdapter(PersonName)
@@ -42,15 +43,10 @@ def add_user(
     """Add somebody; the password is asked for."""
     name = _checked(name)
     password = _secret("Password", password_stdin)
-    pin = hashed_pin(_secret("PIN", password_stdin)) if badge else None
+    pin = _secret("PIN", password_stdin) if badge else None
     with open_or_begin(home, config) as store:
-        user = store.add_user(
-            at_terminal(),
-            name,
-            role,
-            password_hash=hashed_password(password),
-            badge_sha256=secret_hash(badge) if badge else None,
-            pin_hash=pin,
+        user = Administration(store).add_user(
+            at_terminal(), NewUser(name, role, password, badge or None, pin)
         )
     click.echo(f"User {user.name} may sign in with the role {user.role}.", err=True)
 
@@ -65,6 +61,20 @@ def change_password(home: Path, name: str, password_stdin: bool, config: Path | 
     with kept(home, config, writing=True) as store:
         store.user(name)
         store.set_password(at_terminal(), name, hashed_password(_secret("Password", password_stdin)))
+
+
+@user_command.command("change")
+@click.argument("name")
+@click.option("--role", type=click.Choice(ROLES), help="What they may do from now on.")
+@click.option("--disable/--enable", default=None, help="Keep the user, but let nobody in under this name.")
+@config_option
+@click.pass_obj
+def change_user(home: Path, name: str, role: Role | None, disable: bool | None, config: Path | None) -> None:
+    """Give somebody another role, or end and renew their right to sign in."""
+    with kept(home, config, writing=True) as store:
+        user = store.change_user(at_terminal(), store.user(name), role=role, disabled=disable)
+    may = "may not sign in" if user.disabled else "may sign in"
+    click.echo(f"User {user.name} has the role {user.role} and {may}.", err=True)
 
 
 @user_command.command("remove")
@@ -89,15 +99,18 @@ def list_users(home: Path, config: Path | None) -> None:
     """Who can sign in."""
     with kept(home, config) as store:
         rows = [
-            (str(u.id), u.name, u.role, "yes" if u.has_badge else "", _date(u.created_at))
+            (
+                str(u.id), u.name, u.role, "yes" if u.has_badge else "", "yes" if u.disabled else "",
+                _date(u.created_at),
+            )
             for u in store.users()
-        ]
-    _print(("id", "name", "role", "badge", "created"), rows, "No users.")
+        ]  # fmt: skip
+    _print(("id", "name", "role", "badge", "disabled", "created"), rows, "No users.")
 
 
 @click.group("key")
 def key_command() -> None:
-    """API keys of programs, such as a MES."""
+    """API keys of programs, such as a MES, and the public key of the certificates."""
 
 
 @key_command.command("add")
@@ -108,11 +121,17 @@ def key_command() -> None:
 @click.pass_obj
 def add_key(home: Path, name: str, role: Role, days: float | None, config: Path | None) -> None:
     """Print a new key, once: the station keeps only its hash."""
-    name, key = _checked(name), new_secret(KEY_PREFIX)
-    expires_at = None if days is None else datetime.now(UTC) + timedelta(days=days)
+    name = _checked(name)
     with open_or_begin(home, config) as store:
-        store.add_key(at_terminal(), name, role, secret_hash(key), expires_at)
+        _, key = Administration(store).add_key(at_terminal(), name, role, days)
     click.echo(key)
+
+
+@key_command.command("public")
+@click.pass_obj
+def public_key(home: Path) -> None:
+    """Print the public key that the certificates of this station are checked with."""
+    click.echo(public_key_pem(home), nl=False)
 
 
 @key_command.command("list")

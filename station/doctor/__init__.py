@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from station.doctor.examination import examine
+from station.doctor.examination import examine, examine_in_service
 from station.doctor.finding import Condition, Finding
 
-__all__ = ["Condition", "Finding", "examine"]
+__all__ = ["Condition", "Finding", "examine", "examine_in_service"]

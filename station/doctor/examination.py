@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 from drivers.errors import DeviceError
 from drivers.lines import SerialLine, line_of
@@ -21,17 +21,43 @@ _LOOKS = 5
 
 def examine(settings: Settings, devices: Devices, robot: Robot) -> Finding:
     """A tree with one branch for each device.  Every device is closed afterwards."""
+    return _examined(settings, devices, robot, _examine_device)
+
+
+def _examined(
+    settings: Settings, devices: Devices, robot: Robot, one: Callable[[Device, Finding, bool], float | None]
+) -> Finding:
     tree = Finding(settings.name + (", emulated" if devices.emulated else ""))
     scale = tree.add(f"{devices.scale.name} at {devices.addresses[0]}")
-    scale_mm = _examine_device(devices.scale, scale, devices.emulated)
+    scale_mm = one(devices.scale, scale, devices.emulated)
     angles: list[float | None] = []
     for axis, address in zip(devices.axes, devices.addresses[1:], strict=True):
-        angles.append(_examine_device(axis, tree.add(f"{axis.name} at {address}"), devices.emulated))
+        angles.append(one(axis, tree.add(f"{axis.name} at {address}"), devices.emulated))
     if None not in (scale_mm, *angles):
         _examine_arm(settings, robot, [angle for angle in angles if angle is not None], tree)
     elif not devices.emulated and (text := lines_exchanged(settings)):
         tree.add(text, "trouble", "exchange the two addresses in the station file, or the plugs")
     return tree
+
+
+def examine_in_service(settings: Settings, devices: Devices, robot: Robot) -> Finding:
+    """The same while a station works with its devices, by the thread that does.
+
+    What answers stays open, so that a stop never waits for a connection; only a device whose line is down
+    is examined from its port on, and closed again.
+    """
+    return _examined(settings, devices, robot, _examine_open)
+
+
+def _examine_open(device: Device, branch: Finding, emulated: bool) -> float | None:
+    line = line_of(device)
+    if line is None or not line.is_open:
+        return _examine_device(device, branch, emulated)
+    try:
+        return _look(device, line, branch)
+    except DeviceError as error:
+        branch.add(str(error), "trouble")
+        return None
 
 
 def _examine_device(device: Device, branch: Finding, emulated: bool) -> float | None:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from station.fitting.accuracy import (
+    ErrorFields,
     common_sd_deg,
+    error_bounds,
     largest_error_bound,
     position_error_field,
     position_error_summary,
@@ -30,6 +32,7 @@ __all__ = [
     "FEWEST_REPEATS",
     "MINIMUM_DOF",
     "REFUSED_P",
+    "ErrorFields",
     "Noise",
     "NotConvergedError",
     "Outlier",
@@ -39,6 +42,7 @@ __all__ = [
     "check_outlier_share",
     "common_sd_deg",
     "describe_separability",
+    "error_bounds",
     "estimate_noise",
     "find_outliers",
     "lack_of_fit",

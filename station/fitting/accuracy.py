@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from station.records import PositionError, Real
@@ -32,12 +34,40 @@ DRAWS = 4000
 """The share below the bound then has a standard error of 0.3 %."""
 
 
+@dataclass(frozen=True)
+class ErrorFields:
+    """Position errors at places (G,), mm."""
+
+    before: Real
+    """(G,) expected with the zeros that the drives had: the root of the mean square."""
+    after: Real
+    """(G,) expected with the identified zeros in the drives."""
+    after_95: Real
+    """(G,) 95 % bound at each place alone."""
+
+    def within(self, bound: float) -> Real:
+        """(G,) bounds in proportion to those of each place, the largest being the bound on all together."""
+        return np.asarray(self.after_95 * (bound / np.nanmax(self.after_95)))
+
+
 def largest_error_bound(mean: Real, jacobian: Real, covariance: Real) -> float:
     """95 % of machines drawn from a posterior have no larger position error anywhere, mm.
 
     mean (G, 2) error at the posterior mean, jacobian (G, 2, P), covariance (P, P); what has no finite
-    variance must not move anything.  The largest of many correlated lengths has no closed form: drawn,
-    always the same way.
+    variance must not move anything.
+    """
+    return float(np.sqrt(np.quantile(_drawn(mean, jacobian, covariance).max(axis=0), 0.95)))
+
+
+def error_bounds(mean: Real, jacobian: Real, covariance: Real) -> Real:
+    """(G,) the same for each place alone."""
+    return np.asarray(np.sqrt(np.quantile(_drawn(mean, jacobian, covariance), 0.95, axis=1)))
+
+
+def _drawn(mean: Real, jacobian: Real, covariance: Real) -> Real:
+    """(G, DRAWS) squares of the errors of machines drawn from a posterior, always the same ones.
+
+    The largest of many correlated lengths has no closed form.
     """
     finite = np.isfinite(np.diag(covariance))
     sd = np.sqrt(np.diag(covariance)[finite])
@@ -46,7 +76,7 @@ def largest_error_bound(mean: Real, jacobian: Real, covariance: Real) -> float:
     drawn = np.random.default_rng(0).standard_normal((len(sd), DRAWS))
     error = (jacobian[:, :, finite] @ root).reshape(-1, len(sd)) @ drawn
     error = error.reshape(*mean.shape, DRAWS) + mean[:, :, None]
-    return float(np.sqrt(np.quantile((error**2).sum(axis=1).max(axis=0), 0.95)))
+    return np.asarray((error**2).sum(axis=1))
 
 
 def common_sd_deg(covariance: Real) -> float:

@@ -203,7 +203,13 @@ class FiveBar:
 
         Position at p less the commanded one (G, 2), and d (x, y) / d p (G, 2, P).
         """
-        target = self.robot.workspace_grid(*GRID)
+        return self.position_errors_at(p, self.workspace)
+
+    def position_errors_at(self, p: Real, target: Complex) -> tuple[Real, Real]:
+        """The same at other commanded positions (G,), mm.
+
+        :raises Unreachable: naming the first out of reach.
+        """
         theta = inverse(self.nominal, target)
         geometry = perturbed(self.nominal, p[:SIZE])
         at = pose(geometry, theta + p[:2])

@@ -5,6 +5,7 @@ from __future__ import annotations
 from station.identification.advice import advice_of
 from station.identification.bound import PLAN_ENDED, accuracy_of, bounds_mm, with_accuracy
 from station.identification.document import gate_record, identification_document, position_error_map
+from station.identification.error_map import error_fields, fresh_readings
 from station.identification.estimate import Gate, Identification, identify
 from station.identification.memory import GATE_P, Memory
 from station.identification.readout_jump import without_jump
@@ -32,6 +33,8 @@ __all__ = [
     "accuracy_of",
     "advice_of",
     "bounds_mm",
+    "error_fields",
+    "fresh_readings",
     "fresh_stops",
     "fresh_stops_of",
     "gate_record",

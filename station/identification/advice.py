@@ -26,34 +26,40 @@ def advice_of(found: Identification[FiveBar]) -> tuple[Advice, ...]:
     """Best gain per minute first."""
     now = _bound(found, found.covariance)
     advice = []
-    for kind, text, minutes, covariance in _possible(found):
+    for kind, text, joint, minutes, covariance in _possible(found):
         gain_mm = now - _bound(found, covariance)
         if np.isfinite(gain_mm) and gain_mm > LEAST_SHARE * now:
-            advice.append(Advice(kind=kind, text=text, gain_mm=float(gain_mm), minutes=minutes))
+            advice.append(Advice(kind=kind, text=text, joint=joint, gain_mm=float(gain_mm), minutes=minutes))
     return tuple(sorted(advice, key=lambda one: one.gain_mm / one.minutes, reverse=True))
 
 
-def _possible(found: Identification[FiveBar]) -> Iterator[tuple[str, str, float, Real]]:
-    """Kind, text, minutes, and the covariance (P, P) that it would leave."""
+def _possible(found: Identification[FiveBar]) -> Iterator[tuple[str, str, int | None, float, Real]]:
+    """Kind, text, joint, minutes, and the covariance (P, P) that it would leave."""
     information = np.linalg.inv(found.covariance)
     names = [p.name for p in found.mechanism.parameters]
     readings = len(found.measurements)
     J = found.solution.jacobian / found.sd_factor
     again = np.linalg.inv(information + J.T @ J)
-    yield "repeat", f"Measure the same {readings} readings once more.", readings * READING_S / 60.0, again
+    yield (
+        "repeat",
+        f"Measure the same {readings} readings once more.",
+        None,
+        readings * READING_S / 60.0,
+        again,
+    )
     level = float(np.radians(np.hypot(LEVEL_SD_DEG, found.mechanism.robot.joint_sd_deg)))
     for joint in (1, 2):
-        text = f"Read the angle of joint {joint} from a level, to {LEVEL_SD_DEG} deg (plan reference)."
+        text = f"Read the angle of joint {joint} from a level, to {LEVEL_SD_DEG}°."
         covariance = _told(information, names.index(f"dtheta{joint}"), level)
-        yield "joint_angle", text, MINUTES["joint_angle"], covariance
+        yield "joint_angle", text, joint, MINUTES["joint_angle"], covariance
     text = f"Measure the mechanism's mounting error sideways, to {KNOWN_DRM_SD_MM} mm."
-    yield "drm_x", text, MINUTES["drm_x"], _told(information, names.index("rMx"), KNOWN_DRM_SD_MM)
+    yield "drm_x", text, None, MINUTES["drm_x"], _told(information, names.index("rMx"), KNOWN_DRM_SD_MM)
     if len(found.measurements.mounts) == 1:
-        text = f"Measure from a second mounting point, {SECOND_MOUNT_MM:.0f} mm aside (plan two_mounts)."
+        text = f"Measure from a second mounting point, {SECOND_MOUNT_MM:.0f} mm aside."
         covariance = with_second_mount(
             found.mechanism, found.noise.row_sd * found.sd_factor, found.dtheta, information
         )
-        yield "second_mount", text, MINUTES["second_mount"], covariance[: len(names), : len(names)]
+        yield "second_mount", text, None, MINUTES["second_mount"], covariance[: len(names), : len(names)]
 
 
 def _told(information: Real, index: int, sd: float) -> Real:

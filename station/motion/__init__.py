@@ -12,6 +12,7 @@ from station.motion.opening import Equipment, equipment
 from station.motion.positioner import Cancelled, Positioner
 from station.motion.retracting import Retracting
 from station.motion.way_back import outside_mm
+from station.motion.wire_exchanges import exchanges
 from station.motion.wire_words import in_words
 from station.motion.zero_writer import Zeroing, shift_of
 
@@ -34,6 +35,7 @@ __all__ = [
     "Zeroing",
     "build_devices",
     "equipment",
+    "exchanges",
     "in_words",
     "outside_mm",
     "shift_of",

@@ -12,6 +12,7 @@ from functools import partial
 import numpy as np
 
 from drivers.errors import DeviceError, DeviceFault
+from drivers.lines import Traffic, line_of
 from drivers.protocols import AxisStatus, Device, ServoAxis
 from station.five_bar import Robot, Unreachable, forward
 from station.motion.devices import Devices
@@ -19,7 +20,7 @@ from station.motion.events import Listeners
 from station.motion.limits import outside_text
 from station.motion.time_limit import each_within
 from station.motion.way_back import outside_mm
-from station.records import DeviceState, DeviceView, Interlock, MachineView, RetractView
+from station.records import DeviceDetail, DeviceState, DeviceView, Interlock, MachineView, RetractView
 from station.settings import LimitSettings
 
 STOP_LIMIT_S = 1.5
@@ -47,6 +48,9 @@ class _Known:
     state: DeviceState = "unknown"
     text: str = "not connected yet"
     alarm: int | None = None
+    heard_at: float | None = None
+    """Of the monotonic clock."""
+    errors: int = 0
 
 
 class Machine:
@@ -77,10 +81,12 @@ class Machine:
             yield
         except DeviceError as error:
             works = isinstance(error, DeviceFault)
+            self._known[device.name].errors += 1
             self._known[device.name].connected &= works
             self._learn(device, "fault" if works else "lost", str(error))
             raise
         else:
+            self._known[device.name].heard_at = time.monotonic()
             if self._known[device.name].alarm is None:
                 self._learn(device, "ok", "")
 
@@ -255,6 +261,25 @@ class Machine:
             address=self.devices.addresses[index],
             state=known.state,
             text=known.text,
+        )
+
+    def device_details(self) -> tuple[DeviceDetail, ...]:
+        """The same for maintenance.  Never waits for a device."""
+        return tuple(self._device_detail(device) for device in self._all)
+
+    def _device_detail(self, device: Device) -> DeviceDetail:
+        known, line = self._known[device.name], line_of(device)
+        traffic = line.traffic if line is not None else Traffic()
+        said = getattr(device, "identity", "")
+        trip_s = traffic.last_round_trip_s
+        return DeviceDetail(
+            **dict(self._device_view(device)),
+            identity=said if isinstance(said, str) else " ".join(said),
+            heard_s=None if known.heard_at is None else round(time.monotonic() - known.heard_at, 1),
+            errors=known.errors,
+            round_trip_ms=None if trip_s is None else round(1000 * trip_s, 2),
+            requests=traffic.requests,
+            replies=traffic.replies,
         )
 
     def interlocks(self) -> tuple[Interlock, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from station.people.access import KEY_PREFIX, Access
+from station.people.administration import Administration, NewUser, UserChange
 from station.people.keys import new_secret, secret_hash
 from station.people.passwords import FEWEST_CHARACTERS, hashed_password, hashed_pin
 from station.people.roles import ALLOWED, ROLES, Permission, allowed_roles
@@ -13,7 +14,10 @@ __all__ = [
     "KEY_PREFIX",
     "ROLES",
     "Access",
+    "Administration",
+    "NewUser",
     "Permission",
+    "UserChange",
     "allowed_roles",
     "hashed_password",
     "hashed_pin",

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from station.quality.capability import Limits, cpk, ppk
 from station.quality.control_chart import RULE_TEXTS
 from station.quality.crossed_anova import GaugeStudy, gauge_study
 from station.quality.parquet import Exported, export_parquet
@@ -12,10 +13,13 @@ __all__ = [
     "Exported",
     "Figure",
     "GaugeStudy",
+    "Limits",
     "Quality",
     "Trend",
+    "cpk",
     "export_parquet",
     "gauge_study",
+    "ppk",
     "quality",
     "trend",
 ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from station.records.accuracy import AccuracyReached, Advice, PositionError, Remedy, WeakDirection
-from station.records.backup import BackupMade
+from station.records.backup import BackupDrill, BackupMade, CountedTable
 from station.records.calibration import (
     Application,
     ApplicationRun,
@@ -15,6 +15,7 @@ from station.records.calibration import (
 from station.records.column_map import ColumnMap, translated
 from station.records.column_proposal import proposed_map
 from station.records.csv_cells import harmless
+from station.records.device_detail import DeviceDetail
 from station.records.diagnosis_document import (
     DIAGNOSIS_SCHEMA,
     MIXTURE_SCHEMA,
@@ -47,9 +48,10 @@ from station.records.diagnosis_document import (
     TemperatureReference,
     TermOfModel,
 )
+from station.records.error_map import ErrorMap, FreshReading
 from station.records.foreign_table import ForeignTable, read_foreign
 from station.records.guesses import TIME, guesses_in_words, with_guesses
-from station.records.happenings import Delivery, DeliveryCount, DeliveryState, Event, EventType
+from station.records.happenings import Backlog, Delivery, DeliveryCount, DeliveryState, Event, EventType
 from station.records.identification_document import (
     Convergence,
     GateOfMemory,
@@ -78,6 +80,7 @@ from station.records.live import (
     StationView,
     Workspace,
 )
+from station.records.made_by import DeviceUsed, MadeBy, ScaleCertificate
 from station.records.measurement_file import (
     FIVE_BAR,
     Columns,
@@ -143,6 +146,7 @@ from station.records.run import (
     Submitted,
     ZeroWrite,
 )
+from station.records.scale_resolution import readout_step_mm
 from station.records.sections import (
     Finite,
     Positive,
@@ -154,11 +158,21 @@ from station.records.sections import (
     sections_to_toml,
 )
 from station.records.taught import TaughtPosition, TranslatedPosition, read_taught, translated_to_csv
+from station.records.training import (
+    Blamed,
+    Challenge,
+    ChallengeGroup,
+    Exercise,
+    Said,
+    Score,
+    TrainingView,
+)
 from station.records.trend import TrendPoint
 from station.records.types import LARGEST_ID, Angles, Complex, Flags, Index, Real
 from station.records.uid import uid7
 from station.records.visited import inside_visited, visited_in_degrees, visited_ranges
 from station.records.wire import WireHeader
+from station.records.wire_exchange import WireExchange
 
 __all__ = [
     "DIAGNOSIS_SCHEMA",
@@ -184,31 +198,41 @@ __all__ = [
     "Asked",
     "AuditChecked",
     "AuditEntry",
+    "Backlog",
+    "BackupDrill",
     "BackupMade",
+    "Blamed",
     "Calibration",
     "CalibrationHolds",
     "CalibrationRequest",
     "CalibrationResult",
     "CalibrationSummary",
+    "Challenge",
+    "ChallengeGroup",
     "CheckFound",
     "ColumnMap",
     "Columns",
     "Complex",
     "Convergence",
+    "CountedTable",
     "Credentials",
     "DataSource",
     "Delivery",
     "DeliveryCount",
     "DeliveryState",
     "Dependence",
+    "DeviceDetail",
     "DeviceState",
+    "DeviceUsed",
     "DeviceView",
     "DiagnosisDocument",
     "DiagnosisVerdict",
     "EffectName",
+    "ErrorMap",
     "ErrorOfModel",
     "Event",
     "EventType",
+    "Exercise",
     "ExperimentRecord",
     "ExplainedEffect",
     "ExplanationOfModel",
@@ -217,6 +241,7 @@ __all__ = [
     "Finite",
     "Flags",
     "ForeignTable",
+    "FreshReading",
     "GateOfMemory",
     "IdentificationDocument",
     "Index",
@@ -230,6 +255,7 @@ __all__ = [
     "LearnedRanges",
     "LearnedReadings",
     "MachineView",
+    "MadeBy",
     "MeasurementSequence",
     "Measurements",
     "MemorySummary",
@@ -275,6 +301,9 @@ __all__ = [
     "RunReading",
     "RunStop",
     "RunView",
+    "Said",
+    "ScaleCertificate",
+    "Score",
     "Section",
     "Sections",
     "SequenceTitle",
@@ -297,12 +326,14 @@ __all__ = [
     "TaughtPosition",
     "TemperatureReference",
     "TermOfModel",
+    "TrainingView",
     "TranslatedPosition",
     "TrendPoint",
     "User",
     "Verdict",
     "Via",
     "WeakDirection",
+    "WireExchange",
     "WireHeader",
     "Workspace",
     "ZeroOffset",
@@ -325,6 +356,7 @@ __all__ = [
     "read_table",
     "read_taught",
     "readings_to_csv",
+    "readout_step_mm",
     "recorded_columns",
     "refusal",
     "residual_rows",

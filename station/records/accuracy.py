@@ -54,6 +54,8 @@ class Advice(Record):
     kind: str
     """`repeat`, `joint_angle`, `drm_x` or `second_mount`."""
     text: str
+    joint: int | None = None
+    """Of a joint angle: whose."""
     gain_mm: float
     """By how much the bound on the largest position error would fall, with the zeros in the drives only."""
     minutes: float

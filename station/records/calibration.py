@@ -7,6 +7,7 @@ from typing import Literal
 
 from pydantic import Field, JsonValue
 
+from station.records.made_by import MadeBy
 from station.records.prompt import Prompt
 from station.records.reason import ReasonValue
 from station.records.record import Record
@@ -94,3 +95,5 @@ class Calibration(CalibrationSummary, ResultParts):
     """What the run asks, in state `waiting`."""
     application: Application | None = None
     """Null unless the run has passed."""
+    made_by: MadeBy | None = None
+    """Software, devices and scale; null for a run of an earlier version, and one measured elsewhere."""

@@ -40,6 +40,15 @@ class Delivery(Record):
     ended_at: datetime | None
 
 
+class Backlog(Record):
+    """What waits for one receiver."""
+
+    receiver: str
+    count: int
+    oldest_at: datetime
+    """When the oldest of these events happened."""
+
+
 class DeliveryCount(Record):
     """How many deliveries of one receiver are in one state."""
 

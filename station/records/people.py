@@ -38,6 +38,8 @@ class User(Record):
     name: str
     role: Role
     has_badge: bool
+    disabled: bool
+    """Kept, but may not sign in."""
     created_at: datetime | None
 
 

@@ -10,12 +10,17 @@ _LEAST_MM = 1e-3
 """Finer steps are within the noise that is specified for a reading."""
 
 
+def readout_step_mm(samples_mm: Iterable[float]) -> float:
+    """Largest step that all samples are multiples of, apart from a constant; 0 where they are all alike."""
+    units = [round(sample / _UNIT_MM) for sample in samples_mm if math.isfinite(sample)]
+    return math.gcd(*(unit - units[0] for unit in units)) * _UNIT_MM if units else 0.0
+
+
 def scale_resolution_mm(samples_mm: Iterable[float]) -> float:
-    """Largest step that all samples are multiples of, apart from a constant; 0 where it does not matter.
+    """The step of the readout where it matters, else 0.
 
     A readout of a coarse step says the same value again and again: its repeats do not show how far it may be
     off, and no mean of them is better than one.
     """
-    units = [round(sample / _UNIT_MM) for sample in samples_mm if math.isfinite(sample)]
-    step_mm = math.gcd(*(unit - units[0] for unit in units)) * _UNIT_MM if units else 0.0
+    step_mm = readout_step_mm(samples_mm)
     return step_mm if step_mm >= _LEAST_MM else 0.0

@@ -6,9 +6,10 @@ import json
 import tomllib
 from typing import Annotated, Any
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import ConfigDict, Field, ValidationError
 from pydantic_core import ErrorDetails
 
+from drivers.strict_numbers import StrictNumbers
 from station.errors import InputRefused
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -17,7 +18,7 @@ Sections = dict[str, Any]
 """A file of sections as it was read, not yet checked."""
 
 
-class Section(BaseModel):
+class Section(StrictNumbers):
     """A misspelt option is refused, never ignored."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)

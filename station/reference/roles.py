@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from station.people import ALLOWED, ROLES, Permission
 from station.reference.markdown import code, page, section, table
-from web.app import API, LIVE_ROUTES, ROUTES
+from web.app import API, LIVE_ROUTES, ROUTES, TOP_ROUTES
 from web.guarded import guard_of
 
 
@@ -22,14 +22,15 @@ class RouteNeed:
 
 def route_needs() -> Iterator[RouteNeed]:
     """Every route of the interface.  :raises LookupError: one that declares nothing, or twice."""
-    for module in (*ROUTES, *LIVE_ROUTES):
+    prefixed = [(module, API) for module in (*ROUTES, *LIVE_ROUTES)] + [(module, "") for module in TOP_ROUTES]
+    for module, prefix in prefixed:
         for route in module.router.routes:
             guard = guard_of(route.dependant)
             if guard is None:
                 raise LookupError(f"{route.path} must declare what it needs, once")
             methods = getattr(route, "methods", None) or {"WebSocket"}
             for method in sorted(methods):
-                yield RouteNeed(method, API + route.path_format, guard.permission)
+                yield RouteNeed(method, prefix + route.path_format, guard.permission)
 
 
 def roles_page() -> str:

@@ -13,6 +13,7 @@ from station.run_kinds import (  # noqa: F401 - they register themselves
 from station.run_kinds.adaptive import adaptive_run, fit_in_sequence
 from station.run_kinds.check import check_run
 from station.run_kinds.diagnose import diagnosed
+from station.run_kinds.error_maps import error_map
 from station.run_kinds.import_file import Upload, import_dataset
 from station.run_kinds.kind import RUN_KINDS, Continued, RunKind, Start, kind_of_plan, request_of
 from station.run_kinds.lock import calibration_holds, check_not_locked, clear_failed_check
@@ -34,6 +35,7 @@ __all__ = [
     "check_run",
     "clear_failed_check",
     "diagnosed",
+    "error_map",
     "fit_in_sequence",
     "import_dataset",
     "kind_of_plan",

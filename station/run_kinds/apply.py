@@ -51,6 +51,8 @@ class Source:
     id: int
     fit: Identification[FiveBar]
     offsets_deg: Angles
+    fresh: tuple[Reading, ...] = ()
+    """Readings that verified it: they took no part in the fit."""
 
 
 def source_of(store: Store, calibration_id: int) -> Source:
@@ -60,14 +62,16 @@ def source_of(store: Store, calibration_id: int) -> Source:
     :raises InputRefused: its readings do not hold the measurement model.
     """
     calibration = store.calibration(calibration_id)
-    readings = store.readings(calibration_id)
-    if calibration.plan == "paper":  # a place's passes stand at different angles: they are no repeats
-        # without the sequence that verified: it took no part in the fit
-        if calibration.after is not None and calibration.after.fresh_reading_rms_mm is not None:
-            readings = [r for r in readings if r.sequence < readings[-1].sequence]
-        readings = passes_apart(readings)
-    else:  # the second sequence verified, it took no part in the fit
-        readings = [r for r in readings if r.sequence == 1]
+    everything = store.readings(calibration_id)
+    if calibration.plan == "paper":
+        verified = calibration.after is not None and calibration.after.fresh_reading_rms_mm is not None
+        last = everything[-1].sequence if verified else None
+        fresh = [r for r in everything if r.sequence == last]
+        # a place's passes stand at different angles: they are no repeats
+        readings = passes_apart([r for r in everything if r.sequence != last])
+    else:  # the second sequence verified
+        readings = [r for r in everything if r.sequence == 1]
+        fresh = [r for r in everything if r.sequence > 1]
     use = calibration.memory
     memory = store.memory_left_by(use.from_calibration) if use and use.used else None
     refit = fit_in_sequence if calibration.plan == "adaptive" else fit_of
@@ -76,7 +80,7 @@ def source_of(store: Store, calibration_id: int) -> Source:
     offsets = [zero.value_deg for zero in calibration.zero_offsets if zero.value_deg is not None]
     if len(offsets) != 2:
         raise InputRefused(f"Run {calibration_id} has no zero offsets; calibrate again.")
-    return Source(calibration_id, fit, (offsets[0], offsets[1]))
+    return Source(calibration_id, fit, (offsets[0], offsets[1]), tuple(fresh))
 
 
 def start_apply(start: Start) -> Procedure:
@@ -177,5 +181,7 @@ def _result(
     )
 
 
-APPLY = register(RunKind("apply", start_apply, check=check_apply))
-ROLL_BACK = register(RunKind("rollback", start_roll_back, check=check_roll_back, done_by=rolled_back_by))
+APPLY = register(RunKind("apply", start_apply, check=check_apply, rests_on_scale=False))
+ROLL_BACK = register(
+    RunKind("rollback", start_roll_back, check=check_roll_back, done_by=rolled_back_by, rests_on_scale=False)
+)

@@ -89,6 +89,8 @@ class RunKind:
     """Whether it may start where the arm stands outside its workspace, or the scale does not read."""
     judged: bool = True
     """Whether it ends with a verdict on the robot."""
+    rests_on_scale: bool = True
+    """Whether its verdict needs a scale with a valid certificate; not what only writes zeros of a pass."""
     offsets: bool = False
     """Whether the zero offsets of a pass may be written to the drives."""
 

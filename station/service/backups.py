@@ -42,6 +42,15 @@ def made_in(folder: Path) -> list[Path]:
     return sorted(file for file in folder.glob("station-*.db") if _OURS.fullmatch(file.name))
 
 
+def listed(folder: Path) -> list[BackupMade]:
+    """The same as records, the newest first."""
+    return [
+        BackupMade(file=str(file), bytes=found.st_size, made_at=datetime.fromtimestamp(found.st_mtime, UTC))
+        for file in reversed(made_in(folder))
+        for found in (file.stat(),)
+    ]
+
+
 def backup_timer(store: Store, folder: Path, settings: BackupSettings) -> AbstractContextManager[object]:
     """Makes a backup as soon as the newest one is too old, and from then on at intervals."""
     if settings.every_h is None:

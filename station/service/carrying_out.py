@@ -30,6 +30,7 @@ from station.run_kinds import RunKind, Start
 from station.service.procedures import follow_procedure
 from station.service.run import Run
 from station.service.so_far import SoFar
+from station.service.traceability import traced
 from station.settings import Settings
 from station.store import Store
 
@@ -105,6 +106,8 @@ class CarryingOut:
             result = follow_procedure(procedure, carry_out)
         finally:
             procedure.close()
+        if kind.rests_on_scale:
+            result = traced(result, self.store.made_by(run.id), began_at.date())
         self.listeners.publish("residuals", run.add_result(result))
         return result
 

@@ -10,9 +10,9 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import asdict
 from queue import Empty, Queue
 from threading import Lock, Thread
+from typing import Any, TypeVar
 
 from pydantic import JsonValue
 
@@ -26,7 +26,6 @@ from station.errors import (
     StepFailed,
     StoreUnavailable,
 )
-from station.five_bar import Robot
 from station.messages import display_name
 from station.motion import (
     Cancelled,
@@ -42,6 +41,7 @@ from station.records import (
     Actor,
     CalibrationHolds,
     CalibrationRequest,
+    DeviceDetail,
     Prompt,
     Reason,
     RunView,
@@ -57,10 +57,14 @@ from station.run_kinds import RUN_KINDS, RunKind, calibration_holds, clear_faile
 from station.service.carrying_out import CarryingOut, Unanswered
 from station.service.clock_watch import ClockWatch
 from station.service.ending import Ending
+from station.service.idle_look import IdleLook, Looker
 from station.service.interlock_record import InterlockRecord
 from station.service.last_run import last_run
+from station.service.made_here import made_here
 from station.service.recording import Recording
+from station.service.robot_fits import check_fits
 from station.service.run import Run
+from station.service.stop_records import StopRecords
 from station.settings import Settings
 from station.store import Store, request_hash, too_full
 
@@ -68,6 +72,7 @@ __all__ = ["Busy", "InputRefused", "KeyReused", "LiveEvent", "NotFound", "Orches
 
 log = logging.getLogger(__name__)
 
+T = TypeVar("T")
 IDLE_S = 0.5
 SHUTDOWN_LIMIT_S = 10.0
 
@@ -99,8 +104,8 @@ class Orchestrator:
             self._finished = last_run(store, self._last, self._machine.shown_place)
         self._holds = self._calibration_holds()
         self._closing = False
-        self._stop_records: list[Thread] = []
-        self._queue: Queue[Run | None] = Queue()
+        self._stop_records = StopRecords(store)
+        self._queue: Queue[Run | IdleLook[Any] | None] = Queue()
         self._worker = Thread(target=self._work, name="orchestrator", daemon=True)
         self._worker.start()
 
@@ -132,12 +137,19 @@ class Orchestrator:
                 raise InputRefused(f"{display_name('run_kinds', kind.name)} is not carried out on the rig.")
             if trouble := self.no_room():
                 raise StoreUnavailable(trouble)
-            robot = self._robot(request.robot_serial)
+            robot = self._store.robot_or_nominal(request.robot_serial)
+            check_fits(robot, self._settings.joints)
             measured = robot.informed(request.references)
             kind.check(self._store, request)
             uid = uid7()
             calibration_id = self._store.create(
-                request, robot, key=idempotency_key, body_hash=body_hash, uid=uid, by=by
+                request,
+                robot,
+                key=idempotency_key,
+                body_hash=body_hash,
+                uid=uid,
+                by=by,
+                made_by=made_here(self._settings, self._machine.devices),
             )
             run = Run(calibration_id, uid, request, measured)
             with self._lock:
@@ -179,21 +191,6 @@ class Orchestrator:
         """
         request = CalibrationRequest(self._machine.robot.serial, "retract", operator)
         return self.submit(request, idempotency_key=idempotency_key, by=by)
-
-    def _robot(self, serial: str) -> Robot:
-        """The kept robot file, else the paper's Table 1, checked against the drives' scaling."""
-        robot = self._store.robot_or_nominal(serial)
-        for joint, settings in enumerate(self._settings.joints, start=1):
-            wanted, has = asdict(robot.scaling(joint)), asdict(settings.scaling)
-            differing = [
-                f"{key} {wanted[key]} instead of {has[key]}" for key in has if wanted[key] != has[key]
-            ]
-            if differing:
-                raise InputRefused(
-                    f"Robot {serial} does not fit this station's drives: joint {joint} has"
-                    f" {', '.join(differing)}; correct its [joints] or the station's [[servo.joint]]."
-                )
-        return robot
 
     def abort(self, calibration_id: int, who: str = "the operator") -> None:
         """End a run at once and bring the machine to standstill; again, or after its end, is harmless.
@@ -274,22 +271,8 @@ class Orchestrator:
         outcome = self._machine.quick_stop()
         trouble = {name: text for name, text in outcome.items() if text}
         log.warning("Stop by %s: %s", who, trouble or "both axes confirmed")
-        # Aside: a database that is locked must not keep the answer of the drives from anybody.
-        record = Thread(
-            target=self._record_stop,
-            args=(run.id if run else None, who, trouble),
-            name="record of a stop",
-            daemon=True,
-        )
-        self._stop_records = [thread for thread in self._stop_records if thread.is_alive()] + [record]
-        record.start()
+        self._stop_records.begin(run.id if run else None, who, trouble)
         return outcome
-
-    def _record_stop(self, run_id: int | None, who: str, trouble: dict[str, str]) -> None:
-        try:
-            self._store.add_event(run_id, "stop", {"by": who, **trouble})
-        except StoreUnavailable:
-            log.exception("The stop could not be recorded")  # it was carried out all the same
 
     def wait(self, calibration_id: int, timeout_s: float | None = None) -> State:
         """Until the run has ended or the time is over; its state then.  :raises NotFound:"""
@@ -309,8 +292,7 @@ class Orchestrator:
         self._worker.join(SHUTDOWN_LIMIT_S)
         if self._worker.is_alive():
             log.error("The worker hangs in a device; the run will be marked interrupted at the next start")
-        for record in self._stop_records:
-            record.join(SHUTDOWN_LIMIT_S)
+        self._stop_records.join(SHUTDOWN_LIMIT_S)
         self._machine.close()
 
     # Watching ------------------------------------------------------------------------------------
@@ -343,6 +325,22 @@ class Orchestrator:
             finished=None if run else finished,
         )
 
+    def device_details(self) -> tuple[DeviceDetail, ...]:
+        """Every device as maintenance sees it.  Never waits for one."""
+        return self._machine.device_details()
+
+    def while_idle(self, look: Looker[T], limit_s: float) -> T:
+        """What `look` says of the devices and the robot measured last; the worker calls it between runs.
+
+        :raises Busy: a run holds the rig.
+        :raises TimeoutError: the devices do not let it come back in time.
+        """
+        if (holder := self._run) is not None:
+            raise Busy(holder.id)
+        asked = IdleLook(look)
+        self._queue.put(asked)
+        return asked.answer(limit_s)
+
     # The worker ----------------------------------------------------------------------------------
 
     def _work(self) -> None:
@@ -354,7 +352,10 @@ class Orchestrator:
                 continue
             if run is None:
                 return
-            self._execute(run)
+            if isinstance(run, IdleLook):
+                run.carry_out(self._machine.devices, self._machine.robot)
+            else:
+                self._execute(run)
 
     def _watch(self) -> None:
         try:

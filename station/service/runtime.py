@@ -15,10 +15,13 @@ from station import __version__
 from station.errors import InputRefused, StoreUnavailable
 from station.motion import EmulatedRig, equipment
 from station.outbox import Alarms, couriers
-from station.records import BackupMade, DeviceView, Interlock
-from station.service.backups import backup_timer, make_backup
+from station.records import BackupDrill, BackupMade, DeviceView, Interlock
+from station.service.backup_drill import drill
+from station.service.backups import backup_timer, listed, make_backup
 from station.service.orchestrator import LiveEvent, Orchestrator
 from station.service.retention import retention_timer
+from station.service.settings_audit import record_settings
+from station.service.training import TrainingDesk
 from station.settings import OutboxSettings, Settings, backup_folder, database_path
 from station.store import Store
 
@@ -39,6 +42,8 @@ class Runtime:
     _closing: ExitStack
     rig: EmulatedRig | None = None
     """The emulated machine; None with real devices."""
+    training: TrainingDesk | None = None
+    """Only with the emulated machine."""
 
     @classmethod
     def open(cls, settings: Settings, home: Path, emulate: Path | None = None) -> Self:
@@ -56,6 +61,7 @@ class Runtime:
             (home / LAST_HISTORY).write_text(str(path.resolve()), encoding="utf-8")
             for calibration_id in store.interrupt_unfinished():
                 log.warning("Run %d was cut off by the last stop of the station: interrupted", calibration_id)
+            record_settings(store, settings)
             with_it = opened.enter_context(equipment(settings, home, emulate))
             settings, rig = with_it.settings, with_it.rig
             orchestrator = Orchestrator(with_it.devices, store, settings)
@@ -63,11 +69,20 @@ class Runtime:
             opened.enter_context(backup_timer(store, backup_folder(settings, home), settings.backup))
             opened.enter_context(retention_timer(store, settings.retention))
             opened.enter_context(_telling(store, orchestrator, settings.outbox))
-            return cls(settings, home, store, orchestrator, opened.pop_all(), rig)
+            desk = None if rig is None else TrainingDesk(rig, store, lambda: orchestrator.running)
+            return cls(settings, home, store, orchestrator, opened.pop_all(), rig, desk)
 
     def backup(self) -> BackupMade:
         """One more backup, now.  :raises InputRefused: it cannot be written."""
         return make_backup(self.store, backup_folder(self.settings, self.home), self.settings.backup.keep)
+
+    def backup_drill(self) -> BackupDrill:
+        """One more backup, opened beside the history and compared.  :raises InputRefused: as `backup`."""
+        return drill(self.store, backup_folder(self.settings, self.home), self.settings.backup.keep)
+
+    def backups(self) -> list[BackupMade]:
+        """The station's own backups that are there, the newest first."""
+        return listed(backup_folder(self.settings, self.home))
 
     def close(self) -> None:
         """Abort what runs, make the machine safe, release everything.  Twice is harmless."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from station.store.chain import Chained, Verified, link_hash
 from station.store.filters import Filters, Order
 from station.store.health import too_full
 from station.store.opening import restore
@@ -11,13 +12,16 @@ from station.store.store import Store
 from station.store.tables import Columns
 
 __all__ = [
+    "Chained",
     "Columns",
     "Filters",
     "Order",
     "Page",
     "Store",
+    "Verified",
     "compact",
     "found",
+    "link_hash",
     "request_hash",
     "restore",
     "rewind",

@@ -53,6 +53,25 @@ class Verified:
     broken: Broken | None
 
 
+@dataclass(frozen=True, slots=True)
+class Chained:
+    """The record of one finished run and its link in the chain."""
+
+    record: dict[str, Any]
+    previous: str
+    hash: str
+
+
+def chained(ask: Ask, run: int) -> Chained | None:
+    """As it is kept now; None where the run is not in the chain."""
+    links = ask("SELECT n, samples_sha256, wire_sha256, hash FROM chain WHERE run_id = ?", [run])
+    if not links:
+        return None
+    ((n, samples, wire, link),) = links
+    before = ask("SELECT hash FROM chain WHERE n < ? ORDER BY n DESC LIMIT 1", [n])
+    return Chained(record_of(ask, run, samples, wire), before[0][0] if before else _START, link)
+
+
 def append(ask: Ask, run: int) -> None:
     """Chain a run that has just ended, in the same transaction."""
     previous = next((row[0] for row in ask("SELECT hash FROM chain ORDER BY n DESC LIMIT 1", [])), _START)
@@ -60,7 +79,7 @@ def append(ask: Ask, run: int) -> None:
     record = record_of(ask, run, samples, wire)
     ask(
         "INSERT INTO chain (run_id, uid, samples_sha256, wire_sha256, hash) VALUES (?, ?, ?, ?, ?)",
-        [run, record["uid"], samples, wire, _link(previous, record)],
+        [run, record["uid"], samples, wire, link_hash(previous, record)],
     )
 
 
@@ -87,7 +106,9 @@ def verify(ask: Ask) -> Verified:
 
 
 def record_of(ask: Ask, run: int, samples_sha256: str, wire_sha256: str | None = None) -> dict[str, Any]:
-    """Everything that is kept of a finished run; of version 2 where it has a wire log.
+    """Everything that is kept of a finished run.
+
+    Of version 3 where it is known what made it, of version 2 where it has only a wire log.
 
     :raises LookupError: there is no such run.
     """
@@ -100,8 +121,14 @@ def record_of(ask: Ask, run: int, samples_sha256: str, wire_sha256: str | None =
     readings = ask(
         f"SELECT {', '.join(_READING)} FROM readings WHERE calibration_id = ? ORDER BY reading", [run]
     )
+    made_by = ask("SELECT what FROM made_by WHERE run_id = ?", [run])
+    version: dict[str, Any] = {"version": 1}
+    if made_by:
+        version = {"version": 3, "wire_sha256": wire_sha256, "made_by": made_by[0][0]}
+    elif wire_sha256 is not None:
+        version = {"version": 2, "wire_sha256": wire_sha256}
     return {
-        **({"version": 1} if wire_sha256 is None else {"version": 2, "wire_sha256": wire_sha256}),
+        **version,
         **dict(zip(_RUN, values, strict=True)),
         "robot_sha256": _sha256(robot[0][0].encode()) if robot else None,
         "readings": [dict(zip(_READING, reading, strict=True)) for reading in readings],
@@ -128,7 +155,7 @@ def _broken(ask: Ask, run: int, samples: str, wire: str | None, previous: str, e
         record = record_of(ask, run, samples, wire)
     except LookupError:
         return "it is gone"
-    if _link(previous, record) != expected:
+    if link_hash(previous, record) != expected:
         return "it is not as it ended"
     dropped = ask("SELECT 1 FROM events WHERE calibration_id = ? AND kind = 'samples_dropped'", [run])
     if not dropped and samples_hash(ask, run) != samples:
@@ -139,7 +166,8 @@ def _broken(ask: Ask, run: int, samples: str, wire: str | None, previous: str, e
     return None
 
 
-def _link(previous: str, record: dict[str, Any]) -> str:
+def link_hash(previous: str, record: dict[str, Any]) -> str:
+    """Of a record after the one before it."""
     return _sha256(previous.encode() + rfc8785.dumps(record))
 
 

@@ -252,6 +252,27 @@ def outbox(db: Database) -> None:
 
 
 @migrations()
+def made_by(db: Database) -> None:
+    """Software, devices and scale certificate of a run."""
+    db.execute(
+        """CREATE TABLE made_by (
+            run_id INTEGER PRIMARY KEY REFERENCES calibrations (id), what TEXT NOT NULL)"""
+    )
+
+
+@migrations()
+def disabled_users(db: Database) -> None:
+    """A user may be kept without being let in."""
+    db.execute("ALTER TABLE users ADD COLUMN disabled_ms INTEGER")
+
+
+@migrations()
+def settings_in_use(db: Database) -> None:
+    """What the last start read from the station file, to be compared with at the next one."""
+    db.execute("CREATE TABLE settings_in_use (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID")
+
+
+@migrations()
 def search(db: Database) -> None:
     """Serials are found by their beginning, in capitals or not."""
     db.execute("CREATE INDEX calibrations_serial_nocase ON calibrations (robot_serial COLLATE NOCASE)")

@@ -11,7 +11,7 @@ from typing import Literal
 from pydantic import JsonValue
 
 from station.errors import NotFound
-from station.records import Delivery, DeliveryCount, Event, EventType, State, uid7
+from station.records import Backlog, Delivery, DeliveryCount, Event, EventType, State, uid7
 from station.store.kept_file import KeptFile
 from station.store.rows import LIST_COLUMNS, compact, moment, summary_from_row
 from station.store.times import now_ms
@@ -149,6 +149,21 @@ class Outbox(KeptFile):
             [state, cursor, limit],
         )
         return [_delivery(row) for row in rows]
+
+    def backlogs(self) -> list[Backlog]:
+        """What waits for each receiver that something waits for."""
+        rows = self._readers.all(
+            "SELECT receiver, count(*) AS count, min(at_ms) AS at_ms FROM deliveries"
+            " JOIN happenings USING (n) WHERE state = 'waiting' GROUP BY receiver"
+        )
+        return [
+            Backlog(
+                receiver=row["receiver"],
+                count=row["count"],
+                oldest_at=datetime.fromtimestamp(row["at_ms"] / 1000, UTC),
+            )
+            for row in rows
+        ]
 
     def delivery_counts(self) -> list[DeliveryCount]:
         """By receiver and state."""

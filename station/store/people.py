@@ -11,7 +11,7 @@ from station.store.audit import AuditTrail
 from station.store.rows import millis, moment
 from station.store.times import now_ms
 
-_USER = "users.id, users.name, users.role, badge_sha256, users.created_ms"
+_USER = "users.id, users.name, users.role, badge_sha256, users.created_ms, users.disabled_ms"
 
 
 class People(AuditTrail):
@@ -49,6 +49,36 @@ class People(AuditTrail):
             db.execute("DELETE FROM sessions WHERE user_id = ?", [user.id])
             self.record(by, "user.password_changed", f"user {user.id}")
 
+    def change_user(
+        self,
+        by: Actor,
+        user: User,
+        *,
+        role: Role | None = None,
+        disabled: bool | None = None,
+        password_hash: str | None = None,
+    ) -> User:
+        """All of it or nothing; what is None, and what is so already, stays as it is."""
+        with self._writing() as db:
+            if role not in (None, user.role):
+                db.execute("UPDATE users SET role = ? WHERE id = ?", [role, user.id])
+                self.record(
+                    by,
+                    "user.role_changed",
+                    f"user {user.id}",
+                    before={"role": user.role},
+                    after={"role": role},
+                )
+            if disabled not in (None, user.disabled):
+                db.execute(
+                    "UPDATE users SET disabled_ms = ? WHERE id = ?", [now_ms() if disabled else None, user.id]
+                )
+                db.execute("DELETE FROM sessions WHERE user_id = ?", [user.id])
+                self.record(by, "user.disabled" if disabled else "user.enabled", f"user {user.id}")
+            if password_hash is not None:
+                self.set_password(by, user.name, password_hash)
+        return self.user_by_id(user.id)
+
     def remove_user(self, by: Actor, name: str) -> None:
         """The account and its sessions are gone; the audit keeps what was done.  :raises NotFound:"""
         user = self.user(name)
@@ -62,6 +92,13 @@ class People(AuditTrail):
         row = self._readers.one(f"SELECT {_USER} FROM users WHERE name = ?", [name])
         if row is None:
             raise NotFound(f"There is no user {name}.")
+        return _user(row)
+
+    def user_by_id(self, user_id: int) -> User:
+        """:raises NotFound:"""
+        row = self._readers.one(f"SELECT {_USER} FROM users WHERE id = ?", [user_id])
+        if row is None:
+            raise NotFound(f"There is no user {user_id}.")
         return _user(row)
 
     def users(self) -> list[User]:
@@ -78,7 +115,9 @@ class People(AuditTrail):
 
     def _credentials(self, where: str, value: str | bytes, column: str) -> Credentials | None:
         row = self._readers.one(
-            f"SELECT {_USER}, {column} AS secret FROM users WHERE {where} AND {column} IS NOT NULL", [value]
+            f"SELECT {_USER}, {column} AS secret FROM users WHERE {where} AND {column} IS NOT NULL"
+            " AND disabled_ms IS NULL",
+            [value],
         )
         return None if row is None else Credentials(user=_user(row), secret_hash=row["secret"])
 
@@ -99,12 +138,12 @@ class People(AuditTrail):
             )
         return self._key_row("id = ?", int(key_id or 0))
 
-    def revoke_key(self, by: Actor, which: str) -> ApiKey:
-        """By number, or by the name of a key in use.  Again is harmless.  :raises NotFound:"""
-        key = next(
-            (k for k in reversed(self.api_keys()) if which == str(k.id) or which == k.name),
-            None,
-        )
+    def revoke_key(self, by: Actor, which: str | int) -> ApiKey:
+        """By number alone, or by number or name as somebody types it.  Again is harmless.
+
+        :raises NotFound:
+        """
+        key = next((k for k in reversed(self.api_keys()) if which in (k.id, str(k.id), k.name)), None)
         if key is None:
             raise NotFound(f"There is no key {which}; `station key list` shows them.")
         with self._writing() as db:
@@ -141,7 +180,8 @@ class People(AuditTrail):
 
     def administrator_known(self) -> bool:
         """Whether somebody can sign in who may do everything."""
-        return self._readers.one("SELECT 1 FROM users WHERE role = 'administrator'") is not None
+        row = self._readers.one("SELECT 1 FROM users WHERE role = 'administrator' AND disabled_ms IS NULL")
+        return row is not None
 
     # Sessions ----------------------------------------------------------------------------------
 
@@ -153,7 +193,8 @@ class People(AuditTrail):
     def session(self, sha256: bytes) -> Session | None:
         """Who has signed in with this cookie, and when they were seen last."""
         row = self._readers.one(
-            f"SELECT {_USER}, seen_ms FROM sessions JOIN users ON users.id = user_id WHERE sha256 = ?",
+            f"SELECT {_USER}, seen_ms FROM sessions JOIN users ON users.id = user_id"
+            " WHERE sha256 = ? AND disabled_ms IS NULL",
             [sha256],
         )
         return (
@@ -190,6 +231,7 @@ def _user(row: sqlite3.Row) -> User:
         name=row["name"],
         role=row["role"],
         has_badge=row["badge_sha256"] is not None,
+        disabled=row["disabled_ms"] is not None,
         created_at=moment(row["created_ms"]),
     )
 

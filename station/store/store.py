@@ -22,6 +22,7 @@ from station.records import (
     CalibrationResult,
     CalibrationSummary,
     DiagnosisDocument,
+    MadeBy,
     Reading,
     Reason,
     State,
@@ -33,6 +34,7 @@ from station.store.ends import End, UnstoredEnds, end_of
 from station.store.filters import FEW, Filters, Order, where
 from station.store.outbox import Outbox
 from station.store.people import People
+from station.store.provenance import Provenance
 from station.store.robots import Memories
 from station.store.rows import (
     LIST_COLUMNS,
@@ -51,6 +53,7 @@ from station.store.rows import (
     row_id,
     summary_from_row,
 )
+from station.store.settings_in_use import SettingsInUse
 from station.store.stored_events import StoredEvents
 from station.store.tables import Tables
 from station.store.times import RunTimes, now, now_ms
@@ -66,7 +69,9 @@ _DEEDS = {"apply": "run.applied", "rollback": "run.rolled_back"}
 """What the audit calls the start of a run of this kind."""
 
 
-class Store(StoredEvents, Memories, ZeroJournal, WireLogs, Trends, Tables, People, Outbox):
+class Store(
+    StoredEvents, Memories, ZeroJournal, WireLogs, Provenance, Trends, Tables, People, SettingsInUse, Outbox
+):
     """Thread safe.  Order is by number: the clock that gives the times may jump.
 
     Every method may raise `StoreUnavailable`, unless it says otherwise.
@@ -88,11 +93,13 @@ class Store(StoredEvents, Memories, ZeroJournal, WireLogs, Trends, Tables, Peopl
         body_hash: bytes = b"",
         uid: str | None = None,
         by: Actor = STATION,
+        made_by: MadeBy | None = None,
     ) -> int:
         """A new calibration in state queued; its idempotency key is kept in the same transaction.
 
         :param uid: where it is known already; else made here.
         :param by: who starts it, for the audit.
+        :param made_by: what measures it, where this station does.
         :raises KeyReused: the key is taken (ask `find_key` first to answer a repeated request).
         """
         robot_id = self.save_robot(robot)
@@ -126,6 +133,8 @@ class Store(StoredEvents, Memories, ZeroJournal, WireLogs, Trends, Tables, Peopl
             db.execute("INSERT INTO run_starters VALUES (?, ?, ?)", [calibration_id, by.name, by.via])
             self.record(by, _DEEDS.get(request.kind, "run.started"), f"run {calibration_id}")
             self.announce_run("run.started", calibration_id)
+            if made_by is not None:
+                self.keep_made_by(calibration_id, made_by)
             if more := asked_more(request):
                 self.add_event(calibration_id, "asked", more)
         self._times.begin(calibration_id, created_ms)

@@ -11,6 +11,10 @@ from station.store.trends import POSITION_ERROR
 Columns = dict[str, tuple[object, ...]]
 """By name, all equally long."""
 
+GROWING = ("calibrations", "readings", "results", "chain", "events", "audit", "happenings")
+MIGRATIONS = "_sqlite_migrations"
+"""Where the library keeps which steps were applied."""
+
 RUNS = {
     "id": "id",
     "uid": "uid",
@@ -100,6 +104,19 @@ class Tables(KeptFile):
             " json_each(result, '$.findings') finding, json_each(finding.value, '$.parameters') parameter"
         )
         return self._columns(FINDINGS, tables, "calibration_id", first, last)
+
+    def counts(self) -> dict[str, int]:
+        """Rows of every table that only grows, by its name."""
+        found: dict[str, int] = {}
+        for table in GROWING:
+            row = self._readers.one(f"SELECT count(*) AS n FROM {table}")
+            found[table] = 0 if row is None else int(row["n"])
+        return found
+
+    def schema_step(self) -> str:
+        """The last step that brought the tables up to date."""
+        row = self._readers.one(f"SELECT name FROM {MIGRATIONS} ORDER BY id DESC LIMIT 1")
+        return "" if row is None else str(row["name"])
 
     def _columns(self, columns: dict[str, str], tables: str, run: str, first: int, last: int) -> Columns:
         shown = ", ".join(f"{source} AS {name}" for name, source in columns.items())

@@ -1,4 +1,4 @@
-"""The engine of all studies: machines drawn by seed, all cores, progress, resume, a digest of the figures."""
+"""The engine of all studies: machines drawn by seed, all cores or a cluster, progress, resume, a digest."""
 
 from __future__ import annotations
 
@@ -17,12 +17,17 @@ from typing import Any, TypeVar
 from rich.console import Console
 from rich.progress import Progress
 
+from station.errors import InputRefused
+
 Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 FEW = 100
 """Fewer items are done before processes have started."""
 CHUNK = 8
+CONNECT_S = 10.0
+RETRIES = 3
+"""Of a chunk whose worker was lost."""
 
 
 @dataclass(frozen=True)
@@ -34,6 +39,8 @@ class Engine:
     """Processes; None: one for each core."""
     resume: Path | None = None
     """Folder that keeps what was done, so that a study that was ended goes on from there."""
+    scheduler: str | None = None
+    """Address of a Dask scheduler whose workers do it, `tcp://host:8786`; None: this computer."""
 
     def each(self, work: Callable[[Item], Result], items: Sequence[Item], title: str) -> list[Result]:
         """work(item) for each item, in order.  Items and results must be picklable."""
@@ -54,6 +61,9 @@ class Engine:
     def _computed(
         self, work: Callable[[Item], Result], chunks: Sequence[Sequence[Item]]
     ) -> Iterator[list[Result]]:
+        if self.scheduler is not None and chunks:
+            yield from _on_cluster(self.scheduler, work, chunks)
+            return
         if sum(len(chunk) for chunk in chunks) < FEW or self.workers == 1:
             yield from (_all(work, chunk) for chunk in chunks)
             return
@@ -84,6 +94,31 @@ class Engine:
             return None
         name = hashlib.sha256(pickle.dumps((title, list(chunk)))).hexdigest()[:24]
         return self.resume / f"{name}.pickle"
+
+
+def _on_cluster(
+    scheduler: str, work: Callable[[Item], Result], chunks: Sequence[Sequence[Item]]
+) -> Iterator[list[Result]]:
+    """In order; what a worker had that was lost is done again by another.
+
+    :raises InputRefused: Dask is not installed, or nobody answers there.
+    """
+    try:
+        from distributed import Client
+    except ImportError as error:
+        raise InputRefused(
+            "--scheduler needs the extra `studies`: pip install fivebar-station[studies]."
+        ) from error
+    try:
+        client = Client(scheduler, timeout=CONNECT_S, set_as_default=False)  # type: ignore[no-untyped-call]
+    except (OSError, ValueError) as error:
+        raise InputRefused(
+            f"No Dask scheduler answers at {scheduler}; start one with `dask scheduler`."
+        ) from error
+    with client:
+        futures = client.map(partial(_all, work), chunks, pure=False, retries=RETRIES)
+        for future in futures:
+            yield future.result()
 
 
 def _all(work: Callable[[Item], Result], chunk: Sequence[Item]) -> list[Result]:

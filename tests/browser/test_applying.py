@@ -17,40 +17,41 @@ def press(page: Page, label: str) -> None:
 
 def test_offsets_are_applied_verified_and_rolled_back(page: Page, station: Station) -> None:
     run = add_run(station, "FB-A")
-    page.goto(f"{station.url}/result/{run['id']}")
-    drives = page.get_by_role("region", name="Drives")
-    apply, back = (
-        drives.get_by_role("button", name=name, exact=True) for name in ("Apply to drives", "Roll back")
-    )
-    expect(drives).to_contain_text("The drives hold the old zero offsets.")
+    page.goto(f"{station.url}/result/{run['id']}?open=drives")
+    head, step = page.locator(".summary").first, page.get_by_role("region", name="Next step")
+    drives = page.get_by_role("group", name="Drives")
+    apply = step.get_by_role("button", name="Apply to drives", exact=True)
+    back = drives.get_by_role("button", name="Roll back", exact=True)
+    expect(head).to_contain_text("The drives hold the old zero offsets.")
     expect(apply).to_be_disabled()
-    drives.get_by_label("Operator").fill("ada")
+    step.get_by_label("Operator").fill("ada")
     expect(apply).to_be_enabled()
     expect(back).to_be_disabled()
-    for button in (apply, back):
-        button.evaluate(MARK)
+    back.evaluate(MARK)
     press(page, "Apply to drives")
-    expect(drives).to_contain_text("The drives hold these zero offsets. Verified.")
+    expect(head).to_contain_text("The drives hold these zero offsets. Verified.")
     assert violations(page) == []
-    expect(apply).to_be_disabled()
+    # what is done is no next step any more
+    expect(step).to_contain_text("Nothing to do. The drives hold these zero offsets.")
+    expect(step.get_by_role("button")).to_have_count(0)
     press(page, "Roll back")
-    expect(drives).to_contain_text("Rolled back: the drives hold the old zero offsets again.")
+    expect(head).to_contain_text("Rolled back: the drives hold the old zero offsets again.")
+    expect(step.get_by_role("button", name="Calibrate again")).to_be_enabled()
     expect(drives.get_by_role("listitem")).to_have_count(2)
-    for button in (apply, back):
-        assert button.get_attribute("data-mine") == "yes"
+    assert back.get_attribute("data-mine") == "yes"
 
 
 def test_stop_is_at_hand_while_offsets_are_written(page: Page, slow_station: Station) -> None:
     run = add_run(slow_station, "FB-B")
-    page.goto(f"{slow_station.url}/result/{run['id']}")
-    drives = page.get_by_role("region", name="Drives")
-    drives.get_by_label("Operator").fill("ada")
+    page.goto(f"{slow_station.url}/result/{run['id']}?open=drives")
+    head, drives = page.locator(".summary").first, page.get_by_role("group", name="Drives")
+    page.get_by_role("region", name="Next step").get_by_label("Operator").fill("ada")
     press(page, "Apply to drives")
-    expect(drives).to_contain_text("Checking the machine")
+    expect(head).to_contain_text("Checking the machine")
     page.get_by_role("button", name="STOP").click()
     expect(page.get_by_role("alert").filter(has_text="both drives confirmed")).to_be_visible()
     expect(drives).to_contain_text("ABORTED")
-    expect(drives).to_contain_text("The drives hold the old zero offsets.")
+    expect(head).to_contain_text("The drives hold the old zero offsets.")
 
 
 def test_what_is_remembered_can_be_forgotten(page: Page, station: Station) -> None:
@@ -60,7 +61,7 @@ def test_what_is_remembered_can_be_forgotten(page: Page, station: Station) -> No
         while (ended := station.get(f"/calibrations/{run}"))["state"] in ("queued", "running"):
             pass
         assert ended["verdict"] == "pass"
-    page.goto(f"{station.url}/result/{run}")
+    page.goto(f"{station.url}/result/{run}?open=memory")
     memory = page.locator(".memory")
     expect(memory).to_contain_text("Used: geometry and mechanism as earlier calibrations found them")
     expect(memory).to_contain_text(f"starts from run {run}")

@@ -16,7 +16,7 @@ def test_no_view_breaks_wcag_2_2_aa(page: Page, station: Station) -> None:
     assert violations(page) == []
     arm(page)
     assert violations(page) == []
-    page.goto(f"{station.url}/result/{run['id']}")
+    page.goto(f"{station.url}/result/{run['id']}?open=residuals")
     expect(page.locator(".chart svg")).to_be_visible()
     assert violations(page) == []
     page.goto(f"{station.url}/history")
@@ -37,7 +37,7 @@ def test_no_state_breaks_wcag_2_2_aa(page: Page, slow_station: Station) -> None:
 def test_a_chart_that_cannot_be_loaded_says_so(page: Page, station: Station) -> None:
     run = add_run(station, "FB-801")
     page.route("**/assets/residual-drawing-*.js", lambda route: route.abort())
-    page.goto(f"{station.url}/result/{run['id']}")
+    page.goto(f"{station.url}/result/{run['id']}?open=residuals")
     expect(page.get_by_text("The chart could not be loaded")).to_be_visible()
     assert violations(page) == []
 

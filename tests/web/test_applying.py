@@ -90,3 +90,30 @@ def test_the_run_under_way_says_what_it_is_about(service: Service) -> None:
     assert service.client.post("/api/v1/stop").status_code == 200
     assert service.runtime.orchestrator.wait(applying["id"], LIMIT_S) == "aborted"
     assert service.client.get(f"{LIST}/{run}").json()["application"]["state"] == "unwritten"
+
+
+def test_the_error_map_of_a_run_and_of_its_application(service: Service) -> None:
+    run = service.complete(robot_serial="R1", plan="rapid")
+    answer = service.client.get(f"{LIST}/{run}/error-map")
+    found = answer.json()
+    assert answer.status_code == 200, answer.text
+    assert found["bound_95_mm"] == service.client.get(f"{LIST}/{run}").json()["accuracy"]["bound_95_mm"]
+    assert max(map(max, found["after_95_mm"])) < min(map(min, found["before_mm"]))
+    assert len(found["fresh"]) == 8
+    known = {"If-None-Match": answer.headers["etag"]}
+    assert service.client.get(f"{LIST}/{run}/error-map", headers=known).status_code == 304
+    applied = ended(service, service.client.post(f"{LIST}/{run}/apply", json=ADA))["id"]
+    held = service.client.get(f"{LIST}/{applied}/error-map").json()
+    assert held["bound_95_mm"] == pytest.approx(found["bound_95_mm"], rel=0.02)
+    assert len(held["fresh"]) == 8
+    assert max(abs(reading["residual_mm"]) for reading in held["fresh"]) < 0.1
+
+
+def test_without_zero_offsets_there_is_no_error_map(service: Service) -> None:
+    run = service.complete(robot_serial="R1", plan="rapid")
+    ended(service, service.client.post(f"{LIST}/{run}/apply", json=ADA))
+    back = ended(service, service.client.post(f"{LIST}/{run}/rollback", json=ADA))["id"]
+    answer = service.client.get(f"{LIST}/{back}/error-map")
+    assert answer.status_code == 409
+    assert answer.json()["detail"] == f"Run {back} has no error map: it identified no zero offsets."
+    assert service.client.get(f"{LIST}/99/error-map").status_code == 404

@@ -52,7 +52,15 @@ def test_effects_of_the_machine_are_ordered(service: Service, rig: EmulatedRig) 
 
 @pytest.mark.parametrize(
     "order",
-    [{"device": "scale", "kind": "alarm"}, {"device": "scale"}, {**JUMP, "mm": "far"}, {**JUMP, "x": 1}],
+    [
+        {"device": "scale", "kind": "alarm"},
+        {"device": "scale"},
+        {**JUMP, "mm": "far"},
+        {**JUMP, "x": 1},
+        {**JUMP, "mm": True},
+        {**JUMP, "after_s": False},
+        {**JUMP, "count": True},
+    ],
 )
 def test_what_cannot_be_ordered_is_refused(
     service: Service, rig: EmulatedRig, order: dict[str, object]

@@ -117,6 +117,7 @@ def read_calibration(calibration_id: CalibrationId, runtime: TheRuntime) -> Cali
     known = {
         "application": application(runtime.store, calibration),
         "prompt": runtime.orchestrator.prompt(calibration_id),
+        "made_by": runtime.store.made_by(calibration_id),
         "zero_offset_tolerance_deg": runtime.store.robot_of(calibration_id).tolerances.zero_offset_deg,
     }
     return calibration.model_copy(update=known)

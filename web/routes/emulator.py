@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from starlette.exceptions import HTTPException
 
+from station.errors import NotApplicable
 from station.motion import EffectTable, EmulatedRig, FaultOrder
 from station.people import Permission
 from web.guarded import Router, needs
@@ -16,12 +17,12 @@ router = Router(prefix="/emulator", tags=["emulator"])
 @router.get(
     "/faults",
     response_model=list[FaultOrder],
-    responses=documented(404),
+    responses=documented(404, 409),
     dependencies=[needs(Permission.READ)],
 )
 def read_faults(runtime: TheRuntime) -> list[FaultOrder]:
     """What is ordered at present."""
-    return list(_rig(runtime).faults)
+    return list(_seen_rig(runtime).faults)
 
 
 @router.put(
@@ -42,12 +43,12 @@ def order_faults(body: list[FaultOrder], runtime: TheRuntime) -> list[FaultOrder
 @router.get(
     "/effects",
     response_model=list[EffectTable],
-    responses=documented(404),
+    responses=documented(404, 409),
     dependencies=[needs(Permission.READ)],
 )
 def read_effects(runtime: TheRuntime) -> list[EffectTable]:
     """Imperfections ordered while the machine runs; those of its rig file are not listed."""
-    return list(_rig(runtime).effects)
+    return list(_seen_rig(runtime).effects)
 
 
 @router.put(
@@ -59,6 +60,14 @@ def read_effects(runtime: TheRuntime) -> list[EffectTable]:
 def order_effects(body: list[EffectTable], runtime: TheRuntime) -> list[EffectTable]:
     """These imperfections of the machine and no others from now on, as `[[effect]]` of a rig file."""
     return list(_rig(runtime).order_effects(body))
+
+
+def _seen_rig(runtime: TheRuntime) -> EmulatedRig:
+    """:raises NotApplicable: what is ordered was drawn unseen."""
+    rig = _rig(runtime)
+    if runtime.training is not None and runtime.training.hides:
+        raise NotApplicable("An unseen exercise is under way; reveal it at the training desk first.")
+    return rig
 
 
 def _rig(runtime: TheRuntime) -> EmulatedRig:

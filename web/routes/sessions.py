@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import Annotated
 
 from fastapi import BackgroundTasks, Request, Response
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
 from station.errors import FieldRefused
 from station.people import FEWEST_CHARACTERS, Access, Permission
 from station.records import Actor, PersonName, SignedIn, User
 from web.aside import aside, record_later
+from web.bodies import Body
 from web.guarded import COOKIE, Router, needs
 from web.problems import documented
 from web.routes.parts import TheAccess, TheRuntime
@@ -22,10 +23,8 @@ router = Router(prefix="/session", tags=["session"])
 Secret = Annotated[str, Field(min_length=1, max_length=LONGEST)]
 
 
-class SignInBody(BaseModel):
+class SignInBody(Body):
     """Name and password, or badge and PIN."""
-
-    model_config = ConfigDict(extra="forbid")
 
     name: Annotated[str, Field(min_length=1, max_length=64)] | None = None
     password: Secret | None = None
@@ -33,10 +32,8 @@ class SignInBody(BaseModel):
     pin: Secret | None = None
 
 
-class FirstAdministratorBody(BaseModel):
+class FirstAdministratorBody(Body):
     """The secret of the link that the first start printed, and who signs in with it."""
-
-    model_config = ConfigDict(extra="forbid")
 
     secret: Secret
     name: PersonName

@@ -5,7 +5,7 @@ from __future__ import annotations
 import logging
 from typing import Annotated
 
-from fastapi import BackgroundTasks, Response
+from fastapi import BackgroundTasks, Request, Response
 from pydantic import JsonValue
 
 from station.people import Permission
@@ -31,6 +31,7 @@ router = Router(tags=["stop"])
 async def stop(
     by: Annotated[Actor, needs(Permission.STOP)],
     runtime: TheRuntime,
+    request: Request,
     response: Response,
     later: BackgroundTasks,
     operator: CallerName = None,
@@ -47,6 +48,7 @@ async def stop(
     stopped = Stopped.of(axes)
     told: dict[str, JsonValue] = {"axes": dict(axes), "confirmed": stopped.confirmed}
     later.add_task(record_later, runtime.store, by, "station.stopped", "both axes", told)
+    request.app.state.metrics.stopped(confirmed=stopped.confirmed)
     if not stopped.confirmed:
         response.status_code = NOT_CONFIRMED
     return stopped

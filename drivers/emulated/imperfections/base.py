@@ -7,7 +7,9 @@ from dataclasses import dataclass
 from random import Random
 from typing import ClassVar, Literal
 
-from pydantic import BaseModel, ConfigDict
+from pydantic import ConfigDict
+
+from drivers.strict_numbers import StrictNumbers
 
 JointNumber = Literal[1, 2]
 
@@ -50,7 +52,7 @@ class Lengths:
     l: list[float]  # noqa: E741  the paper's symbol
 
 
-class Effect(BaseModel):
+class Effect(StrictNumbers):
     """An imperfection.  Each hook answers what it adds; an effect overrides the one where it acts.
 
     Effects with a memory (play) are asked in the order in which things happen, so the answer may

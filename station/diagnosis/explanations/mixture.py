@@ -81,6 +81,12 @@ class Mixture:
 
     def position_error(self, theta: Real, place: Complex) -> PositionError:
         """Of joint commands theta (G, 2) meant for places (G,), what the set expects."""
+        expected, drawn = self.errors_at(theta, place)
+        bound = float(np.quantile(drawn.max(axis=0), 0.95))
+        return PositionError(float(np.sqrt(np.mean(expected**2))), float(expected.max()), bound)
+
+    def errors_at(self, theta: Real, place: Complex) -> tuple[Real, Real]:
+        """Root mean square (G,) of the position error, mm, and the errors (G, DRAWS) of drawn machines."""
         rng = np.random.default_rng(0)
         drawn, square = [], np.zeros(len(place))
         counts = np.floor(self.weight * DRAWS + rng.random()).astype(int)
@@ -92,12 +98,8 @@ class Mixture:
             square += w * (np.sum(mean**2, axis=1) + np.sum(root**2, axis=(1, 2)))
             if count > 0:
                 error = mean[:, :, None] + root @ rng.standard_normal((root.shape[2], count))
-                drawn.append(np.sqrt(np.sum(error**2, axis=1)).max(axis=0))
-        largest = np.concatenate(drawn)
-        size = np.sqrt(square)
-        return PositionError(
-            float(np.sqrt(np.mean(square))), float(size.max()), float(np.quantile(largest, 0.95))
-        )
+                drawn.append(np.sqrt(np.sum(error**2, axis=1)))
+        return np.sqrt(square), np.concatenate(drawn, axis=1)
 
     def before_and_after(self, base: Settled) -> tuple[PositionError, PositionError]:
         """Over the workspace: with the commands of the base model, and with those of the set."""

@@ -9,9 +9,10 @@ from dataclasses import dataclass
 from station.diagnosis.decision import Decision
 from station.diagnosis.report.joint_curves import Curve
 from station.diagnosis.search import Hint
-from station.fitting import Noise, Outlier
+from station.fitting import ErrorFields, Noise, Outlier
 from station.machines import AnyRobot, kind_of
 from station.records import (
+    Complex,
     DataSource,
     Dependence,
     DiagnosisDocument,
@@ -19,6 +20,7 @@ from station.records import (
     ExperimentRecord,
     ExplanationRecord,
     Finding,
+    FreshReading,
     Measurements,
     MistakeRecord,
     PositionError,
@@ -110,6 +112,19 @@ class Findings(ABC):
     def zeros_only_bound_mm(self) -> float | None:
         """No position error is larger, with 95 % probability, if the drives get the zero offsets and nothing
         else is compensated; None where that is not known."""
+        return None
+
+    @property
+    def fresh(self) -> tuple[FreshReading, ...]:
+        """Readings that took no part in the fit; empty where none are shown on a map."""
+        return ()
+
+    def error_fields(self, places: Complex) -> ErrorFields | None:
+        """Position errors at places (G,), mm, with the zero offsets in the drives and nothing else
+        compensated; None where that is not known.
+
+        :raises Unreachable: naming the first place out of reach.
+        """
         return None
 
     @property

@@ -25,17 +25,27 @@ from station.diagnosis.search import Hint, hints
 from station.diagnosis.tests_of_fit import whitened_residual
 from station.diagnosis.weighed_loop import WeighedDiagnosis
 from station.effects import five_bar_catalogue
-from station.fitting import MINIMUM_DOF, Noise, NotConvergedError, Solution, pure_error, tolerance_prior
+from station.fitting import (
+    MINIMUM_DOF,
+    ErrorFields,
+    Noise,
+    NotConvergedError,
+    Solution,
+    pure_error,
+    tolerance_prior,
+)
 from station.five_bar import GRID, describe_weak_direction, inverse
 from station.model import Fit, Model, fit
 from station.records import (
     LIMIT_SDS,
+    Complex,
     DataSource,
     DiagnosisDocument,
     EffectName,
     ExperimentRecord,
     ExplainedEffect,
     ExplanationRecord,
+    FreshReading,
     MistakeRecord,
     PositionError,
     Quantity,
@@ -75,6 +85,27 @@ class WeighedFindings(Findings):
         place = mixture.mechanism.robot.workspace_grid(*GRID)
         theta = inverse(mixture.mechanism.nominal, place) - mixture.mean[:2]
         return mixture.position_error(theta, place).bound_95
+
+    def error_fields(self, places: Complex) -> ErrorFields:
+        """Of the whole set."""
+        mixture = self.found.mixture
+        theta = inverse(mixture.mechanism.nominal, places)
+        before, _ = mixture.errors_at(theta, places)
+        after, drawn = mixture.errors_at(theta - mixture.mean[:2], places)
+        return ErrorFields(before, after, np.quantile(drawn, 0.95, axis=1))
+
+    @cached_property
+    def fresh(self) -> tuple[FreshReading, ...]:
+        """Under the explanation that is reported, where that determines what they read."""
+        fresh, residual_mm = self.diagnosis.fresh, self.steps[-1].fresh_mm
+        if fresh is None or residual_mm is None:
+            return ()
+        places = self.mechanism.of(fresh).places(self.found.mixture.mean)
+        return tuple(
+            FreshReading(reading=int(i), x_mm=float(x), y_mm=float(y), residual_mm=float(r))
+            for i, (x, y), r in zip(fresh.ids, places, residual_mm, strict=True)
+            if np.isfinite(r)
+        )
 
     @cached_property
     def curves(self) -> tuple[Curve, ...]:

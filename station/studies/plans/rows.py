@@ -13,7 +13,7 @@ from station.identification import Identification, bounds_mm, identify
 from station.plans import USUAL, make_plan
 from station.records import AnyReference, JointAngle, MountingError, PlanName, Remembered, Stop
 from station.run_kinds import adaptive_run, check_run, fit_in_sequence
-from station.studies.plans.drawn import Drawn, drawn, robot_of
+from station.studies.drawn import Drawn, drawn, robot_of
 from station.studies.plans.walked import SAMPLES, walk
 
 LEVEL_SD_DEG, MOUNTING_SD_MM = 0.005, 0.02

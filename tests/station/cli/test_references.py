@@ -11,7 +11,7 @@ from click.testing import CliRunner
 from station.cli import main
 from station.plans import make_plan
 from station.records import Reading, readings_to_csv
-from station.studies.plans.drawn import drawn, robot_of
+from station.studies.drawn import drawn, robot_of
 
 DATA_ROBOT = robot_of(0.03)
 

@@ -10,7 +10,7 @@ from station.identification import Identification, bounds_mm, identify
 from station.identification.advice import advice_of
 from station.plans import make_plan
 from station.records import AnyReference, JointAngle, Measurements, MountingError
-from station.studies.plans.drawn import Drawn, drawn, robot_of
+from station.studies.drawn import Drawn, drawn, robot_of
 
 ROBOT = robot_of(0.03)
 

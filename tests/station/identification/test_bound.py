@@ -9,7 +9,7 @@ from station.fitting import largest_error_bound
 from station.identification import accuracy_of, bounds_mm, identify, with_accuracy
 from station.plans import make_plan
 from station.records import AccuracyReached, JointAngle
-from station.studies.plans.drawn import drawn, robot_of
+from station.studies.drawn import drawn, robot_of
 from tests.station.fakes import result_of
 
 RAYLEIGH_95 = np.sqrt(-2.0 * np.log(0.05))

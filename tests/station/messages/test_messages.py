@@ -11,7 +11,16 @@ import pytest
 
 import station
 from station.effects import arm_catalogue, five_bar_catalogue
-from station.messages import Group, display_name, explanation
+from station.messages import (
+    LANGUAGES,
+    Group,
+    Language,
+    display_name,
+    explanation,
+    local_number,
+    measured,
+    reason_text,
+)
 from station.plans import PLANS
 from station.records import DiagnosisVerdict, Outcome, State, Verdict
 from station.run_kinds import RUN_KINDS
@@ -49,3 +58,54 @@ def test_every_reason_in_the_code_is_a_reason_of_the_message_file() -> None:
     codes = set(re.findall(r"\bbecause\(\s*\"(\w+)\"", source))
     assert len(codes) > 10
     assert codes <= set(json.loads((package / "messages/en.json").read_text(encoding="utf-8"))["reasons"])
+
+
+def texts_of(language: str) -> dict[str, str]:
+    """Every text by its path."""
+    found: dict[str, str] = {}
+
+    def collect(value: object, path: str) -> None:
+        if isinstance(value, dict):
+            for key, part in value.items():
+                collect(part, f"{path}/{key}")
+        else:
+            found[path] = str(value)
+
+    folder = Path(station.__file__).parent / "messages"
+    collect(json.loads((folder / f"{language}.json").read_text(encoding="utf-8")), "")
+    return found
+
+
+@pytest.mark.parametrize("language", LANGUAGES)
+def test_each_language_has_every_text_with_the_same_places_for_values(language: Language) -> None:
+    english, other = texts_of("en"), texts_of(language)
+    assert english.keys() == other.keys()
+    for path, text in english.items():
+        places = [sorted(re.findall(r"\{[^}]*\}", one)) for one in (text, other[path])]
+        assert places[0] == places[1], path
+
+
+def test_a_language_is_not_english_by_another_name() -> None:
+    english = texts_of("en")
+    for language in ("de", "zh"):
+        same = [path for path, text in texts_of(language).items() if text == english[path]]
+        assert len(same) < 0.06 * len(english), same
+
+
+def test_numbers_dates_and_identifiers_are_written_as_the_language_writes_them() -> None:
+    params: dict[str, float | int | str] = {
+        "causes": "backlash of joint 2 and link_length L1",
+        "share_percent": 93.25,
+        "depends_on": "joint1",
+    }
+    german = reason_text("partly_explained", params, "de")
+    assert german.startswith(
+        "Getriebespiel von Gelenk 2 und Fehler der Gliedlänge von gestellnahem Glied 1: "
+    )
+    assert "93,2 %" in german and german.endswith("Winkel von Gelenk 1.")
+    assert reason_text("partly_explained", params, "zh").startswith("关节 2 的齿轮间隙和近架杆 1的杆长误差")
+    assert measured(-0.05, 0.0123, "deg", "de") == "\u22120,050 ± 0,012\u00a0°"
+    assert measured(-0.05, 0.0123, "deg", "en") == "\u22120.050 ± 0.012\u00a0°"
+    assert measured(12.0, None, "mm", "en") == "12.0000\u00a0mm"
+    assert local_number(-0.0001, 2, "en") == "0.00"
+    assert local_number(float("nan"), 2, "de") == "–"

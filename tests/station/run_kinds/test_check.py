@@ -17,7 +17,7 @@ from station.records import CalibrationResult, State
 from station.run_kinds import RUN_KINDS
 from station.run_kinds.check import check_run, compared_with
 from station.store.store import Store
-from station.studies.plans.drawn import Drawn, drawn, robot_of
+from station.studies.drawn import Drawn, drawn, robot_of
 from station.studies.plans.walked import walk
 from tests.station.asking import asked
 from tests.station.fakes import result_of

@@ -12,7 +12,7 @@ from station.plans import make_plan
 from station.records import JointAngle, TaughtPosition, read_taught, translated_to_csv
 from station.run_kinds.translate import Change, translated
 from station.settings import DEFAULT_JOINTS
-from station.studies.plans.drawn import drawn, robot_of
+from station.studies.drawn import drawn, robot_of
 from station.studies.simulation import true_positions
 
 ROBOT = robot_of(0.03)

@@ -5,6 +5,7 @@ import type {
   CalibrationBody,
   CalibrationList,
   Diagnosis,
+  ErrorMap,
   PlanDocument,
   Problem,
   Quality,
@@ -14,8 +15,10 @@ import type {
   ScanCodes,
   Separating,
   SignedIn,
+  Solution,
   Stopped,
   Summary,
+  Target,
   Trend,
 } from "./types";
 
@@ -34,8 +37,8 @@ export class Refused extends Error {
   }
 }
 
-async function call<T>(
-  method: "GET" | "POST" | "DELETE",
+export async function call<T>(
+  method: "GET" | "POST" | "PATCH" | "DELETE",
   path: string,
   options: RequestInit = {},
   accepted?: number,
@@ -140,6 +143,14 @@ export const refusedScan = (body: RefusedScan) =>
 export const signOut = () => call<null>("DELETE", "/session");
 
 export const calibration = (id: number) => call<Calibration>("GET", `/calibrations/${id}`);
+
+export const errorMap = (id: number) => call<ErrorMap>("GET", `/calibrations/${id}/error-map`);
+
+export const solve = (id: number, targets: Target[]) =>
+  call<Solution>("POST", `/calibrations/${id}/solve`, {
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify({ targets }),
+  });
 
 export const diagnosis = (id: number) => call<Diagnosis>("GET", `/calibrations/${id}/diagnosis`);
 

@@ -1,17 +1,30 @@
 /** Numbers and times as the operator reads them; a dash stands for what is not a number. */
 
+import { language } from "./messages/language";
+
 export const MISSING = "–";
+
+const DECIMAL_COMMA = language === "de";
+
+/** A number that is a text already, with the decimal sign of the language. */
+export const local = (text: string) => (DECIMAL_COMMA ? text.replace(".", ",") : text);
 
 export function fixed(value: number | null | undefined, digits: number): string {
   if (value == null || !Number.isFinite(value)) return MISSING;
   const text = value.toFixed(digits);
   // a real minus sign, as wide as the plus; none before a zero
-  return Number(text) === 0 ? text.replace("-", "") : text.replace("-", "\u2212");
+  return local(Number(text) === 0 ? text.replace("-", "") : text.replace("-", "\u2212"));
 }
 
 export function signed(value: number | null | undefined, digits: number): string {
   const text = fixed(value, digits);
-  return value != null && value > 0 && Number(text) !== 0 ? `+${text}` : text;
+  return value != null && Number(value.toFixed(digits)) > 0 ? `+${text}` : text;
+}
+
+/** To so many significant digits, without zeros at the end. */
+export function significant(value: number | null | undefined, digits: number): string {
+  if (value == null || !Number.isFinite(value)) return MISSING;
+  return String(Number(value.toPrecision(digits))).replace("-", "\u2212");
 }
 
 const UM_PER_MM = 1000;
@@ -34,7 +47,7 @@ export const expanded = (sd: number | null) => (sd === null ? null : K * sd);
 /** Value ± U, to two digits of U. */
 export function measured(value: number | null, u: number | null): string {
   if (value === null || !Number.isFinite(value)) return MISSING;
-  if (u === null || !(u > 0)) return String(Number(value.toPrecision(6))).replace("-", "\u2212");
+  if (u === null || !(u > 0)) return local(String(Number(value.toPrecision(6))).replace("-", "\u2212"));
   const digits = Math.min(Math.max(1 - Math.floor(Math.log10(u)), 0), 9);
   return `${fixed(value, digits)} ± ${fixed(u, digits)}`;
 }
@@ -60,7 +73,19 @@ export function timeOfDay(time: Date): string {
 export function dateTime(iso: string | null | undefined): string {
   if (!iso) return MISSING;
   const time = new Date(iso);
-  return `${time.getFullYear()}-${pad(time.getMonth() + 1)}-${pad(time.getDate())} ${timeOfDay(time)}`;
+  return `${dateOf(time)} ${timeOfDay(time)}`;
+}
+
+function dateOf(time: Date): string {
+  const [year, month, day] = [time.getFullYear(), pad(time.getMonth() + 1), pad(time.getDate())];
+  return language === "de" ? `${day}.${month}.${year}` : `${year}-${month}-${day}`;
+}
+
+/** How far this computer's clock is from UTC: all times of the page are those of its place. */
+export function zone(time: Date): string {
+  const minutes = -time.getTimezoneOffset();
+  const [hours, rest] = [Math.floor(Math.abs(minutes) / 60), Math.abs(minutes) % 60];
+  return `UTC${minutes < 0 ? "\u2212" : "+"}${pad(hours)}:${pad(rest)}`;
 }
 
 export function duration(seconds: number | null | undefined): string {

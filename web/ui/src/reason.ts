@@ -1,4 +1,5 @@
 /** Why a run ended as it did: the template of its code, filled with its parameters. */
+import { local } from "./format";
 import { t } from "./messages";
 import { capital, dependence, inSentence, labelName, readable, withNames } from "./names";
 import type { Summary } from "./types";
@@ -17,7 +18,8 @@ export function formatted(template: string, params: Params): string | null {
     if (value != null && digits === undefined) return String(value);
     if (typeof value === "number" && Number.isFinite(value)) {
       const plus = sign && value >= 0 ? sign : "";
-      return plus + (kind === "f" ? value.toFixed(Number(digits)) : general(value, Number(digits) || 1));
+      const text = kind === "f" ? value.toFixed(Number(digits)) : general(value, Number(digits) || 1);
+      return plus + local(text);
     }
     complete = false;
     return "";
@@ -49,12 +51,15 @@ const inWords = ([name, value]: [string, Value]): [string, Value] => {
 
 type Because = Pick<Summary, "reason"> & Partial<Pick<Summary, "reason_code" | "reason_params">>;
 
+/** The parameters of a reason, with display names in place of identifiers. */
+export const paramsInWords = (params: Because["reason_params"]): Params =>
+  Object.fromEntries(Object.entries(params ?? {}).map(inWords));
+
 /** In the page's language; runs of older versions, and reasons unknown to the page, have only the sentence. */
 export function reasonText({ reason, reason_code, reason_params }: Because): string | null {
   const templates: Record<string, string> = t.reasons;
   const template = reason_code && Object.hasOwn(templates, reason_code) ? templates[reason_code] : undefined;
-  const params = Object.fromEntries(Object.entries(reason_params ?? {}).map(inWords));
-  const text = template === undefined ? null : formatted(template, params);
+  const text = template === undefined ? null : formatted(template, paramsInWords(reason_params));
   if (text !== null) return capital(text);
   return reason === null ? null : readable(reason);
 }

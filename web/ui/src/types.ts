@@ -26,6 +26,9 @@ export type Quantity = Schemas["Quantity"];
 export type Residual = Schemas["Residual"];
 export type ResidualList = Schemas["ResidualList"];
 export type ResidualRow = Schemas["ResidualRow"];
+export type ErrorMap = Schemas["ErrorMap"];
+export type Target = Schemas["SolveBody"]["targets"][number];
+export type Solution = Schemas["Solution"];
 export type Separating = Schemas["Separating"];
 export type Robot = Schemas["Robot"];
 export type Stopped = Schemas["Stopped"];
@@ -74,3 +77,22 @@ export type Mistake = NonNullable<Diagnosis["mistake"]>;
 
 /** Of the position over the workspace, mm. */
 export type PositionError = Schemas["PositionError"];
+
+export type Role = NonNullable<SignedIn["role"]>;
+export type DeviceDetail = Schemas["DeviceDetail"];
+export type Found = Schemas["Found"];
+export type WireExchange = Schemas["WireExchange"];
+export type WireList = Schemas["WireList"];
+export type Delivery = Schemas["Delivery"];
+export type DeliveryList = Schemas["DeliveryList"];
+export type BackupMade = Schemas["BackupMade"];
+export type BackupDrill = Schemas["BackupDrill"];
+export type User = Schemas["User"];
+export type ApiKey = Schemas["ApiKey"];
+export type NewKey = Schemas["NewKey"];
+export type AuditEntry = Schemas["AuditEntry"];
+export type AuditList = Schemas["AuditList"];
+export type Versions = Schemas["Versions"];
+export type Training = Schemas["TrainingView"];
+export type Exercise = Schemas["Exercise"];
+export type Challenge = Schemas["Challenge"];

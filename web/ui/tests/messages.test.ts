@@ -1,6 +1,9 @@
 import { describe, expect, it } from "vitest";
 import openapi from "../../openapi.json";
 import { type Messages, t } from "../src/messages";
+import { de } from "../src/messages/de";
+import { preferred } from "../src/messages/language";
+import { zh } from "../src/messages/zh";
 import { parameter } from "../src/names";
 
 /** Of a template. */
@@ -13,7 +16,7 @@ function texts(node: unknown, path = ""): [string, string][] {
   return Object.entries(node as object).flatMap(([key, value]) => texts(value, `${path}.${key}`));
 }
 
-const LISTS = new Set<unknown>([t.listed, t.both]);
+const LISTS = new Set<unknown>([t, de, zh].flatMap(({ listed, both }) => [listed, both]));
 const sample = (message: { length: number }) =>
   LISTS.has(message) ? [["7"]] : Array.from({ length: message.length }, () => "7");
 
@@ -52,6 +55,32 @@ const { title: _, ...incomplete } = t;
 void (incomplete satisfies Messages);
 // @ts-expect-error a text is where a function has to be
 void ({ ...t, listed: "" } satisfies Messages);
+
+describe.each([
+  ["de", de],
+  ["zh", zh],
+])("the texts in %s", (_, other: Messages) => {
+  const theirs = new Map(texts(other));
+
+  it("are as many, and never empty where the English one is not", () => {
+    expect([...theirs.keys()].sort()).toEqual(all.map(([path]) => path).sort());
+    expect(all.filter(([path, text]) => text.trim() && !theirs.get(path)!.trim())).toEqual([]);
+  });
+
+  it("show as many values as the English ones", () => {
+    const values = (text: string) => text.split("7").length;
+    expect(all.filter(([path, text]) => values(text) !== values(theirs.get(path)!))).toEqual([]);
+  });
+});
+
+describe("the language", () => {
+  it("is the one chosen here, else the browser's, else English", () => {
+    expect(preferred("zh", ["de-AT"])).toBe("zh");
+    expect(preferred(null, ["fr", "de-AT", "en"])).toBe("de");
+    expect(preferred("xx", ["fr"])).toBe("en");
+    expect(preferred(null, [])).toBe("en");
+  });
+});
 
 describe("the catalogue of effects", () => {
   const sources = import.meta.glob<string>("../../../station/**/effects/*.py", {

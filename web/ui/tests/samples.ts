@@ -187,6 +187,7 @@ export const calibration = (given: Partial<Calibration> = {}): Calibration => ({
   parameters: [],
   weak_direction: null,
   application: null,
+  made_by: null,
   memory: null,
   lack_of_fit: null,
   accuracy: null,

@@ -16,6 +16,7 @@ import type {
   State,
   Verdict,
 } from "../types";
+import { maintenance, training } from "./en-maintenance";
 
 /** How a thing is called, and what it is in one sentence. */
 interface Entry {
@@ -165,6 +166,7 @@ export const en = {
     station: "Station",
     result: "Result",
     history: "History",
+    maintenance: "Maintenance",
     offline: "▲ OFFLINE",
     stale: "values may be old",
     connected: "connected",
@@ -173,6 +175,7 @@ export const en = {
     notReady: "◆ NOT READY",
     ready: "READY",
     device: (name: string, state: string) => `▲ ${name}: ${state}`,
+    language: "Language",
     emulated: (name: string) => `${name} (emulated)`,
   },
 
@@ -267,7 +270,8 @@ export const en = {
     method: "Method",
     diagnosis: "Diagnosis",
     robotHistory: "History of this robot",
-    noOffsets: "No zero offsets were identified in this run.",
+    certificate: (form: string) => `Certificate (${form})`,
+    run: "Run, plan, operator and times",
     pending: "The result follows the last reading.",
 
     offsets: "Zero offsets, in °",
@@ -281,6 +285,116 @@ export const en = {
 
     weakDirection: "Weakest direction",
     remedy: (text: string) => `Recommended: ${text}`,
+
+    notValid: "not valid",
+    notValidNote: "This run was not accepted. Its numbers are shown for the search for the cause only.",
+
+    decision: {
+      limited: (bound: string, limit: string) =>
+        `position error at most ${bound} mm (95 %), limit ${limit} mm`,
+      unlimited: (bound: string) => `position error at most ${bound} mm (95 %), no limit was given`,
+      sized: (effect: string, size: string) => `${effect}, ${size}`,
+      notIdentified: "no robot within its tolerances gives these readings",
+      undecided: (cause: string, percent: string, others: string) => `${cause} (${percent} %) or ${others}`,
+    },
+    wantedNone:
+      "No accuracy was wanted: neither the request nor the robot file gives one, and the fit alone decides.",
+    wantedIs: (mm: string) =>
+      `Wanted accuracy: ${mm} mm. The 95 % bound of the position error is compared with it, not the estimate.`,
+
+    nextStep: "Next step",
+    consequences: {
+      apply: ", and its drives receive new zeros.",
+      roll_back: ", and its drives receive their old zeros.",
+      start: " over its whole workspace.",
+      separate: " over its workspace.",
+    },
+    /** By what the step is for. */
+    next: {
+      watch: { button: "Show the run", text: "The run is in progress." },
+      answer: { button: "Answer the question", text: "The run waits for an answer at the station." },
+      apply: {
+        button: "Apply to drives",
+        text: "Write the zero offsets to the drives. Fresh readings then verify them.",
+      },
+      roll_back: {
+        button: "Roll back",
+        text: "The state of the drives is not as intended. Restore the old zero offsets.",
+      },
+      not_applicable: { text: "The zero offsets cannot be applied." },
+      applied: { text: "Nothing to do. The drives hold these zero offsets." },
+      produce: { text: "Nothing to do. The robot may be used as it is." },
+      applied_there: { button: "Show the calibration", text: "The drives hold the new zero offsets." },
+      back: { button: "Show the calibration", text: "This run belongs to an earlier one. Continue there." },
+      again: { button: "Measure again", text: "Remove the cause, then measure again." },
+      again_there: {
+        button: "Go to the station",
+        text: "Remove the cause, then start again at the station.",
+      },
+      inside: { button: "Go to the station", text: "Calibrate the robot." },
+      look: { text: "Read the reason above." },
+      recalibrate: {
+        button: "Calibrate again",
+        text: "The drives do not hold these zero offsets. Calibrate again.",
+      },
+      shifted: { button: "Calibrate again", text: "The zeros have shifted since the last calibration." },
+      calibrate: {
+        button: "Calibrate",
+        text: "A diagnosis writes nothing to the drives. Calibrate to have zero offsets that can be applied.",
+      },
+      find_cause: {
+        button: "Find the cause",
+        text: "An effect is missing from the model. 120 readings show what the residual depends on; 40 fresh readings check the cause found.",
+      },
+      decide: {
+        button: "Start the deciding experiment",
+        text: "Further readings distinguish the possible causes.",
+      },
+      decide_by_hand: {
+        button: "Show the experiments",
+        text: "An experiment by hand distinguishes the possible causes.",
+      },
+      repaired: {
+        button: "Repaired: measure again",
+        text: "Repair the cause. Then measure again: the run shows whether it is removed.",
+      },
+      raise: { button: "Raise the accuracy", text: "This raises the accuracy most for the time it takes." },
+      raise_by_hand: {
+        button: "Go to the station",
+        text: "This raises the accuracy most for the time it takes. Enter the value as a reference when you start.",
+      },
+      no_advice: {
+        text: "No further measurement raises the accuracy noticeably. A wider limit or a better scale is necessary.",
+      },
+      see: { button: "Show the diagnosis", text: "The diagnosis shows what the residual depends on." },
+    },
+    advised: (text: string, gain: string, minutes: string) =>
+      `${text} The bound falls by ${gain} mm; it takes about ${minutes} min.`,
+    advice: "What would raise the accuracy",
+    gain: "Gain, mm",
+    minutes: "Time, min",
+
+    map: {
+      title: "Position error over the workspace",
+      before: "Before: expected error",
+      after: "After: error at most (95 %)",
+      how: "Tap a position, or use the arrow keys, to read its values",
+      unit: "mm",
+      scale: (low: string, high: string) => `Colour scale from ${low} mm (dark) to ${high} mm (light)`,
+      limitMark: (mm: string) => `limit ${mm}`,
+      value: (x: string, y: string, before: string, bound: string, expected: string) =>
+        `x ${x} mm, y ${y} mm: before ${before} mm; after at most ${bound} mm (95 %), expected ${expected} mm.`,
+      closed: (x: string, y: string) => `x ${x} mm, y ${y} mm: outside the limits of the joints.`,
+      noLimit: "No limit was given.",
+      limit: {
+        everywhere: (mm: string) => `After: the limit of ${mm} mm is kept everywhere.`,
+        partly: (mm: string) => `After: the line is the limit of ${mm} mm; beyond it the limit is not kept.`,
+        nowhere: (mm: string) => `After: the limit of ${mm} mm is kept nowhere.`,
+      },
+      fresh: (count: number, rms: string, largest: string) =>
+        `Dots: ${count} fresh readings, residual ${rms} µm RMS, largest ${largest} µm.`,
+      noFresh: "No fresh readings: each reading was predicted before it was used.",
+    },
 
     passes: "Passes, in °",
     pass: "Pass",
@@ -301,10 +415,7 @@ export const en = {
     step: (title: string, step: string) => `▶ ${title}: ${step}`,
     verified: "Verified.",
     notVerified: "Not verified.",
-    apply: "Apply to drives",
-    applyWarning: ", and its drives receive new zeros.",
     rollBack: "Roll back",
-    rollBackWarning: ", and its drives receive their old zeros.",
     identified: "Identified, °",
     shift: "Shift of the drive, °",
     remaining: "Remaining, °",
@@ -332,7 +443,6 @@ export const en = {
     forgetEmphasis: "without stored parameters",
     forgetAs: ". This is necessary after the mechanism was remounted.",
 
-    cause: "Cause",
     checkModel: "Check the model for missing effects",
     misfit: "◆ The model does not fit these readings",
     misfitOffsets:
@@ -418,6 +528,33 @@ export const en = {
     residual: "Residual",
     residualTitle: "Residual of each reading",
     orderBy: "Order the residual by",
+    how: "Tap a reading, or move through the readings with the arrow keys",
+    zoom: "Zoom",
+    zoomIn: "Zoom in",
+    zoomOut: "Zoom out",
+    zoomAll: "Show all",
+    savePicture: (title: string) => `Save “${title}” as picture`,
+    pictureName: (id: number, by: string, title: string) => `run-${id}-${by}-${title.toLowerCase()}.svg`,
+    readingAt: (reading: string, position: string) => `Reading ${reading} at position ${position}`,
+    valueBefore: (um: string) => `before ${um} µm`,
+    valueOf: (name: string, um: string) => `${name} ${um} µm`,
+    valueAfter: (um: string, limit: string) => `after ${um} µm (limit ${limit} µm)`,
+
+    use: "Use the result",
+    takeModel: "Save the model (JSON)",
+    takeModelNote:
+      "The command line computes with it away from the station: station solve --model FILE TARGETS.csv.",
+    modelName: (id: number) => `model-of-run-${id}.json`,
+    targets:
+      "Targets, one per line: x and y in mm; then, if the model needs it, the approach of joints 1 and 2 (-1 from above, 1 from below)",
+    noTarget: "Give at least one target.",
+    wrongTarget: (line: number) =>
+      `Line ${line} is no target: give x and y in mm, and -1, 0 or 1 for both approaches or for neither.`,
+    compute: "Compute joint commands",
+    command: (joint: number) => `Joint ${joint}, °`,
+    refuted: "◆ Fresh readings contradict this model.",
+    saveCommands: "Save the commands (CSV)",
+    commandsName: (id: number) => `commands-of-run-${id}.csv`,
     before: "Before",
     after: "After",
     beforeName: "measured value minus base model",
@@ -464,6 +601,9 @@ export const en = {
     quantity: "Quantity",
     remark: "Remark",
   },
+
+  maintenance,
+  training,
 
   history: {
     title: "History",

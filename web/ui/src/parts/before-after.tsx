@@ -3,7 +3,7 @@ import { fixed, micrometres } from "../format";
 import { t } from "../messages";
 import type { Calibration, PositionError } from "../types";
 
-export function BeforeAfter({ result, wide }: { result: Calibration; wide?: boolean }) {
+export function BeforeAfter({ result }: { result: Calibration }) {
   const { before, after, method } = result;
   const diagnosed = method === "diagnosis";
   const words = t.accuracy;
@@ -24,8 +24,8 @@ export function BeforeAfter({ result, wide }: { result: Calibration; wide?: bool
     { text: words.bound, shown: mm, before: was?.bound_95, after: is?.bound_95 },
   ];
   return (
-    <section class={wide ? "panel wide" : "panel"} aria-label={words.title}>
-      <h2>{words.title}</h2>
+    <section class="before-after" aria-label={words.title}>
+      <h3>{words.title}</h3>
       <table>
         <thead>
           <tr>

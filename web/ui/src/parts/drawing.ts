@@ -29,14 +29,58 @@ export const yAxis = {
 
 export const grid = { left: 76, right: 24, top: 34, bottom: 48 };
 
-/** Draws into `place` and follows its size; returns how to take it away. */
-export function mount(place: HTMLElement, option: EChartsCoreOption): () => void {
+/** A chart in its place. */
+export interface Chart {
+  /** Shows something else in the same place. */
+  set: (option: EChartsCoreOption) => void;
+  /** The chart as the text of an SVG file. */
+  picture: () => string;
+  remove: () => void;
+}
+
+/** Where a value pair stands in the chart, in pixels. */
+export type ToPixel = (value: [number, number]) => [number, number];
+
+/**
+ * Draws into `place` and follows its size.
+ *
+ * @param tapped where somebody tapped, in pixels
+ */
+export function put(
+  place: HTMLElement,
+  option: EChartsCoreOption,
+  tapped: (at: [number, number], toPixel: ToPixel) => void = () => {},
+): Chart {
   const chart: ECharts = init(place, null, { renderer: "svg" });
-  chart.setOption({ animation: false, grid, ...option });
-  const sized = new ResizeObserver(() => chart.resize());
-  sized.observe(place);
-  return () => {
-    sized.disconnect();
-    chart.dispose();
+  const fit = () => {
+    chart.resize();
+    // so that paper and narrow windows can scale what was drawn for another width
+    place.querySelector("svg")?.setAttribute("viewBox", `0 0 ${chart.getWidth()} ${chart.getHeight()}`);
   };
+  const set = (next: EChartsCoreOption) =>
+    chart.setOption({ animation: false, grid, ...next }, { notMerge: true });
+  set(option);
+  chart
+    .getZr()
+    .on("click", ({ offsetX, offsetY }) =>
+      tapped(
+        [offsetX, offsetY],
+        (value) => chart.convertToPixel({ gridIndex: 0 }, value) as [number, number],
+      ),
+    );
+  const sized = new ResizeObserver(fit);
+  sized.observe(place);
+  return {
+    set,
+    picture: () => chart.renderToSVGString({ useViewBox: true }),
+    remove: () => {
+      sized.disconnect();
+      chart.dispose();
+    },
+  };
+}
+
+/** The same where nothing else is shown later; returns how to take it away. */
+export function mount(place: HTMLElement, option: EChartsCoreOption): () => void {
+  return put(place, option).remove;
 }

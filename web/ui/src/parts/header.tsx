@@ -1,7 +1,8 @@
-import { timeOfDay } from "../format";
+import { timeOfDay, zone } from "../format";
 import { clock, connected, offline, station } from "../live";
 import { t } from "../messages";
 import { path } from "../router";
+import { LanguageChoice } from "./language-choice";
 import { Link } from "./link";
 import { ScanNotice } from "./scan-notice";
 import { StopButton, StopReport } from "./stop";
@@ -11,6 +12,7 @@ const VIEWS = [
   { to: "/", text: t.header.station, views: ["/"] },
   { to: "/result", text: t.header.result, views: ["/result", "/diagnosis"] },
   { to: "/history", text: t.header.history, views: ["/history"] },
+  { to: "/maintenance", text: t.header.maintenance, views: ["/maintenance"] },
 ];
 
 export function Header() {
@@ -27,7 +29,10 @@ export function Header() {
         <StationStatus />
         <StopButton />
       </div>
-      <Who />
+      <div class="under">
+        <Who />
+        <LanguageChoice />
+      </div>
       <StopReport />
       <ScanNotice />
     </header>
@@ -47,7 +52,9 @@ function StationStatus() {
       </div>
       <div class="where">
         <span class="name">{info?.emulated ? t.header.emulated(info.name) : (info?.name ?? t.title)}</span>
-        <time>{timeOfDay(clock.value)}</time>
+        <time>
+          {timeOfDay(clock.value)} <small>{zone(clock.value)}</small>
+        </time>
       </div>
     </div>
   );

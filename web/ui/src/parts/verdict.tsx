@@ -32,11 +32,13 @@ const OUTCOMES: Record<Outcome, Look> = {
 
 type Ended = Pick<Summary, "state" | "verdict"> & Partial<Pick<Summary, "outcome">>;
 
-interface Worded extends Look {
+export interface Worded extends Look {
   word: string;
   text: string;
   /** Beside an outcome; empty where the word is the verdict already. */
   verdict: string;
+  /** Whether the robot may be used as it is. */
+  good: boolean;
 }
 
 /** The outcome where the run has come to one, else its verdict, else its state; never better than any of them. */
@@ -46,17 +48,23 @@ export function outcomeOf({ state, verdict, outcome }: Ended): Worded {
     return worded(t.outcomes[outcome], OUTCOMES[outcome], verdict === "fail" ? verdict : null);
   }
   if (verdict === "pass" && outcome === "good") return worded(t.outcomes.good, OUTCOMES.good, verdict);
-  if (verdict === "pass") return worded(t.verdicts.pass, OUTCOMES.good);
+  // of an attempt to write zeros there is a verdict only; of a run, a pass alone leaves open what to repair
+  if (verdict === "pass" && outcome === undefined) return worded(t.verdicts.pass, OUTCOMES.good);
   if (verdict === "fail") return worded(t.verdicts.fail, STATES.failed);
   return worded({ name: t.shared.noVerdict, text: t.states.succeeded.text }, STATES.succeeded);
 }
 
 const upper = (name: string) => name.toUpperCase();
-const worded = (entry: { name: string; text: string }, look: Look, beside: Verdict | null = null) => ({
+const worded = (
+  entry: { name: string; text: string },
+  look: Look,
+  beside: Verdict | null = null,
+): Worded => ({
   ...look,
   word: upper(entry.name),
   text: entry.text,
   verdict: beside ? upper(t.verdicts[beside].name) : "",
+  good: entry === t.outcomes.good,
 });
 
 export function Badge({ run }: { run: Ended }) {

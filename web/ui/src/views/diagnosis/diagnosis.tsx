@@ -4,10 +4,14 @@ import { micrometres } from "../../format";
 import { t } from "../../messages";
 import { readable } from "../../names";
 import { BeforeAfter } from "../../parts/before-after";
+import { Fold } from "../../parts/fold";
 import { Link } from "../../parts/link";
 import { useLoaded } from "../../parts/load";
-import { VerdictLine } from "../../parts/verdict";
+import { reasonText } from "../../reason";
 import type { Calibration, Diagnosis } from "../../types";
+import { decisionOf } from "../result/decision";
+import { DecisionLine } from "../result/decision-line";
+import { NextStep } from "../result/next-step";
 import { Causes, Hints, isTried } from "./causes";
 import { Experiments } from "./experiments";
 import { Explanations } from "./explanations";
@@ -16,6 +20,7 @@ import { MistakeInData } from "./mistake";
 import { ResidualOrderings } from "./residual-orderings";
 import { SeparatingOffer } from "./separating";
 import { Stages } from "./stages";
+import { UseResult } from "./use-result";
 
 export function DiagnosisView({ id }: { id: number }) {
   const ask = () => Promise.all([calibration(id), diagnosis(id), residuals(id)]);
@@ -32,16 +37,22 @@ export function DiagnosisView({ id }: { id: number }) {
   return (
     <div class="result">
       <DiagnosisSummary run={run} found={found} readings={left.items.length} />
+      <NextStep result={run} experiments={found.experiments} />
       <MistakeInData found={found} />
+      <ResidualOrderings id={id} found={found} residuals={left} />
       <Explanations found={found} />
       <Causes found={found} />
       <Experiments found={found} />
       <SeparatingOffer id={id} serial={run.robot_serial} found={found} />
       <Hints found={found} />
-      <ResidualOrderings id={id} residuals={left} />
-      <Stages found={found} />
-      <BeforeAfter result={run} wide />
-      <Invisible found={found} />
+      <UseResult id={id} />
+      <Fold name="models" title={t.diagnosis.errorsTitle}>
+        <Stages found={found} />
+        <BeforeAfter result={run} />
+      </Fold>
+      <Fold name="invisible" title={t.diagnosis.notFoundTitle}>
+        <Invisible found={found} />
+      </Fold>
     </div>
   );
 }
@@ -50,10 +61,13 @@ export function DiagnosisSummary(props: { run: Calibration; found: Diagnosis; re
   const { run, found, readings } = props;
   const { sigma_mm, source, dof } = found.noise;
   const sigma = micrometres(sigma_mm, 2);
+  const reason = reasonText(run);
+  const said = decisionOf(run).sentence.toLowerCase();
   return (
     <section class="panel summary">
       <h1>{t.diagnosis.heading(run.id)}</h1>
-      <VerdictLine run={run} />
+      <DecisionLine result={run} />
+      {reason && !reason.toLowerCase().endsWith(said) && <p>{reason}</p>}
       {run.reason === null && <p>{readable(found.sentence)}</p>}
       <p class="note">
         {t.verdicts[isTried(found) ? "unexplained" : found.verdict].text}{" "}

@@ -1,13 +1,12 @@
 /** What the readings could not have shown: the detection limit of every effect that was not found. */
-import { MISSING } from "../../format";
+import { MISSING, significant } from "../../format";
 import { t } from "../../messages";
 import { labelName, readable, shown } from "../../names";
 import type { Diagnosis } from "../../types";
 
 export function Invisible({ found: { invisible } }: { found: Diagnosis }) {
   return (
-    <section class="panel wide" aria-label={t.diagnosis.notFound}>
-      <h2>{t.diagnosis.notFoundTitle}</h2>
+    <section aria-label={t.diagnosis.notFound}>
       <p class="note">{t.diagnosis.notFoundNote}</p>
       <table>
         <thead>
@@ -48,5 +47,5 @@ export function Invisible({ found: { invisible } }: { found: Diagnosis }) {
 function detectionLimit({ parameter, minimum_detectable, unit }: Diagnosis["invisible"][number]) {
   if (parameter === null || minimum_detectable === null || unit === null) return { name: "", limit: MISSING };
   const size = shown({ name: parameter, value: minimum_detectable, sd: null, unit });
-  return { name: size.name, limit: `${Number(size.value?.toPrecision(2))} ${size.unit}` };
+  return { name: size.name, limit: `${significant(size.value, 2)} ${size.unit}` };
 }

@@ -1,6 +1,7 @@
 /** By what the residual of a diagnosis can be ordered; the choice lives in the address as `by`. */
 import { t } from "../../messages";
 import type { ResidualRow } from "../../types";
+import { levels, type Point, signature } from "./signature";
 
 export interface Series {
   name: string;
@@ -24,17 +25,26 @@ export interface Ordering {
   axis: string;
   /** Null where it was not recorded; `index` is that of the row. */
   along: (row: ResidualRow, index: number) => number | null;
-  /** In words, where the axis has few values; they are shown side by side. */
+  /** Where the axis has few values: each in words, and which of them a reading has; they stand side by side. */
   words?: Record<number, string>;
+  side?: (row: ResidualRow) => number;
 }
 
 const words = t.diagnosis.orderings;
 const SIDES = { [-1]: t.diagnosis.fromAbove, 0: t.diagnosis.unknownSide, 1: t.diagnosis.fromBelow };
 /** How far points of one side are spread, so that they do not cover each other. */
-const SPREAD = 0.6;
+export const SPREAD = 0.6;
 const spread = (side: number, index: number) => side + SPREAD * (((index * 0.618) % 1) - 0.5);
 
 export const POSITION = "position";
+
+const sides = (id: "approach1" | "approach2", side: (row: ResidualRow) => number): Ordering => ({
+  id,
+  ...words[id],
+  along: (row, index) => spread(side(row), index),
+  words: SIDES,
+  side,
+});
 
 export const ORDERINGS: Ordering[] = [
   { id: "time", ...words.time, along: (row) => row.t_s },
@@ -42,8 +52,8 @@ export const ORDERINGS: Ordering[] = [
   { id: POSITION, ...words.position, along: (row) => row.x_mm },
   { id: "joint1", ...words.joint1, along: (row) => row.theta1_deg },
   { id: "joint2", ...words.joint2, along: (row) => row.theta2_deg },
-  { id: "approach1", ...words.approach1, along: (row, index) => spread(row.approach1, index), words: SIDES },
-  { id: "approach2", ...words.approach2, along: (row, index) => spread(row.approach2, index), words: SIDES },
+  sides("approach1", (row) => row.approach1),
+  sides("approach2", (row) => row.approach2),
   { id: "travel", ...words.travel, along: (row) => row.travel_mm },
   { id: "temperature", ...words.temperature, along: (row) => row.temperature_rise_k },
 ];
@@ -63,6 +73,26 @@ export function meansOfPositions(rows: ResidualRow[], of: (row: ResidualRow) => 
     positions.set(row.position, known);
   }
   return [...positions.values()].map(({ x, y, sum, count }) => ({ x, y, mean: sum / count }));
+}
+
+/** Where each reading stands along an ordering, from the smallest to the largest; readings without are left out. */
+export function inOrder(rows: ResidualRow[], { along }: Ordering): { index: number; at: number }[] {
+  return rows
+    .map((row, index) => ({ index, at: along(row, index) }))
+    .filter((one): one is { index: number; at: number } => one.at !== null)
+    .sort((a, b) => a.at - b.at);
+}
+
+/** What an effect contributes, as a line along an ordering; null where it depends on more than that. */
+export function contributionLine(rows: ResidualRow[], ordering: Ordering, { of }: Series): Point[] | null {
+  const sizes = rows.map(of);
+  const { side } = ordering;
+  return side
+    ? levels(rows.map(side), sizes, SPREAD / 2)
+    : signature(
+        rows.map((row, index) => ordering.along(row, index)),
+        sizes,
+      );
 }
 
 /** Limits differ a little from position to position; the line is drawn at the middle one. */

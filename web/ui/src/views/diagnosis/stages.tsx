@@ -7,8 +7,7 @@ import type { Diagnosis } from "../../types";
 export function Stages({ found: { stages } }: { found: Diagnosis }) {
   const um = (mm: number | null) => micrometres(mm, 2);
   return (
-    <section class="panel wide" aria-label={t.diagnosis.errors}>
-      <h2>{t.diagnosis.errorsTitle}</h2>
+    <section aria-label={t.diagnosis.errors}>
       <table>
         <thead>
           <tr>

@@ -1,13 +1,13 @@
 import { fixed } from "../../format";
 import { t } from "../../messages";
+import { readable } from "../../names";
 import type { Calibration } from "../../types";
 
 /** What the run promises of positions, beside what was wanted; of a check, how small a shift it finds. */
-export function Accuracy({ result: { accuracy, check } }: { result: Calibration }) {
+export function Accuracy({ result: { accuracy, check, advice } }: { result: Calibration }) {
   if (!accuracy && !check) return null;
   return (
-    <section class="panel accuracy">
-      <h2>{t.result.promised}</h2>
+    <>
       {accuracy && (
         <>
           <p>{t.result.bound(fixed(accuracy.bound_95_mm, 3), fixed(accuracy.bound_95_model_mm, 3))}</p>
@@ -18,6 +18,7 @@ export function Accuracy({ result: { accuracy, check } }: { result: Calibration 
             </p>
           )}
           <p class="note">{t.result.stopped(accuracy.stopped_because ?? "")}</p>
+          <AdviceTable advice={advice} />
         </>
       )}
       {check && (
@@ -29,6 +30,35 @@ export function Accuracy({ result: { accuracy, check } }: { result: Calibration 
           )}
         </p>
       )}
-    </section>
+    </>
+  );
+}
+
+/** What would raise the accuracy: by how much, and how long it takes. */
+function AdviceTable({ advice }: { advice: Calibration["advice"] }) {
+  if (advice.length === 0) return null;
+  return (
+    <table>
+      <thead>
+        <tr>
+          <th scope="col" class="text">
+            {t.result.advice}
+          </th>
+          <th scope="col">{t.result.gain}</th>
+          <th scope="col">{t.result.minutes}</th>
+        </tr>
+      </thead>
+      <tbody>
+        {advice.map(({ kind, text, gain_mm, minutes }) => (
+          <tr key={`${kind} ${text}`}>
+            <th scope="row" class="text">
+              {readable(text)}
+            </th>
+            <td>{fixed(gain_mm, 3)}</td>
+            <td>{fixed(minutes, 1)}</td>
+          </tr>
+        ))}
+      </tbody>
+    </table>
   );
 }

@@ -1,5 +1,5 @@
-/** What the drives hold of a run's zero offsets: write them, take them back. */
-import { apply, newKey, rollBack } from "../../api";
+/** What the drives hold of a run's zero offsets, joint by joint, every attempt, and the way back. */
+import { rollBack } from "../../api";
 import { signed } from "../../format";
 import { connected, station } from "../../live";
 import { t } from "../../messages";
@@ -11,63 +11,34 @@ import { MotionWarning } from "../../parts/motion-warning";
 import { OperatorField } from "../../parts/operator-field";
 import { Badge } from "../../parts/verdict";
 import { reasonText } from "../../reason";
-import type { ApplicationState, Calibration, Run } from "../../types";
+import type { Calibration } from "../../types";
 
 type Drives = NonNullable<Calibration["application"]>;
 
-const ALARMS = new Set<ApplicationState>(["partly", "in doubt"]);
-
 export function Application({ result: { id, application, robot_serial } }: { result: Calibration }) {
   if (!application) return null;
-  const run = station.value?.run;
-  const writing = run?.of === id ? run : null;
-  const idle = connected.value && !run && operator.value.trim() !== "";
-  const alarm = !writing && ALARMS.has(application.state);
-  const act = async (send: () => Promise<unknown>) => {
+  const idle = connected.value && !station.value?.run && operator.value.trim() !== "";
+  const back = async () => {
     keepOperator();
-    await send();
+    await rollBack(id, operator.value.trim());
   };
   return (
-    <section class="panel wide application" aria-label={t.result.drives}>
-      <h2>{t.result.drives}</h2>
-      <p role="status" class={alarm ? "now alarm act" : "now"}>
-        {writing ? progress(writing) : statement(application)}
-      </p>
+    <>
+      <JointTable joints={application.joints} />
+      <Attempts runs={application.runs} />
       <div class="writes">
         <OperatorField id="apply-operator" />
         <ConfirmedButton
-          label={t.result.apply}
-          disabled={!idle || application.apply_refused !== null}
-          act={() => act(() => apply(id, operator.value.trim(), newKey()))}
-        >
-          <MotionWarning serial={robot_serial} then={t.result.applyWarning} />
-        </ConfirmedButton>
-        <ConfirmedButton
           label={t.result.rollBack}
           disabled={!idle || application.rollback_refused !== null}
-          act={() => act(() => rollBack(id, operator.value.trim()))}
+          act={back}
         >
-          <MotionWarning serial={robot_serial} then={t.result.rollBackWarning} />
+          <MotionWarning serial={robot_serial} then={t.result.consequences.roll_back} />
         </ConfirmedButton>
       </div>
-      <JointTable joints={application.joints} />
-      <Attempts runs={application.runs} />
-      {application.apply_refused && application.rollback_refused && (
-        <p class="note">{application.apply_refused}</p>
-      )}
-    </section>
+      {application.rollback_refused && <p class="note">{application.rollback_refused}</p>}
+    </>
   );
-}
-
-function progress({ walk, step, steps }: Run): string {
-  return t.result.step(walk?.title ?? t.shared.waiting, t.shared.stepOf(step ?? 0, steps || "?"));
-}
-
-/** What the drives hold, and whether fresh readings agreed. */
-export function statement({ state, text, verified }: Pick<Drives, "state" | "text" | "verified">): string {
-  const shape = ALARMS.has(state) ? "▲" : verified ? "✓" : "○";
-  const checked = state === "applied" ? [verified ? t.result.verified : t.result.notVerified] : [];
-  return [shape, text, ...checked].join(" ");
 }
 
 function JointTable({ joints }: { joints: Drives["joints"] }) {

@@ -13,6 +13,8 @@ import type { Calibration } from "../../types";
 
 export function FindCause({ result }: { result: Calibration }) {
   const { robot_serial, work_order, lack_of_fit } = result;
+  // that sentence is of the solver; what it means is said below
+  const inside = result.reason_code === "not_identified";
   const lack = lack_of_fit && readable(lack_of_fit);
   const idle = connected.value && !station.value?.run && operator.value.trim() !== "";
   const find = async () => {
@@ -23,30 +25,23 @@ export function FindCause({ result }: { result: Calibration }) {
     navigate(`/result/${run.id}`);
   };
   return (
-    <section class="panel wide find-cause" aria-label={t.result.cause}>
-      {lack_of_fit === null ? (
-        <h2>{t.result.checkModel}</h2>
-      ) : (
+    <div class="find-cause">
+      {lack_of_fit !== null && (
         <>
-          <h2>
+          <p>
             <strong class="alarm warn">{t.result.misfit}</strong>
-          </h2>
-          {lack !== reasonText(result) && <p>{lack}</p>}
+          </p>
+          {!inside && lack !== reasonText(result) && <p>{lack}</p>}
           <p>{result.zero_offsets.length ? t.result.misfitOffsets : t.result.misfitNone}</p>
         </>
       )}
       <p>{t.result.findCauseNote}</p>
       <div class="writes">
         <OperatorField id="cause-operator" />
-        <ConfirmedButton
-          label={t.result.findCause}
-          prominent={lack_of_fit !== null}
-          disabled={!idle}
-          act={find}
-        >
+        <ConfirmedButton label={t.result.findCause} disabled={!idle} act={find}>
           <MotionWarning serial={robot_serial} then={t.result.wholeWorkspace} />
         </ConfirmedButton>
       </div>
-    </section>
+    </div>
   );
 }

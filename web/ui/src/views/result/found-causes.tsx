@@ -1,21 +1,19 @@
-import { diagnosis } from "../../api";
 import { t } from "../../messages";
-import { useLoaded } from "../../parts/load";
+import type { Diagnosis } from "../../types";
 import { Causes, Hints } from "../diagnosis/causes";
 import { Experiments } from "../diagnosis/experiments";
 import { MistakeInData } from "../diagnosis/mistake";
 import { SeparatingOffer } from "../diagnosis/separating";
 
 /** What a diagnosis found, in short; its own page has the charts. */
-export function FoundCauses({ id, serial }: { id: number; serial: string }) {
-  const { value: found, trouble } = useLoaded(`${id}`, () => diagnosis(id)).value;
-  if (!found) {
-    return (
-      <section class="panel wide">
-        <p role="status">{trouble ?? t.shared.loading}</p>
-      </section>
-    );
-  }
+export function FoundCauses(props: {
+  id: number;
+  serial: string;
+  found: Diagnosis | null;
+  trouble: string | null;
+}) {
+  const { id, serial, found, trouble } = props;
+  if (!found) return <p role="status">{trouble ?? t.shared.loading}</p>;
   return (
     <>
       <MistakeInData found={found} />

@@ -6,8 +6,8 @@ import type { Calibration } from "../../types";
 export function Iterations({ result: { iterations } }: { result: Calibration }) {
   if (!iterations.length) return null;
   return (
-    <section class="panel">
-      <h2>{t.result.passes}</h2>
+    <>
+      <h3>{t.result.passes}</h3>
       <table>
         <thead>
           <tr>
@@ -32,6 +32,6 @@ export function Iterations({ result: { iterations } }: { result: Calibration }) 
           ))}
         </tbody>
       </table>
-    </section>
+    </>
   );
 }

@@ -22,8 +22,7 @@ export function Memory({ result: { memory, robot_serial } }: { result: Calibrati
     forgotten.value += 1;
   };
   return (
-    <section class="panel memory">
-      <h2>{t.result.memory(robot_serial)}</h2>
+    <div class="memory">
       <p class="used">{memory ? <Used memory={memory} /> : t.result.memoryNone}</p>
       <p>
         {next ? t.result.memoryNext(next.from_calibration, fixed(next.age_days, 1)) : t.result.memoryNextNone}
@@ -33,7 +32,7 @@ export function Memory({ result: { memory, robot_serial } }: { result: Calibrati
         <strong>{t.result.forgetEmphasis}</strong>
         {t.result.forgetAs}
       </ConfirmedButton>
-    </section>
+    </div>
   );
 }
 

@@ -10,8 +10,7 @@ export function ResidualChart({ id, residuals }: { id: number; residuals: Residu
   const largest = Math.max(...residuals.map(({ residual_mm }) => Math.abs(residual_mm ?? 0)));
   const over = residuals.filter(isOver).length;
   return (
-    <section class="panel wide">
-      <h2>{t.result.residuals}</h2>
+    <>
       <p class="note">{t.result.residualsNote(residuals.length, micrometres(largest, 1), over)}</p>
       <Drawn
         label={t.result.residualsChart}
@@ -24,6 +23,6 @@ export function ResidualChart({ id, residuals }: { id: number; residuals: Residu
           )
         }
       />
-    </section>
+    </>
   );
 }

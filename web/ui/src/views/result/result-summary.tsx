@@ -1,21 +1,38 @@
-/** The head of a result: verdict, facts of the run, and where to go from here. */
+/** The head of a result: the decision in large, the limit that counted, what the drives hold. */
 import { dateTime, duration, MISSING } from "../../format";
 import { t } from "../../messages";
 import { methodName, planOf, runKind } from "../../names";
 import { Link } from "../../parts/link";
-import { outcomeOf, VerdictLine } from "../../parts/verdict";
 import type { Calibration } from "../../types";
+import { decisionOf } from "./decision";
+import { DecisionLine, WantedLine } from "./decision-line";
+import { DriveState } from "./drive-state";
 
 export function ResultSummary({ result }: { result: Calibration }) {
-  const { id, of, method } = result;
+  const { id, of, robot_serial } = result;
   const kind = runKind(result.kind);
-  const plan = planOf(result.plan);
   return (
     <section class="panel summary">
-      <h1>{of === null ? t.result.heading(id) : t.result.headingOf(id, kind.name, of)}</h1>
-      <VerdictLine run={result} />
+      <div class="heading">
+        <h1>{of === null ? t.result.heading(id) : t.result.headingOf(id, kind.name, of)}</h1>
+        <span class="serial">{robot_serial}</span>
+      </div>
+      <DecisionLine result={result} />
+      <WantedLine result={result} />
+      <DriveState result={result} />
+    </section>
+  );
+}
+
+/** What ran, by whom and when; with the ways to everything else of the run. */
+export function RunFacts({ result }: { result: Calibration }) {
+  const kind = runKind(result.kind);
+  const plan = planOf(result.plan);
+  const { verdict } = decisionOf(result).look;
+  return (
+    <div class="summary">
       <p class="note">
-        {(plan ?? kind).text} {outcomeOf(result).text}
+        {(plan ?? kind).text} {decisionOf(result).look.text} {verdict && t.shared.verdict(verdict)}
       </p>
       <dl>
         <Fact name={t.result.kind} value={kind.name} />
@@ -24,25 +41,26 @@ export function ResultSummary({ result }: { result: Calibration }) {
         {result.work_order && <Fact name={t.result.workOrder} value={result.work_order} />}
         <Fact name={t.result.started} value={dateTime(result.started_at ?? result.created_at)} />
         <Fact name={t.result.duration} value={took(result)} />
-        {method && <Fact name={t.result.method} value={methodName(method)} />}
+        {result.method && <Fact name={t.result.method} value={methodName(result.method)} />}
       </dl>
-      <Ways result={result} />
-    </section>
+    </div>
   );
 }
 
-function Ways({ result: { id, of, method, robot_serial } }: { result: Calibration }) {
+/** From a result to everything else of its run and its robot. */
+export function Ways({
+  result: { id, of, method, robot_serial, verdict, ended_at },
+}: {
+  result: Calibration;
+}) {
   const diagnosed = method === "diagnosis";
   return (
-    <p class="actions">
+    <p class="actions wide">
       {of !== null && (
         <Link class="button" to={`/result/${of}`}>
           {t.shared.result(of)}
         </Link>
       )}
-      <a class="button" href={`/api/v1/calibrations/${id}/readings.csv`} download>
-        {t.shared.readingsCsv}
-      </a>
       {diagnosed && (
         <Link class="button" to={`/diagnosis/${id}`}>
           {t.result.diagnosis}
@@ -53,10 +71,25 @@ function Ways({ result: { id, of, method, robot_serial } }: { result: Calibratio
           {t.shared.report}
         </a>
       )}
+      {verdict &&
+        ended_at &&
+        ["html", "pdf", "json"].map((form) => <CertificateLink key={form} id={id} form={form} />)}
+      <a class="button" href={`/api/v1/calibrations/${id}/readings.csv`} download>
+        {t.shared.readingsCsv}
+      </a>
       <Link class="button" to={`/history?robot_serial=${encodeURIComponent(robot_serial)}`}>
         {t.result.robotHistory}
       </Link>
     </p>
+  );
+}
+
+function CertificateLink({ id, form }: { id: number; form: string }) {
+  const inLanguage = form === "json" ? "" : `?language=${t.language}`;
+  return (
+    <a class="button" href={`/api/v1/calibrations/${id}/certificate.${form}${inLanguage}`}>
+      {t.result.certificate(form.toUpperCase())}
+    </a>
   );
 }
 

@@ -1,18 +1,21 @@
-/** One run: verdict, zero offsets, drives, accuracy, and where to look for a missing effect. */
-import { calibration } from "../../api";
+/** One run: what it decides, the next step, where the robot errs; the engineer's tables folded below. */
+import { calibration, diagnosis } from "../../api";
 import { station } from "../../live";
 import { t } from "../../messages";
 import { BeforeAfter } from "../../parts/before-after";
+import { Fold } from "../../parts/fold";
 import { useLoaded } from "../../parts/load";
 import type { Calibration } from "../../types";
 import { Accuracy } from "./accuracy";
 import { Application } from "./application";
+import { ErrorMaps, hasMap } from "./error-maps";
 import { FindCause } from "./find-cause";
 import { FoundCauses } from "./found-causes";
 import { Iterations } from "./iterations";
 import { Memory } from "./memory";
+import { NextStep } from "./next-step";
 import { ResidualChart } from "./residual-chart";
-import { ResultSummary } from "./result-summary";
+import { ResultSummary, RunFacts, Ways } from "./result-summary";
 import { WeakDirection } from "./weak-direction";
 import { ZeroOffsets } from "./zero-offsets";
 
@@ -40,43 +43,74 @@ function Result({ id }: { id: number }) {
     run?.id === id || run?.of === id ? `running ${run.id} ${run.step}` : `ended ${station.value?.last?.id}`;
   const { value: result, trouble } = useLoaded(`${id} ${progress}`, () => calibration(id)).value;
   if (!result) return <Empty text={trouble ?? t.shared.loading} />;
-  const misfit = result.lack_of_fit !== null;
-  const offer = result.of === null && result.ended_at && result.method !== "diagnosis" && (
-    <FindCause result={result} />
-  );
+  return result.method === "diagnosis" ? <Diagnosed result={result} /> : <Shown result={result} />;
+}
+
+/** With what the diagnosis found; the head is there before. */
+function Diagnosed({ result }: { result: Calibration }) {
+  const { value: found, trouble } = useLoaded(`${result.id}`, () => diagnosis(result.id)).value;
   return (
-    <div class="result">
-      <ResultSummary result={result} />
-      {misfit && offer}
-      {result.zero_offsets.length ? (
-        <Identified result={result} />
-      ) : (
-        <>
-          <Accuracy result={result} />
-          <section class="panel">
-            <p>{result.ended_at ? t.result.noOffsets : t.result.pending}</p>
-          </section>
-        </>
-      )}
-      {!misfit && offer}
-    </div>
+    <Shown result={result} experiments={found?.experiments ?? []}>
+      <Fold name="causes" title={t.diagnosis.causes}>
+        <FoundCauses id={result.id} serial={result.robot_serial} found={found} trouble={trouble} />
+      </Fold>
+    </Shown>
   );
 }
 
-/** Everything that follows from identified zero offsets. */
-function Identified({ result }: { result: Calibration }) {
-  const diagnosed = result.method === "diagnosis";
+interface ShownProps {
+  result: Calibration;
+  experiments?: Parameters<typeof NextStep>[0]["experiments"];
+  children?: preact.ComponentChildren;
+}
+
+function Shown({ result, experiments, children }: ShownProps) {
+  const { id, of, method, residuals } = result;
+  const identified = result.zero_offsets.length > 0;
   return (
-    <>
-      {diagnosed && <FoundCauses id={result.id} serial={result.robot_serial} />}
-      <Accuracy result={result} />
-      <Application result={result} />
-      <ZeroOffsets result={result} />
-      <BeforeAfter result={result} />
-      <WeakDirection result={result} />
-      {result.of === null && !diagnosed && <Memory result={result} />}
-      <Iterations result={result} />
-      <ResidualChart id={result.id} residuals={result.residuals} />
-    </>
+    <div class="result">
+      <ResultSummary result={result} />
+      <NextStep result={result} experiments={experiments} />
+      {hasMap(result) && <ErrorMaps id={id} on={result.application?.state ?? ""} />}
+      {!identified && !result.ended_at && <p class="panel wide">{t.result.pending}</p>}
+      {children}
+      {identified && (
+        <Fold name="offsets" title={t.result.offsets}>
+          <ZeroOffsets result={result} />
+          <WeakDirection result={result} />
+          <Iterations result={result} />
+        </Fold>
+      )}
+      {(result.accuracy ?? result.check ?? result.after) && (
+        <Fold name="accuracy" title={t.result.promised}>
+          <Accuracy result={result} />
+          {identified && <BeforeAfter result={result} />}
+        </Fold>
+      )}
+      {result.application && (
+        <Fold name="drives" title={t.result.drives}>
+          <Application result={result} />
+        </Fold>
+      )}
+      {residuals.length > 0 && (
+        <Fold name="residuals" title={t.result.residuals}>
+          <ResidualChart id={id} residuals={residuals} />
+        </Fold>
+      )}
+      {of === null && identified && method !== "diagnosis" && (
+        <Fold name="memory" title={t.result.memory(result.robot_serial)}>
+          <Memory result={result} />
+        </Fold>
+      )}
+      {of === null && result.ended_at && method !== "diagnosis" && (
+        <Fold name="cause" title={t.result.checkModel}>
+          <FindCause result={result} />
+        </Fold>
+      )}
+      <Fold name="run" title={t.result.run}>
+        <RunFacts result={result} />
+      </Fold>
+      <Ways result={result} />
+    </div>
   );
 }

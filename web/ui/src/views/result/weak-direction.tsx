@@ -7,13 +7,13 @@ import type { Calibration } from "../../types";
 export function WeakDirection({ result: { weak_direction: weak } }: { result: Calibration }) {
   if (!weak?.text) return null;
   return (
-    <section class="panel">
-      <h2>{t.result.weakDirection}</h2>
+    <>
+      <h3>{t.result.weakDirection}</h3>
       <p>
         {readable(weak.text)}
         {weak.sd_deg !== null && ` (${t.shared.standard(`${fixed(weak.sd_deg, 3)}°`)})`}
       </p>
       {weak.remedy && <p class="note">{t.result.remedy(readable(weak.remedy))}</p>}
-    </section>
+    </>
   );
 }

@@ -2,14 +2,16 @@ import { expanded, fixed, K, MISSING, signed } from "../../format";
 import { t } from "../../messages";
 import { shown } from "../../names";
 import type { Calibration, Quantity } from "../../types";
+import { isValid } from "./decision";
 
 /** Each zero offset with its uncertainty, against the tolerance. */
 export function ZeroOffsets({ result }: { result: Calibration }) {
   const tolerance = result.zero_offset_tolerance_deg;
+  const valid = isValid(result);
   return (
-    <section class="panel">
-      <h2>{t.result.offsets}</h2>
-      <table>
+    <>
+      {!valid && <p>{t.result.notValidNote}</p>}
+      <table class={valid ? "" : "not-valid"}>
         <thead>
           <tr>
             <th scope="col">{t.result.joint}</th>
@@ -31,22 +33,22 @@ export function ZeroOffsets({ result }: { result: Calibration }) {
               <td>{fixed(sd_deg, 4)}</td>
               <td>{fixed(tolerance, 1)}</td>
               <td class="text">
-                <Against value={value_deg} limit={tolerance} />
+                {valid ? <Against value={value_deg} limit={tolerance} /> : t.result.notValid}
               </td>
             </tr>
           ))}
         </tbody>
       </table>
       <p class="note">{t.shared.expanded(K)}</p>
-      {result.parameters.length ? <OtherParameters parameters={result.parameters} /> : null}
-    </section>
+      {result.parameters.length > 0 && <OtherParameters parameters={result.parameters} valid={valid} />}
+    </>
   );
 }
 
 /** What was identified along with the offsets. */
-function OtherParameters({ parameters }: { parameters: Quantity[] }) {
+function OtherParameters({ parameters, valid }: { parameters: Quantity[]; valid: boolean }) {
   return (
-    <table class="others">
+    <table class={valid ? "others" : "others not-valid"}>
       <thead>
         <tr>
           <th scope="col" class="text">

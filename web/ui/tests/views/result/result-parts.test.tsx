@@ -2,8 +2,8 @@ import { render, type VNode } from "preact";
 import { describe, expect, it } from "vitest";
 import { BeforeAfter } from "../../../src/parts/before-after";
 import type { Calibration } from "../../../src/types";
-import { statement } from "../../../src/views/result/application";
-import { ResultSummary } from "../../../src/views/result/result-summary";
+import { statement } from "../../../src/views/result/drive-state";
+import { ResultSummary, RunFacts, Ways } from "../../../src/views/result/result-summary";
 import { ZeroOffsets } from "../../../src/views/result/zero-offsets";
 import { calibration } from "../../samples";
 
@@ -76,9 +76,7 @@ describe("the head of a result", () => {
   const heading = (given: Partial<Calibration>) =>
     drawn(<ResultSummary result={calibration(given)} />).querySelector("h1")?.textContent;
   const links = (given: Partial<Calibration>) =>
-    [...drawn(<ResultSummary result={calibration(given)} />).querySelectorAll("a")].map(
-      (link) => link.textContent,
-    );
+    [...drawn(<Ways result={calibration(given)} />).querySelectorAll("a")].map((link) => link.textContent);
 
   it("names what a run was for", () => {
     expect(heading({ id: 4 })).toBe("Result of run 4");
@@ -89,7 +87,7 @@ describe("the head of a result", () => {
 
   it("gives the plan of what measures by one", () => {
     const facts = (given: Partial<Calibration>) =>
-      drawn(<ResultSummary result={calibration(given)} />).querySelector("dl")?.textContent;
+      drawn(<RunFacts result={calibration(given)} />).querySelector("dl")?.textContent;
     expect(facts({ plan: "full" })).toContain("Kind of runCalibrationPlanFull");
     expect(facts({ kind: "import", plan: "dataset" })).toContain("Kind of runImportOperator");
   });
@@ -102,6 +100,6 @@ describe("the head of a result", () => {
 
   it("gives the duration of a run that has ended", () => {
     const times = { started_at: "2024-03-05T07:00:00Z", ended_at: "2024-03-05T07:02:05Z" };
-    expect(drawn(<ResultSummary result={calibration(times)} />).textContent).toContain("2 min 05 s");
+    expect(drawn(<RunFacts result={calibration(times)} />).textContent).toContain("2 min 05 s");
   });
 });

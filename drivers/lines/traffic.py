@@ -1,0 +1,42 @@
+"""How much crossed a line since it was made, and how long its replies took."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+
+
+class Traffic:
+    """Counts only; who reads it never waits for the line.
+
+    A round trip is the time from the end of sending to the first byte that comes.
+    """
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self._clock = clock
+        self._sent_at_s: float | None = None
+        self.requests = 0
+        self.replies = 0
+        self.broken = 0
+        """How often the open line broke, or could not be opened."""
+        self.round_trips_s = 0.0
+        """Sum over all replies."""
+        self.last_round_trip_s: float | None = None
+
+    def note(self, what: str) -> None:
+        """Something happened on the line.
+
+        :param what: a `Happening`
+        """
+        match what:
+            case "tx":
+                self.requests += 1
+                self._sent_at_s = self._clock()
+            case "rx" if self._sent_at_s is not None:
+                took_s, self._sent_at_s = self._clock() - self._sent_at_s, None
+                self.replies += 1
+                self.round_trips_s += took_s
+                self.last_round_trip_s = took_s
+            case "broken" | "refused":
+                self.broken += 1
+                self._sent_at_s = None

@@ -1,0 +1,46 @@
+"""A truth value is no number, though Python takes it for one: `mm = true` is a mistake, not 1 mm."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from pydantic import BaseModel, GetCoreSchemaHandler
+from pydantic_core import CoreSchema, PydanticCustomError
+from pydantic_core.core_schema import no_info_before_validator_function
+
+_NUMBERS = ("float", "int")
+
+
+def _number(value: object) -> object:
+    if isinstance(value, bool):
+        raise PydanticCustomError("number", "must be a number, not true or false")
+    return value
+
+
+def _refuse_truth_values(node: object) -> None:
+    """Put the check before every number of a schema, in place."""
+    if isinstance(node, list | tuple):
+        for part in node:
+            _refuse_truth_values(part)
+    elif isinstance(node, dict):
+        if node.get("function", {}) == {"type": "no-info", "function": _number}:
+            return  # a model within a model has been here already
+        numbers = all(type(choice) is int for choice in node.get("expected", ()))
+        if node.get("type") in _NUMBERS or (node.get("type") == "literal" and numbers):
+            checked = no_info_before_validator_function(_number, node.copy())
+            node.clear()
+            node.update(checked)
+            return
+        for key, part in node.items():
+            if key != "default":
+                _refuse_truth_values(part)
+
+
+class StrictNumbers(BaseModel):
+    """Base of what people and programs write; each number of it, however deep, refuses true and false."""
+
+    @classmethod
+    def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        schema = handler(source)
+        _refuse_truth_values(schema)
+        return schema

@@ -1,0 +1,61 @@
+"""The certificate as one HTML page that needs nothing but itself and prints on one A4 sheet."""
+
+from __future__ import annotations
+
+import hashlib
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+
+from station.certificate.facts import CertificateFacts
+from station.certificate.map_drawing import COLOURS, drawing_of, significant
+from station.certificate.qr import modules
+from station.certificate.sheet import Sheet
+from station.messages import local_number
+
+CONTENT_SECURITY_POLICY = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
+"""Of the page: no script at all, and nothing from anywhere."""
+_OPEN, _CLOSE = '<script type="application/json" id="certificate">', "</script>"
+_END = "</body>"
+
+
+def html_page(sheet: Sheet, facts: CertificateFacts) -> str:
+    """Without the document."""
+    environment = Environment(
+        loader=PackageLoader("station.certificate", ""),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    drawing = drawing_of(facts.error_map) if facts.error_map else None
+    side, dark = modules(facts.robot_serial)
+    ends = [drawing.edges_mm[0], drawing.edges_mm[-1]] if drawing else []
+    return environment.get_template("certificate.html.j2").render(
+        sheet=sheet,
+        serial=facts.robot_serial,
+        drawing=drawing,
+        colours=COLOURS,
+        ends=[local_number(end, significant(end), sheet.language) for end in ends],
+        qr_side=side,
+        qr_dark=dark,
+    )
+
+
+def html_sha256(bare: str) -> str:
+    """Of a page without the document."""
+    return hashlib.sha256(bare.encode()).hexdigest()
+
+
+def with_document(bare: str, document: str) -> str:
+    """The document stands at the end, where no browser runs or shows it."""
+    before, _, after = bare.rpartition(_END)
+    return f"{before}{_OPEN}{document.replace('</', '<' + chr(92) + '/')}{_CLOSE}{_END}{after}"
+
+
+def split_document(page: str) -> tuple[str, str] | None:
+    """The page without the document, and the document; None where there is none."""
+    before, opened, rest = page.rpartition(_OPEN)
+    document, closed, after = rest.partition(_CLOSE)
+    if not (opened and closed):
+        return None
+    return before + after, document

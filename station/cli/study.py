@@ -1,0 +1,80 @@
+"""`station study`: Monte Carlo over machines."""
+
+from __future__ import annotations
+
+import json
+import time
+from pathlib import Path
+from typing import Any
+
+import click
+from pydantic import JsonValue
+from rich.console import Console
+
+from station.cli.files import check_folders, write_json
+from station.studies.confusion import figures as confusion_figures
+from station.studies.confusion import run as confusion
+from station.studies.engine import Engine, digest
+from station.studies.population import FIGURES, population
+
+_KINDS = (*FIGURES, "confusion")
+_PLANS = ("full", "rapid")
+"""Those that measure once and are fitted once."""
+
+
+@click.command("study")
+@click.argument("study", type=click.Choice(_KINDS))
+@click.option(
+    "--machines", type=click.IntRange(1), required=True, help="How many; of each kind for confusion."
+)
+@click.option("--seed", type=click.IntRange(0), default=1, show_default=True)
+@click.option(
+    "--plan", type=click.Choice(_PLANS), default="full", show_default=True, help="Not for confusion."
+)
+@click.option(
+    "--tolerance",
+    type=click.FloatRange(0, 3, min_open=True),
+    default=0.03,
+    show_default=True,
+    help="Standard deviation of lengths and base joints, mm; not for confusion.",
+)
+@click.option("--workers", type=click.IntRange(1), help="Processes; one for each core without it.")
+@click.option("--scheduler", metavar="tcp://HOST:PORT", help="A Dask cluster that does it instead.")
+@click.option("--resume", type=click.Path(file_okay=False, path_type=Path), help="Folder to go on from.")
+@click.option("--json", "json_file", type=click.Path(path_type=Path), help="Write every figure here.")
+def study_command(
+    study: str,
+    machines: int,
+    seed: int,
+    plan: str,
+    tolerance: float,
+    workers: int | None,
+    scheduler: str | None,
+    resume: Path | None,
+    json_file: Path | None,
+) -> None:
+    """Calibrate many random machines, and say what came of it.
+
+    STUDY is accuracy, coverage or capability (a calibration each, no diagnosis), or confusion (a diagnosis
+    each).  The digest is the same on one core, on many and on a cluster.
+    """
+    check_folders(json_file)
+    engine = Engine(Console(stderr=True), workers, resume, scheduler)
+    began = time.perf_counter()
+    found: dict[str, Any] | list[JsonValue]
+    if study == "confusion":
+        found = confusion_figures(confusion(machines, seed, engine))
+    else:
+        found = FIGURES[study](population(machines, seed, engine, plan, tolerance))
+    seconds = round(time.perf_counter() - began, 1)
+    summary = {
+        "study": study,
+        "machines": machines,
+        "seed": seed,
+        "digest": digest(found),
+        "seconds": seconds,
+    }
+    if json_file:
+        write_json(json_file, {**summary, "figures": found})
+    click.echo(json.dumps(found, indent=1))
+    click.echo(f"{machines} machines in {seconds} s; digest {summary['digest']}", err=True)

@@ -1,0 +1,136 @@
+"""Texts by language, group and identifier."""
+
+from __future__ import annotations
+
+import json
+import re
+from functools import cache
+from importlib.resources import files
+from string import Formatter
+from typing import Any, Literal, get_args
+
+Language = Literal["en", "de", "zh"]
+LANGUAGES: tuple[Language, ...] = get_args(Language)
+Group = Literal[
+    "effects", "parameters", "plans", "states", "verdicts", "outcomes", "run_kinds", "dependences"
+]
+DECIMAL_COMMA: frozenset[Language] = frozenset({"de"})
+
+_Entry = dict[str, str] | str
+_PLACES = {"n": r"(\d+)", "axis": "([xyz])"}
+_LABEL = re.compile(
+    r"(?P<effect>\w+?)(?P<curve> curve)?"
+    r"(?: of joint (?P<joint>\d+)| of the (?P<part>links)| (?P<link>[Ll]\d+))?"
+)
+"""As the diagnosis labels an effect: `gear_cyclic of joint 1`, `link_length L1`."""
+
+
+@cache
+def _texts(language: Language) -> dict[str, dict[str, _Entry]]:
+    content: dict[str, dict[str, _Entry]] = json.loads(
+        files("station.messages").joinpath(f"{language}.json").read_text(encoding="utf-8")
+    )
+    return content
+
+
+def display_name(group: Group, id: str, language: Language = "en") -> str:
+    """The name of an effect, parameter, plan, state, verdict, outcome or kind of run.  :raises KeyError:"""
+    return _name(_texts(language)[group][id])
+
+
+def explanation(group: Group, id: str, language: Language = "en") -> str:
+    """What it is, in one sentence.  :raises KeyError:"""
+    entry = _texts(language)[group][id]
+    return "" if isinstance(entry, str) else entry["text"]
+
+
+def certificate_text(key: str, language: Language) -> str:
+    """A label or sentence of the certificate, with places for values.  :raises KeyError:"""
+    return _text("certificate", key, language)
+
+
+def reasons(language: Language = "en") -> dict[str, str]:
+    """The sentence of every reason, by its code."""
+    return {code: text for code, text in _texts(language)["reasons"].items() if isinstance(text, str)}
+
+
+def reason_text(code: str, params: dict[str, float | int | str], language: Language = "en") -> str:
+    """A reason in a sentence.  :raises KeyError: an unknown code, or a parameter that its sentence needs."""
+    template = _text("reasons", code, language)
+    return template.format_map(params) if language == "en" else _Local(language).vformat(template, (), params)
+
+
+def parameter_name(id: str, language: Language) -> str:
+    """Also of one that has a number or an axis; the identifier itself where there is no name."""
+    return _open_name("parameters", id, language)
+
+
+def part_name(id: str, language: Language) -> str:
+    """The part on which an effect acts, in the middle of a sentence."""
+    return _open_name("parts", id, language)
+
+
+def dependence_name(id: str, language: Language) -> str:
+    """What a residual depends on, in the middle of a sentence."""
+    return _open_name("dependences", id, language)
+
+
+def effect_name(label: str, language: Language) -> str:
+    """Of an effect by its label, `backlash of joint 1` for instance."""
+    known = _LABEL.fullmatch(label)
+    entry = _texts(language)["effects"].get(known["effect"]) if known else None
+    if known is None or entry is None:
+        return label
+    name = _name(entry)
+    if known["curve"]:
+        name = certificate_text("curve", language).format(effect=name)
+    if known["joint"]:
+        return certificate_text("of_joint", language).format(effect=name, joint=known["joint"])
+    if part := known["part"] or known["link"]:
+        return certificate_text("of_part", language).format(effect=name, part=part_name(part, language))
+    return name
+
+
+class _Local(Formatter):
+    """Numbers and identifiers as the language writes them."""
+
+    def __init__(self, language: Language) -> None:
+        self._language: Language = language
+
+    def get_value(self, key: int | str, args: Any, kwargs: Any) -> Any:
+        value = kwargs[key]
+        if key == "depends_on":
+            return dependence_name(value, self._language)
+        if key == "causes":
+            joint = certificate_text("and", self._language)
+            return joint.join(effect_name(label, self._language) for label in value.split(" and "))
+        return value
+
+    def format_field(self, value: Any, format_spec: str) -> str:
+        text: str = super().format_field(value, format_spec)
+        comma = isinstance(value, float) and self._language in DECIMAL_COMMA
+        return text.replace(".", ",") if comma else text
+
+
+def _text(group: str, key: str, language: Language) -> str:
+    entry = _texts(language)[group][key]
+    assert isinstance(entry, str)
+    return entry
+
+
+def _name(entry: _Entry) -> str:
+    return entry if isinstance(entry, str) else entry["name"]
+
+
+def _open_name(group: str, id: str, language: Language) -> str:
+    entries = _texts(language)[group]
+    if id in entries:
+        return _name(entries[id])
+    for key, entry in entries.items():
+        place = re.search(r"\{(\w+)\}", key)
+        if place is None:
+            continue
+        form = re.escape(key).replace(re.escape(place[0]), _PLACES[place[1]])
+        if found := re.fullmatch(form, id):
+            return _name(entry).replace(place[0], found[1])
+    return id

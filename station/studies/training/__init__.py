@@ -1,0 +1,1 @@
+"""Unseen effects at the training desk, worked through as a trainee would."""

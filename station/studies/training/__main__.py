@@ -1,0 +1,114 @@
+"""`python -m station.studies.training`: what the station said of errors that it was not told."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+from random import Random
+from tempfile import TemporaryDirectory
+
+import click
+from rich.console import Console
+
+from station.errors import NotApplicable, NotFound
+from station.records import CalibrationRequest, Exercise, Said
+from station.service import KINDS, Runtime, TrainingDesk
+from station.settings import EmulatedSettings, Settings
+
+SERIAL = "TRAINING"
+RUN_LIMIT_S = 900.0
+ABOUT = """# The training desk, worked through
+
+Each of the first {exercises} exercises is drawn by the station and not told: an effect that the diagnosis
+knows, or an error that it does not know. It is worked through as a trainee would: a run of plan `diagnostic`;
+where explanations are left that further motion can distinguish, that motion; then a look at what was drawn.
+The faults of devices and lines follow, each once. The machine is the emulated one behind its wires, {speed:g}
+times faster than real time.
+
+*Score*: `found`, the cause is named, alone or together with what cannot be distinguished from it; an error
+without a name is found when the residual is not accounted for and no cause is confirmed; a fault, when the
+run failed and names the device. `partly`, something else is named beside it, or it is a possible explanation
+only. `noticed`, no pass, without the cause. `wrong`, another cause is named. `missed`, passed as good.
+`withstood`, a fault that the run got over.
+
+`python -m station.studies.training --exercises {exercises} --seed {seed}` makes this page again; the noise of
+the emulated machine is drawn anew, so single lines may differ."""
+
+
+@click.command()
+@click.option("--exercises", default=20, show_default=True, type=click.IntRange(1))
+@click.option("--seed", default=1, show_default=True, type=click.IntRange(0), help="Of what is drawn.")
+@click.option("--speed", default=50.0, show_default=True, type=click.FloatRange(1, 1000))
+@click.option("--out", type=click.Path(path_type=Path), help="Write the page here.")
+def main(exercises: int, seed: int, speed: float, out: Path | None) -> None:
+    """What was drawn beside what the station said."""
+    settings = Settings(emulated=EmulatedSettings(speed=speed))
+    console = Console(stderr=True)
+    done: list[Exercise] = []
+    with TemporaryDirectory() as home, Runtime.open(settings, Path(home)) as runtime:
+        for exercise in _worked_through(runtime, exercises, Random(seed)):
+            done.append(exercise)
+            console.print(_row(exercise), highlight=False, soft_wrap=True)
+    about = ABOUT.format(speed=speed, exercises=exercises, seed=seed)
+    effects, faults = done[:exercises], done[exercises:]
+    head = "| no. | drawn | joint | size | the station said | score |\n|---|---|---|---|---|---|"
+    rows = "\n".join(_row(exercise) for exercise in done)
+    counts = f"{_counts('errors of the machine', effects)}\n{_counts('faults', faults)}"
+    text = f"{about}\n\n{counts}\n\n{head}\n{rows}\n"
+    if out:
+        out.write_text(text, encoding="utf-8")
+    click.echo(text)
+
+
+def _worked_through(runtime: Runtime, exercises: int, rng: Random) -> Iterator[Exercise]:
+    assert runtime.rig is not None
+    orchestrator = runtime.orchestrator
+    desk = TrainingDesk(runtime.rig, runtime.store, lambda: orchestrator.running, rng)
+    faults = [(name, 1 if kind.joint else None) for name, kind in KINDS.items() if kind.group == "fault"]
+    for number in range(exercises + len(faults)):
+        if number < exercises:
+            desk.draw(("catalogue", "unnamed"))
+        else:
+            desk.choose(*faults[number - exercises], None)
+        run = orchestrator.submit(CalibrationRequest(SERIAL, "diagnose", "trainee", plan="diagnostic")).id
+        orchestrator.wait(run, RUN_LIMIT_S)
+        desk.view()
+        _distinguish(runtime, run)
+        desk.repair()
+        yield desk.view().done[0]
+
+
+def _distinguish(runtime: Runtime, run: int) -> None:
+    """The further motion, where there is one."""
+    try:
+        further = runtime.orchestrator.follow("separate", run, "trainee").id
+    except (NotApplicable, NotFound):  # nothing to distinguish, or the run failed
+        return
+    runtime.orchestrator.wait(further, RUN_LIMIT_S)
+
+
+def _counts(what: str, done: Sequence[Exercise]) -> str:
+    scores = Counter(str(exercise.score) for exercise in done)
+    return f"- {len(done)} {what}: {', '.join(f'{score} {n}' for score, n in scores.most_common())}"
+
+
+def _row(exercise: Exercise) -> str:
+    challenge, said = exercise.challenge, exercise.said
+    assert challenge is not None
+    size = "" if exercise.size is None else f"{exercise.size:g} {challenge.unit}"
+    heard = "" if said is None else _words(said)
+    cells = (exercise.n, challenge.kind, exercise.joint or "", size, heard, exercise.score)
+    return f"| {' | '.join(map(str, cells))} |"
+
+
+def _words(said: Said) -> str:
+    if said.diagnosis is None:
+        return f"{said.state}: {said.reason}"
+    at = [f"{c.effect} {c.part or (f'of joint {c.joint}' if c.joint else '')}".strip() for c in said.causes]
+    confirmed = {True: ", confirmed", False: ", not confirmed", None: ""}[said.confirmed]
+    return f"{said.diagnosis}{confirmed}: {', '.join(at) or 'no cause'} (outcome {said.outcome})"
+
+
+if __name__ == "__main__":
+    main()

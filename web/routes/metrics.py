@@ -1,0 +1,25 @@
+"""`/metrics`: what a Prometheus server scrapes.  Asks no device and waits for no run."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import Header, Request, Response
+
+from station.people import Permission
+from web.guarded import Router, needs
+from web.metrics import Metrics
+
+router = Router(tags=["health"])
+
+
+class MetricsText(Response):
+    media_type = "text/plain"
+
+
+@router.get("/metrics", response_class=MetricsText, dependencies=[needs(Permission.READ)])
+def read_metrics(request: Request, accept: Annotated[str, Header()] = "") -> MetricsText:
+    """In Prometheus' text format, or in that of OpenMetrics where it is asked for."""
+    metrics: Metrics = request.app.state.metrics
+    content_type, text = metrics.exposed(accept)
+    return MetricsText(text, headers={"Content-Type": content_type})

@@ -1,0 +1,40 @@
+/** What is folded until somebody wants it; which folds are open lives in the address as `open`. */
+import type { ComponentChildren } from "preact";
+import { query } from "../router";
+import { setQuery } from "./set-query";
+
+const SEPARATOR = ".";
+
+const opened = () => new Set(query.value.get("open")?.split(SEPARATOR).filter(Boolean));
+
+interface Props {
+  /** Stands in the address. */
+  name: string;
+  title: string;
+  children: ComponentChildren;
+}
+
+export function Fold({ name, title, children }: Props) {
+  const open = opened().has(name);
+  const toggled = (now: boolean) => {
+    const names = opened();
+    if (now === names.has(name)) return;
+    if (now) names.add(name);
+    else names.delete(name);
+    setQuery("open", [...names].join(SEPARATOR));
+  };
+  return (
+    <details
+      class="fold wide"
+      aria-label={title}
+      open={open}
+      onToggle={(event) => toggled(event.currentTarget.open)}
+    >
+      <summary>
+        <h2>{title}</h2>
+      </summary>
+      {/* what is not looked at is neither asked for nor drawn */}
+      {open && <div class="folded">{children}</div>}
+    </details>
+  );
+}

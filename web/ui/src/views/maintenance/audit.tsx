@@ -1,0 +1,104 @@
+/** Who did what, page by page. */
+import { dateTime } from "../../format";
+import { t } from "../../messages";
+import { useLoaded } from "../../parts/load";
+import { navigate, query } from "../../router";
+import type { AuditEntry } from "../../types";
+import { Pending } from "./action";
+import { Needs } from "./allowed";
+import { audit } from "./calls";
+import { Table } from "./table";
+
+export function AuditPart() {
+  return (
+    <section class="panel part" aria-labelledby="audit-title">
+      <h2 id="audit-title">{t.maintenance.audit}</h2>
+      <Needs permission="administer">
+        <Entries />
+      </Needs>
+    </section>
+  );
+}
+
+function Entries() {
+  const m = t.maintenance;
+  const cursor = query.value.get("cursor") ?? "";
+  const wanted = query.value.get("contains") ?? "";
+  const asked = new URLSearchParams({ limit: "200", ...(cursor && { cursor }) });
+  const { value: page, trouble } = useLoaded(String(asked), () => audit(asked)).value;
+  if (!page) return <Pending trouble={trouble} />;
+  const shown = page.items.filter((entry) => contains(entry, wanted));
+  return (
+    <>
+      <div class="fields">
+        <p class="field">
+          <label for="audit-filter">{m.auditFilter}</label>
+          <input
+            id="audit-filter"
+            value={wanted}
+            spellcheck={false}
+            onInput={(event) => show(cursor, event.currentTarget.value, true)}
+          />
+        </p>
+        <a class="button" href="/api/v1/audit.csv">
+          {m.auditCsv}
+        </a>
+      </div>
+      <p class="note" role="status">
+        {m.auditOnPage(shown.length, page.items.length)}
+      </p>
+      <Table label={m.audit} head={[m.number, m.at, m.who, m.role, m.action, m.subject, m.change]}>
+        {shown.map((entry) => (
+          <tr key={entry.n}>
+            <td class="text">{entry.n}</td>
+            <td class="text">{dateTime(entry.at)}</td>
+            <td class="text">{entry.who ?? m.erased}</td>
+            <td class="text">{entry.role ? m.roles[entry.role] : entry.via}</td>
+            <td class="text">{entry.action}</td>
+            <td class="text wrapped">{entry.subject}</td>
+            <td class="text wrapped">{change(entry)}</td>
+          </tr>
+        ))}
+      </Table>
+      <p class="actions">
+        <button type="button" disabled={!cursor} onClick={() => show("", wanted)}>
+          {m.newest}
+        </button>
+        <button
+          type="button"
+          disabled={page.next === null}
+          onClick={() => page.next !== null && show(String(page.next), wanted)}
+        >
+          {m.older}
+        </button>
+      </p>
+    </>
+  );
+}
+
+const show = (cursor: string, contained: string, replace = false) =>
+  navigate(
+    `/maintenance?${new URLSearchParams({ part: "audit", ...(cursor && { cursor }), ...(contained && { contains: contained }) })}`,
+    { replace },
+  );
+
+export function contains(entry: AuditEntry, wanted: string): boolean {
+  const text = [entry.who, entry.role, entry.via, entry.action, entry.subject, change(entry)].join(" ");
+  return text.toLowerCase().includes(wanted.trim().toLowerCase());
+}
+
+function change({ before, after }: AuditEntry): string {
+  if (before == null) return after == null ? "" : told(after);
+  return t.maintenance.from(told(before), after == null ? "–" : told(after));
+}
+
+/** `{"value": "20"}` as `value 20`. */
+function told(value: unknown): string {
+  if (typeof value !== "object" || value === null) return String(value);
+  return Object.entries(value)
+    .filter(([, part]) => part !== null)
+    .map(
+      ([key, part]) => `${key.replaceAll("_", " ")} ${typeof part === "object" ? told(part) : String(part)}`,
+    )
+    .join(", ");
+}

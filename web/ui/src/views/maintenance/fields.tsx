@@ -1,0 +1,57 @@
+/** Labelled inputs, each on a signal. */
+import type { Signal } from "@preact/signals";
+
+interface TextProps {
+  id: string;
+  label: string;
+  value: Signal<string>;
+  type?: "text" | "password";
+  numeric?: boolean;
+}
+
+export function TextField({ id, label, value, type = "text", numeric }: TextProps) {
+  return (
+    <p class="field">
+      <label for={id}>{label}</label>
+      <input
+        id={id}
+        type={type as "text"}
+        inputMode={numeric ? "decimal" : undefined}
+        autocomplete={type === "password" ? "new-password" : "off"}
+        maxLength={type === "password" ? 256 : 64}
+        spellcheck={false}
+        value={value.value}
+        onInput={(event) => {
+          value.value = event.currentTarget.value;
+        }}
+      />
+    </p>
+  );
+}
+
+interface ChoiceProps {
+  id: string;
+  label: string;
+  value: string;
+  options: [id: string, name: string][];
+  choose: (id: string) => void;
+  /** Where a column already says what it is. */
+  quiet?: boolean;
+}
+
+export function ChoiceField({ id, label, value, options, choose, quiet }: ChoiceProps) {
+  return (
+    <p class="field">
+      <label for={id} class={quiet ? "hidden" : undefined}>
+        {label}
+      </label>
+      <select id={id} value={value} onChange={(event) => choose(event.currentTarget.value)}>
+        {options.map(([option, name]) => (
+          <option key={option} value={option}>
+            {name}
+          </option>
+        ))}
+      </select>
+    </p>
+  );
+}

@@ -1,0 +1,27 @@
+/** A table that scrolls by itself where it is wider than the page. */
+import type { ComponentChildren } from "preact";
+
+interface Props {
+  label: string;
+  head: string[];
+  children: ComponentChildren;
+}
+
+export function Table({ label, head, children }: Props) {
+  return (
+    <div class="scroll" tabIndex={0} role="region" aria-label={label}>
+      <table class="plain">
+        <thead>
+          <tr>
+            {head.map((text) => (
+              <th key={text} scope="col" class="text">
+                {text}
+              </th>
+            ))}
+          </tr>
+        </thead>
+        <tbody>{children}</tbody>
+      </table>
+    </div>
+  );
+}
