@@ -62,8 +62,8 @@ JSON_BYTES = 1_000_000
 NOTE_USE_S = 60.0
 ROUTES = (
     station, audit, backups, calibrations, certificates, datasets, devices, diagnoses, emulator, error_maps,
-    events, keys, plans, quality, readings, retract, robots, run_table, scans, sessions, stop, training, users,
-    versions, wire,
+    events, keys, plans, quality, readings, retract, robots, run_table, scans, sessions, stop, training,
+    users, versions, wire,
 )  # fmt: skip
 LIVE_ROUTES = (live,)
 TOP_ROUTES = (metrics,)
