@@ -86,9 +86,10 @@ class ChartLines(Record):
 
 
 class Trend(Record):
-    """The runs of one robot in their order, with the charts of each quantity."""
+    """Runs in their order, with the charts of each quantity."""
 
-    robot_serial: str
+    robot_serial: str | None
+    """Null: of all robots of the station."""
     items: tuple[TrendPoint, ...]
     """Calibrations, and between them what was applied or rolled back."""
     dtheta1: ChartLines
@@ -128,8 +129,8 @@ def quality(points: Sequence[TrendPoint], *, zero_offset_deg: float, position_er
     )
 
 
-def trend(robot_serial: str, points: Sequence[TrendPoint]) -> Trend:
-    """The points of one robot, with charts over those that measured something."""
+def trend(robot_serial: str | None, points: Sequence[TrendPoint]) -> Trend:
+    """The points of one robot, or of all where there is no serial, with charts over those that measured."""
     return Trend(
         robot_serial=robot_serial,
         items=tuple(points),

@@ -32,6 +32,16 @@ def read_quality(
     return quality(points, zero_offset_deg=wanted.zero_offset_deg, position_error_mm=wanted.position_error_mm)
 
 
+@router.get("/trend", response_model=Trend, dependencies=[needs(Permission.READ)])
+def read_station_trend(
+    runtime: TheRuntime,
+    since: Annotated[Moment | None, Query(description="ended then or later")] = None,
+    limit: Annotated[int, Query(ge=1, le=5000)] = 200,
+) -> Trend:
+    """The newest finished runs of all robots, oldest first, with control charts."""
+    return trend(None, runtime.store.trend(limit=limit, since=since, kinds=IN_TREND))
+
+
 @router.get(
     "/robots/{serial:path}/trend",
     response_model=Trend,

@@ -8,6 +8,7 @@ import type {
   ErrorMap,
   PlanDocument,
   Problem,
+  Quality,
   RefusedScan,
   ResidualList,
   Robot,
@@ -18,6 +19,7 @@ import type {
   Stopped,
   Summary,
   Target,
+  Trend,
 } from "./types";
 
 const TIMEOUT_MS = 8000;
@@ -164,6 +166,16 @@ export const separate = (id: number, operator: string, key: string) =>
 
 export const calibrations = (query: URLSearchParams) =>
   call<CalibrationList>("GET", `/calibrations?${query}`);
+
+export const countRuns = (query: URLSearchParams) =>
+  call<{ count: number }>("GET", `/calibrations/count?${query}`);
+
+/** Outcomes of the newest runs of one robot, or of all. */
+export const quality = (serial: string | null) =>
+  call<Quality>("GET", `/quality${serial ? `?robot_serial=${encodeURIComponent(serial)}` : ""}`);
+
+export const trend = (serial: string | null) =>
+  call<Trend>("GET", serial ? `/robots/${encodeURIComponent(serial)}/trend` : "/trend");
 
 /** A key of its own for each confirmed start, so that pressing again after a lost answer is still one run. */
 export function newKey(): string {

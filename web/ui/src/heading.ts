@@ -10,7 +10,7 @@ export function followHeading(main: HTMLElement): () => void {
     document.title = heading ? `${heading.textContent} – ${t.title}` : t.title;
     if (!changed || !heading || main.contains(document.activeElement)) return;
     heading.tabIndex = -1;
-    heading.focus();
+    heading.focus({ preventScroll: true });
   };
   // the heading of a view that waits for its data is replaced; who has gone on meanwhile is left alone
   const goesOn = () => {

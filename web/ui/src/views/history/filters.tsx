@@ -15,9 +15,20 @@ export function Filters() {
         <label for="filter-serial">{t.history.serial}</label>
         <input
           id="filter-serial"
-          value={filters.get("robot_serial") ?? ""}
+          value={filters.get("search") ?? filters.get("robot_serial") ?? ""}
+          maxLength={64}
           spellcheck={false}
-          onChange={(event) => set("robot_serial", event.currentTarget.value.trim())}
+          onChange={(event) => set("search", event.currentTarget.value.trim())}
+        />
+      </p>
+      <p class="field">
+        <label for="filter-order">{t.history.workOrder}</label>
+        <input
+          id="filter-order"
+          value={filters.get("work_order") ?? ""}
+          maxLength={64}
+          spellcheck={false}
+          onChange={(event) => set("work_order", event.currentTarget.value.trim())}
         />
       </p>
       <Choice name="state" label={t.history.state} options={t.states} value={filters.get("state") ?? ""} />
@@ -27,6 +38,17 @@ export function Filters() {
         options={VERDICTS}
         value={filters.get("verdict") ?? ""}
       />
+      <p class="field">
+        <label for="filter-sort">{t.history.sort}</label>
+        <select
+          id="filter-sort"
+          value={filters.get("order") ?? ""}
+          onChange={(event) => set("order", event.currentTarget.value)}
+        >
+          <option value="">{t.history.newestFirst}</option>
+          <option value="oldest">{t.history.oldestFirst}</option>
+        </select>
+      </p>
       <Day name="since" label={t.history.from} value={filters.get("since") ?? ""} />
       <Day name="until" label={t.history.to} value={filters.get("until") ?? ""} />
     </form>

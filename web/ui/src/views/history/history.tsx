@@ -1,26 +1,58 @@
-/** Every run, newest first.  Filters and page live in the address. */
-import { calibrations } from "../../api";
+/** Every run.  Filters, order, page, comparison and charts live in the address. */
+import { useEffect } from "preact/hooks";
+import { calibrations, countRuns } from "../../api";
+import { K } from "../../format";
 import { station } from "../../live";
 import { t } from "../../messages";
+import { Link } from "../../parts/link";
 import { useLoaded } from "../../parts/load";
-import { navigate, query } from "../../router";
-import { address, newest, older, toApi } from "./address";
+import { navigate, query, scrolledTo } from "../../router";
+import { address, newest, older, showing, toApi, toWholeList } from "./address";
+import { Compare } from "./compare";
 import { Filters } from "./filters";
+import { Process } from "./process";
 import { RunRow } from "./run-row";
 
 export function HistoryView() {
   const filters = query.value;
   // asked again when a run starts or ends
   const latest = `${station.value?.run?.id} ${station.value?.last?.id}`;
-  const { value: page, trouble } = useLoaded(`${filters} ${latest}`, () =>
+  const { value: page, trouble } = useLoaded(`${toApi(filters)} ${latest}`, () =>
     calibrations(toApi(filters)),
   ).value;
+  const { value: counted } = useLoaded(`${toWholeList(filters)} ${latest}`, () =>
+    countRuns(toWholeList(filters)),
+  ).value;
   const next = page?.next ?? null;
+  const shown = page !== null;
+  useEffect(() => {
+    if (shown && scrolledTo > 0) scrollTo(0, scrolledTo);
+  }, [shown]);
+  const charts = filters.get("show") === "process";
   return (
     <div class="history">
       <h1 class="hidden">{t.history.title}</h1>
       <Filters />
+      <Compare a={filters.get("a")} b={filters.get("b")} />
+      {charts && <Process serial={filters.get("robot_serial")} latest={latest} />}
       <section class="panel list">
+        <p class="actions found">
+          <strong role="status">{counted && t.history.found(counted.count)}</strong>
+          <Link
+            class="button"
+            to={address(showing(filters, "show", charts ? null : "process"))}
+            current={charts}
+          >
+            {t.history.process}
+          </Link>
+          <a
+            class="button"
+            href={`/api/v1/calibrations.csv?${toWholeList(filters, "order")}`}
+            download="runs.csv"
+          >
+            {t.history.listCsv}
+          </a>
+        </p>
         <div class="scroll" tabIndex={0} role="region" aria-label={t.history.runs}>
           <table>
             <Head />
@@ -38,20 +70,21 @@ export function HistoryView() {
                 : t.shared.loading}
           </p>
         </div>
+        <p class="note">{t.shared.expanded(K)}</p>
         <p class="actions">
           <button
             type="button"
             disabled={!filters.has("cursor")}
             onClick={() => navigate(address(newest(filters)))}
           >
-            {t.history.newest}
+            {t.history.firstPage}
           </button>
           <button
             type="button"
             disabled={next === null}
             onClick={() => next !== null && navigate(address(older(filters, next)))}
           >
-            {t.history.older}
+            {t.history.nextPage}
           </button>
         </p>
       </section>
@@ -71,12 +104,18 @@ function Head() {
           {t.history.robot}
         </th>
         <th scope="col" class="text">
+          {t.history.workOrder}
+        </th>
+        <th scope="col" class="text">
           {t.history.outcome}
         </th>
         <th scope="col">{t.history.offset(1)}</th>
         <th scope="col">{t.history.offset(2)}</th>
         <th scope="col" class="text">
           {t.history.readings}
+        </th>
+        <th scope="col" class="text">
+          {t.history.compare}
         </th>
       </tr>
     </thead>

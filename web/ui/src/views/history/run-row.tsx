@@ -4,7 +4,9 @@ import { runKind } from "../../names";
 import { Link } from "../../parts/link";
 import { Badge } from "../../parts/verdict";
 import { reasonText } from "../../reason";
+import { navigate, query } from "../../router";
 import type { Summary } from "../../types";
+import { address, comparing, showing } from "./address";
 
 /** One run in the history. */
 export function RunRow({ run }: { run: Summary }) {
@@ -16,7 +18,12 @@ export function RunRow({ run }: { run: Summary }) {
         </Link>
       </td>
       <td class="text">{dateTime(run.started_at ?? run.created_at)}</td>
-      <td class="text serial">{run.robot_serial}</td>
+      <td class="text serial">
+        <Link class="cell" to={address(showing(ofRobot(run.robot_serial), "show", "process"))}>
+          {run.robot_serial}
+        </Link>
+      </td>
+      <td class="text serial">{run.work_order ?? MISSING}</td>
       <td class="text outcome-cell">
         <span class="badges">
           <Badge run={run} />
@@ -36,9 +43,21 @@ export function RunRow({ run }: { run: Summary }) {
           {t.history.csv}
         </a>
       </td>
+      <td class="text">
+        <button
+          type="button"
+          aria-pressed={[query.value.get("a"), query.value.get("b")].includes(String(run.id))}
+          aria-label={t.history.compareLabel(run.id)}
+          onClick={() => navigate(address(comparing(query.value, run.id)), { replace: true })}
+        >
+          {t.history.compareWith}
+        </button>
+      </td>
     </tr>
   );
 }
+
+const ofRobot = (serial: string) => new URLSearchParams({ robot_serial: serial });
 
 /** A calibration is what is expected; everything else is named. */
 function whatItDid({ kind, of }: Summary): string {
