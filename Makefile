@@ -7,7 +7,7 @@ PAGE := $(shell find web/ui \( -name node_modules -o -name tests -o -name api-ty
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 NPM := $(BIN)/python deploy/node.py
 
-.PHONY: run test coverage record lint format bench mutate reference lock clean
+.PHONY: run test coverage record lint format bench mutate reference lock bundle clean
 
 run: $(VENV)/installed  ## install and start the service on the emulated rig; prints the address
 	$(BIN)/station serve
@@ -55,8 +55,11 @@ reference: $(VENV)/installed-for-tests  ## docs/reference and web/openapi.json, 
 lock: $(VENV)/installed-for-tests  ## newest versions that fit, with hashes
 	deploy/lock $(BIN)
 
+bundle: $(VENV)/installed  ## dist/bundle, which installs on a computer without internet
+	deploy/bundle $(BIN) dist/bundle
+
 clean:
-	rm -rf $(VENV) web/static web/ui/node_modules
+	rm -rf $(VENV) dist web/static web/ui/node_modules
 
 $(VENV)/bin/python:
 	@echo "Making a virtual environment in $(VENV)"
