@@ -636,6 +636,10 @@ export const de: Messages = {
     compareLabel: (id) => `Lauf ${id} vergleichen`,
     comparison: "Zwei Läufe im Vergleich",
     chooseSecond: (id) => `Lauf ${id} ist gewählt. Wählen Sie in der Liste einen zweiten.`,
+    mapDifference: (b, a) => `Positionsfehler, 95-%-Grenze: Lauf ${b} minus Lauf ${a}`,
+    largestDifference: (mm) => `Größter Unterschied: ${mm} mm. Hell: Der zweite Lauf hinterlässt mehr.`,
+    otherWorkspace:
+      "Die Arbeitsräume der beiden Läufe sind verschieden: Ihre Karten sind nicht vergleichbar.",
     endComparison: "Vergleich beenden",
     quantity: "Größe",
     runOf: (id, serial) => `Lauf ${id}, ${serial}`,

@@ -6,7 +6,9 @@ import { Link } from "../../parts/link";
 import { useLoaded } from "../../parts/load";
 import { navigate, query } from "../../router";
 import type { Calibration } from "../../types";
+import { hasMap } from "../result/error-maps";
 import { address, showing } from "./address";
+import { MapDifference } from "./map-difference";
 
 export function Compare({ a, b }: { a: string | null; b: string | null }) {
   if (a === null) return null;
@@ -31,6 +33,16 @@ function Both({ a, b }: { a: string; b: string }) {
   ).value;
   if (!runs) return <p role="status">{trouble ?? t.shared.loading}</p>;
   const [first, second] = runs;
+  return (
+    <>
+      <Numbers first={first} second={second} />
+      {hasMap(first) && hasMap(second) && <MapDifference a={first.id} b={second.id} />}
+    </>
+  );
+}
+
+function Numbers({ first, second }: { first: Calibration; second: Calibration }) {
+  const runs = [first, second];
   return (
     <div class="scroll" tabIndex={0} role="region" aria-label={t.history.comparison}>
       <table>

@@ -48,3 +48,9 @@ export function scaleOf(values: number[]): Scale {
     ticks: ticks.filter((tick) => tick >= low && tick <= high),
   };
 }
+
+/** From -most to +most in even steps; the middle is no difference. */
+export function evenScale(most: number): Scale {
+  const size = most > 0 ? most : 1;
+  return { low: -size, high: size, share: (mm) => (mm + size) / (2 * size), ticks: [-size, 0, size] };
+}
