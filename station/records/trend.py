@@ -28,3 +28,5 @@ class TrendPoint(Record):
     dtheta2_sd_deg: float | None = None
     position_error_mm: float | None = None
     """95 % bound of the largest position error, of runs that fresh readings verified; null for others."""
+    software: str | None = None
+    """Version that measured; null where it was not recorded."""

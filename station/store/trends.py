@@ -41,8 +41,9 @@ class Trends(KeptFile):
             bounds.append(millis(since))
         rows = self._readers.all(
             "SELECT id, uid, robot_serial, kind, plan, state, verdict, outcome, reason_code, ended_ms,"
-            f" zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg, {POSITION_ERROR} AS position_error_mm"
-            " FROM calibrations LEFT JOIN results ON calibration_id = id"
+            f" zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg, {POSITION_ERROR} AS position_error_mm,"
+            " json_extract(what, '$.software') AS software"
+            " FROM calibrations LEFT JOIN results ON calibration_id = id LEFT JOIN made_by ON run_id = id"
             f" WHERE {' AND '.join(conditions)} ORDER BY id DESC LIMIT ?",
             [*values, *bounds, limit],
         )
@@ -59,4 +60,5 @@ def _point(row: sqlite3.Row) -> TrendPoint:
         dtheta2_deg=row["zero2_deg"],
         dtheta2_sd_deg=row["zero2_sd_deg"],
         position_error_mm=row["position_error_mm"],
+        software=row["software"],
     )

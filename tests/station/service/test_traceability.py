@@ -60,6 +60,7 @@ def test_a_run_on_a_scale_past_its_date_is_no_pass_and_says_what_made_it(start: 
     found = store.made_by(run)
     assert found is not None and found.scale_certificate is not None
     assert (found.software, found.scale_certificate.scale) == (__version__, "SN 4711")
+    assert [point.software for point in store.trend(limit=9)] == [__version__]
     assert found.libraries.keys() == {"python", "numpy", "scipy"}
     assert [device.name for device in found.devices] == ["scale", "axis 1", "axis 2"]
     assert store.verify().broken is None

@@ -640,6 +640,7 @@ export const de: Messages = {
     largestDifference: (mm) => `Größter Unterschied: ${mm} mm. Hell: Der zweite Lauf hinterlässt mehr.`,
     otherWorkspace:
       "Die Arbeitsräume der beiden Läufe sind verschieden: Ihre Karten sind nicht vergleichbar.",
+    version: (version) => `Version ${version}`,
     endComparison: "Vergleich beenden",
     quantity: "Größe",
     runOf: (id, serial) => `Lauf ${id}, ${serial}`,

@@ -661,6 +661,7 @@ export const en = {
     mapDifference: (b: number, a: number) => `Position error, 95 % bound: run ${b} less run ${a}`,
     largestDifference: (mm: string) => `Largest difference: ${mm} mm. Light: the second run leaves more.`,
     otherWorkspace: "The workspaces of the two runs differ: their maps cannot be compared.",
+    version: (version: string) => `version ${version}`,
     endComparison: "End comparison",
     quantity: "Quantity",
     runOf: (id: number, serial: string) => `Run ${id}, ${serial}`,

@@ -565,6 +565,7 @@ export const zh: Messages = {
     mapDifference: (b, a) => `位置误差 95 % 上限：运行 ${b} 减运行 ${a}`,
     largestDifference: (mm) => `最大差值：${mm} mm。浅色：第二次运行的误差更大。`,
     otherWorkspace: "两次运行的工作空间不同：其误差图无法比较。",
+    version: (version) => `版本 ${version}`,
     endComparison: "结束比较",
     quantity: "量",
     runOf: (id, serial) => `运行 ${id}，${serial}`,

@@ -55,6 +55,10 @@ export function trendOption(moved: Trend, of: Charted, unit: string) {
       xAxis: id,
       label: { formatter: t.history.marks[kind as "apply" | "rollback"], rotate: 0 },
     }));
+  const versions = changes(moved).map(({ id, software }) => ({
+    xAxis: id,
+    label: { formatter: t.history.version(software), rotate: 0 },
+  }));
   const marks = (data: object[]) => ({
     silent: true,
     symbol: "none",
@@ -109,6 +113,7 @@ export function trendOption(moved: Trend, of: Charted, unit: string) {
           ...level(lines.low, true),
           ...level(lines.high, true),
           ...written,
+          ...versions,
         ]),
       },
       {
@@ -123,4 +128,10 @@ export function trendOption(moved: Trend, of: Charted, unit: string) {
       },
     ],
   };
+}
+
+/** The first run of each further version of the program, of those that say which it was. */
+export function changes({ items }: Pick<Trend, "items">): { id: number; software: string }[] {
+  const known = items.flatMap(({ id, software }) => (software ? [{ id, software }] : []));
+  return known.filter(({ software }, n) => n > 0 && software !== known[n - 1]!.software);
 }

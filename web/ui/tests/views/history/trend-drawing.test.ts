@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 import type { Trend } from "../../../src/types";
-import { trendOption } from "../../../src/views/history/trend-drawing";
+import { changes, trendOption } from "../../../src/views/history/trend-drawing";
 
 const NO_LINES = {
   centre: null,
@@ -49,4 +49,10 @@ it("draws values above their moving range, marks broken rules by shape, and what
   expect([symbol([1, 0.5]), symbol([2, 0.7])]).toEqual(["circle", "diamond"]);
   expect(values?.markLine.data).toContainEqual(expect.objectContaining({ xAxis: 3 }));
   expect(values?.markLine.data).toHaveLength(4);
+});
+
+it("marks the first run of another version, of those that say which", () => {
+  const versions = ["0.1.0", null, "0.1.0", "0.2.0", "0.2.0"];
+  const items = versions.map((software, n) => ({ ...item(n + 1, 0.5), software }) as Trend["items"][number]);
+  expect(changes({ items })).toEqual([{ id: 4, software: "0.2.0" }]);
 });
