@@ -51,7 +51,7 @@ def test_stop_is_whole_and_nothing_scrolls_sideways(
 
 def test_charts_shrink_with_the_window(page: Page, station: Station, run: int) -> None:
     page.set_viewport_size({"width": 1920, "height": 1080})
-    page.goto(f"{station.url}/result/{run}")
+    page.goto(f"{station.url}/result/{run}?open=residuals")
     chart = page.locator(".chart svg").first
     expect(chart).to_be_visible()
     page.set_viewport_size({"width": 1024, "height": 768})
@@ -62,7 +62,7 @@ def test_charts_shrink_with_the_window(page: Page, station: Station, run: int) -
 
 
 def test_paper_has_neither_navigation_nor_stop(page: Page, station: Station, run: int) -> None:
-    page.goto(f"{station.url}/result/{run}")
+    page.goto(f"{station.url}/result/{run}?open=residuals")
     expect(page.locator(".chart svg").first).to_be_visible()
     page.emulate_media(media="print")
     for name in ("STOP", "Apply to drives"):

@@ -52,7 +52,6 @@ def test_scan_repair_calibrate_apply_and_certify(page: Page, serve: Serve) -> No
     station.api.post("/emulator/training/repair").raise_for_status()
     next_step(page, "Repaired: measure again")
     expect(page.locator(".decision")).to_contain_text("GOOD", timeout=RUN_LIMIT_MS)
-    next_step(page, "Calibrate")
     expect(page.get_by_role("button", name="Apply to drives")).to_be_visible(timeout=RUN_LIMIT_MS)
     expect(page.locator(".decision")).to_contain_text("GOOD: position error at most")
     run = shown_run(page)

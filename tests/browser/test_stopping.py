@@ -15,7 +15,8 @@ ON_TOP = """button => {
   return inside && box.height >= 64 && button.contains(top) && !button.disabled;
 }"""
 CUT_OFF = """() => [...document.querySelectorAll('body *')].filter(element => {
-  if (element.closest('.hidden, [hidden], svg')) return false;
+  // a wide table scrolls within its own region
+  if (element.closest('.hidden, [hidden], svg, [role=region].scroll')) return false;
   const box = element.getBoundingClientRect();
   if (box.width && (box.left < -1 || box.right > document.documentElement.clientWidth + 1)) return true;
   return element.scrollWidth > element.clientWidth + 1 && getComputedStyle(element).overflowX !== 'visible';

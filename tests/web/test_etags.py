@@ -9,15 +9,19 @@ from tests.web.conftest import Service
 RUNS = "/api/v1/calibrations"
 
 
+def strong(tag: str) -> str:
+    return tag.removeprefix("W/")
+
+
 @pytest.mark.parametrize("form", ["", "/readings", "/readings.csv"])
 def test_what_the_client_has_is_not_sent_again(service: Service, form: str) -> None:
     path = f"{RUNS}/{service.complete()}{form}"
     first = service.client.get(path)
-    tag = first.headers["etag"]
+    tag = strong(first.headers["etag"])  # a packed answer has a weak one
     assert tag.startswith('"') and "no-store" not in first.headers["cache-control"]
     for known in (tag, f"W/{tag}", f'"other", {tag}', "*"):
         again = service.client.get(path, headers={"If-None-Match": known})
-        assert (again.status_code, again.content, again.headers["etag"]) == (304, b"", tag), known
+        assert (again.status_code, again.content, strong(again.headers["etag"])) == (304, b"", tag), known
         assert again.headers["x-content-type-options"] == "nosniff"
         assert "content-type" not in again.headers
     assert service.client.get(path, headers={"If-None-Match": '"other"'}).content == first.content
