@@ -18,8 +18,8 @@ def open_station(page: Page, station: Station) -> None:
     expect(page.locator("header")).to_contain_text("connected")
 
 
-SCANNER_MS = 0
-"""From one key of a scanner to the next; the driver of the browser adds a few of its own."""
+SCANNER_MS = 5
+"""From one key of a scanner to the next."""
 HOLD_MS = 1200
 """Longer than what confirms has to be held."""
 

@@ -52,7 +52,7 @@ def test_a_scan_replaces_the_serial_wherever_the_focus_is(page: Page, station: S
     expect(page.get_by_role("alert").filter(has_text="Not a serial: FB 8")).to_be_visible()
     expect(page.get_by_label("Robot serial")).to_have_value("FB-6")
     place.focus()
-    scan(page, "FB-7", end="Tab", delay=5)
+    scan(page, "FB-7", end="Tab")
     expect(page.get_by_label("Robot serial")).to_have_value("FB-7")
     expect(page.get_by_label("Operator")).to_have_value("ada")
     expect(page.get_by_label("Wanted accuracy")).to_have_value("")

@@ -109,7 +109,8 @@ export class Burst {
 /** Answers every scan anywhere in the document. */
 export function listen(scanned: (scan: Scan) => void): () => void {
   const burst = new Burst();
-  let before = fieldNow();
+  /** Every field that had the focus since the first key: the page may move it while a scan arrives. */
+  let touched: NonNullable<ReturnType<typeof fieldNow>>[] = [];
   let blankSwallowed = false;
   const swallow = (event: KeyboardEvent) => {
     event.preventDefault();
@@ -117,7 +118,9 @@ export function listen(scanned: (scan: Scan) => void): () => void {
   };
   const pressed = (event: KeyboardEvent) => {
     const meaning = burst.take(event);
-    if (burst.began) before = fieldNow();
+    if (burst.began) touched = [];
+    const here = fieldNow();
+    if (here && !touched.some(({ field }) => field === here.field)) touched.push(here);
     if (meaning === null) return;
     if (meaning === "machine") {
       // a blank presses buttons, letters choose from lists; in a text they may still be a person's
@@ -127,8 +130,8 @@ export function listen(scanned: (scan: Scan) => void): () => void {
       return;
     }
     swallow(event);
-    before?.restore();
-    scanned({ ...meaning, secret: before?.secret ?? false });
+    for (const { restore } of touched) restore();
+    scanned({ ...meaning, secret: touched.some(({ secret }) => secret) });
   };
   // one browser presses a button when the blank is let go
   const released = (event: KeyboardEvent) => {
@@ -154,6 +157,7 @@ function fieldNow() {
   if (!isField(field)) return null;
   const { value } = field;
   return {
+    field,
     secret: field instanceof HTMLInputElement && field.type === "password",
     restore: () => {
       if (field.value === value) return;
