@@ -144,6 +144,17 @@ describe("listening", () => {
     expect(found).toHaveBeenCalledWith({ text: "FB-7", readable: true, secret: false });
   });
 
+  it("takes it back in every field that had the focus while it arrived", () => {
+    document.body.innerHTML = "<input value='0.5'><input value='FB-6'>";
+    const [first, second] = [...document.querySelectorAll("input")];
+    first!.focus();
+    for (const c of "FB") key(c);
+    second!.focus();
+    scan("-7");
+    expect([first!.value, second!.value]).toEqual(["0.5", "FB-6"]);
+    expect(found).toHaveBeenCalledWith({ text: "FB-7", readable: true, secret: false });
+  });
+
   it("says when a secret was being typed", () => {
     const field = focused("<input type='password' value='12'>");
     scan("FB-7");
