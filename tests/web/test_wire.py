@@ -71,7 +71,8 @@ def test_a_run_without_a_log_says_so(service: Service) -> None:
 def newest_step() -> str:
     """The last step of the file of migrations."""
     source = Path(station.store.__file__).with_name("migrations.py").read_text(encoding="utf-8")
-    return re.findall(r"@migrations\(\)\ndef (\w+)", source)[-1]
+    steps: list[str] = re.findall(r"@migrations\(\)\ndef (\w+)", source)
+    return steps[-1]
 
 
 def test_versions_name_program_tables_and_libraries(service: Service) -> None:
