@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import hashlib
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
-
 from station.certificate.facts import CertificateFacts
 from station.certificate.map_drawing import COLOURS, drawing_of, significant
 from station.certificate.qr import modules
 from station.certificate.sheet import Sheet
 from station.messages import local_number
+from station.report import environment
 
 CONTENT_SECURITY_POLICY = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
 """Of the page: no script at all, and nothing from anywhere."""
@@ -20,24 +19,21 @@ _END = "</body>"
 
 def html_page(sheet: Sheet, facts: CertificateFacts) -> str:
     """Without the document."""
-    environment = Environment(
-        loader=PackageLoader("station.certificate", ""),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
     drawing = drawing_of(facts.error_map) if facts.error_map else None
     side, dark = modules(facts.robot_serial)
     ends = [drawing.edges_mm[0], drawing.edges_mm[-1]] if drawing else []
-    return environment.get_template("certificate.html.j2").render(
-        sheet=sheet,
-        serial=facts.robot_serial,
-        drawing=drawing,
-        colours=COLOURS,
-        ends=[local_number(end, significant(end), sheet.language) for end in ends],
-        qr_side=side,
-        qr_dark=dark,
+    return (
+        environment("station.certificate")
+        .get_template("certificate.html.j2")
+        .render(
+            sheet=sheet,
+            serial=facts.robot_serial,
+            drawing=drawing,
+            colours=COLOURS,
+            ends=[local_number(end, significant(end), sheet.language) for end in ends],
+            qr_side=side,
+            qr_dark=dark,
+        )
     )
 
 

@@ -13,7 +13,6 @@ from rich.box import SIMPLE
 from rich.console import Console
 from rich.table import Table
 
-from station.certificate import public_key_pem
 from station.cli.kept import at_terminal, config_option, kept, open_or_begin
 from station.errors import InputRefused
 from station.people import ROLES, Administration, NewUser, hashed_password
@@ -131,6 +130,8 @@ def add_key(home: Path, name: str, role: Role, days: float | None, config: Path 
 @click.pass_obj
 def public_key(home: Path) -> None:
     """Print the public key that the certificates of this station are checked with."""
+    from station.certificate import public_key_pem  # here, because it takes seconds to load
+
     click.echo(public_key_pem(home), nl=False)
 
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from station.quality.capability import Limits, cpk, ppk
+from station.quality.capability import K95, Limits, cpk, ppk
 from station.quality.control_chart import RULE_TEXTS
 from station.quality.crossed_anova import GaugeStudy, gauge_study
 from station.quality.parquet import Exported, export_parquet
 from station.quality.process import Figure, Quality, Trend, quality, trend
 
 __all__ = [
+    "K95",
     "RULE_TEXTS",
     "Exported",
     "Figure",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from station.report.page import Chart, Page, Section, Table
 from station.report.svg import Series, bar, line, place_map, scatter, standalone
+from station.report.templates import environment
 
 __all__ = [
     "Chart",
@@ -12,6 +13,7 @@ __all__ = [
     "Series",
     "Table",
     "bar",
+    "environment",
     "line",
     "place_map",
     "scatter",

@@ -1,4 +1,4 @@
-"""The templates of this package; everything put into them is escaped."""
+"""The templates of a package; everything put into them is escaped."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 
 
 @cache
-def environment() -> Environment:
-    """Loaded once."""
+def environment(package: str = "station.report") -> Environment:
+    """Loaded once for each package that has templates."""
     return Environment(
-        loader=PackageLoader("station.report", ""),
+        loader=PackageLoader(package, ""),
         autoescape=True,
         undefined=StrictUndefined,
         trim_blocks=True,

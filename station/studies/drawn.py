@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
 from station.five_bar import SIZE, FiveBar, Robot, Tolerances, inverse, perturbed
 from station.identification import Identification
-from station.records import Real
+from station.plans import make_plan
+from station.records import Complex, PlanName, Real, Stop
 from station.studies.simulation import SimulatedMachine, true_positions
 
 LARGEST_ZERO_OFFSET_DEG = 3.0
@@ -42,13 +45,28 @@ class Drawn:
 
     def largest_errors_mm(self, fit: Identification[FiveBar]) -> tuple[float, float]:
         """Over the workspace: with the zeros in the drives only, and with the commands of the model."""
-        target = self.robot.workspace_grid(*GRID)
-        identified = fit.p[:SIZE]
-        largest = []
-        for geometry in (self.robot.geometry, perturbed(self.robot.geometry, identified)):
-            theta = inverse(geometry, target) - fit.dtheta
-            largest.append(float(np.abs(true_positions(self.robot, self.truth, theta) - target).max()))
-        return largest[0], largest[1]
+        return largest_errors_mm(self.robot, fit, lambda theta: true_positions(self.robot, self.truth, theta))
+
+
+def largest_errors_mm(
+    robot: Robot, fit: Identification[FiveBar], stand: Callable[[Real], Complex]
+) -> tuple[float, float]:
+    """As `Drawn.largest_errors_mm`.
+
+    :param stand: where P truly is, (K,) mm, with the drives at angles (K, 2), rad
+    """
+    target = robot.workspace_grid(*GRID)
+    largest = []
+    for geometry in (robot.geometry, perturbed(robot.geometry, fit.p[:SIZE])):
+        theta = inverse(geometry, target) - fit.dtheta
+        largest.append(float(np.abs(stand(theta) - target).max()))
+    return largest[0], largest[1]
+
+
+@cache
+def stops_of(plan: PlanName, tolerance_mm: float) -> tuple[Stop, ...]:
+    """Of a plan, for the robot made to a tolerance."""
+    return make_plan(plan, robot_of(tolerance_mm)).stops
 
 
 def zero_offsets(rng: np.random.Generator) -> Real:

@@ -21,6 +21,8 @@ from station.plans import diagnostic_fresh_stops, make_plan
 from station.records import Complex, Measurements, Real, Stop, number
 
 ROOM_C = 20.0
+SAMPLES = 5
+"""Of a reading, as a station takes them."""
 RUN_UP_DEG = 0.5
 """As `overshoot_deg` of a station file."""
 Servo = Literal["exact", "whole pulses", "continuous"]

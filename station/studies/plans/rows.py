@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from datetime import UTC, datetime
-from functools import cache
 
 import numpy as np
 
 from station.five_bar import FiveBar, Robot
 from station.identification import Identification, bounds_mm, identify
-from station.plans import USUAL, make_plan
-from station.records import AnyReference, JointAngle, MountingError, PlanName, Remembered, Stop
+from station.plans import USUAL
+from station.records import AnyReference, JointAngle, MountingError, PlanName, Remembered
 from station.run_kinds import adaptive_run, check_run, fit_in_sequence
-from station.studies.drawn import Drawn, drawn, robot_of
-from station.studies.plans.walked import SAMPLES, walk
+from station.studies.drawn import Drawn, drawn, robot_of, stops_of
+from station.studies.plans.walked import walk
+from station.studies.simulation import SAMPLES
 
 LEVEL_SD_DEG, MOUNTING_SD_MM = 0.005, 0.02
 REMOUNT_MM, LINK_MM = 1.0, 0.3
@@ -81,7 +81,7 @@ def calibrated(item: tuple[float, int]) -> dict[str, Kept]:
         ),
     )
     readings = {
-        plan: machine.machine(number).run(_stops(item[0], plan), SAMPLES)
+        plan: machine.machine(number).run(stops_of(plan, item[0]), SAMPLES)
         for number, plan in enumerate(("full", "rapid"))
     }
     out = {}
@@ -94,7 +94,7 @@ def calibrated(item: tuple[float, int]) -> dict[str, Kept]:
 def struck(item: tuple[float, int]) -> Struck:
     """A full run, a collision, plan `adaptive`; and once more with a memory that is wrong."""
     robot, machine, rng = _machine(item)
-    before = identify(robot, machine.machine().run(_stops(item[0], "full"), SAMPLES))
+    before = identify(robot, machine.machine().run(stops_of("full", item[0]), SAMPLES))
     memory = Remembered(1, datetime.now(UTC), before.lasting.record())
     wish_mm = WISH * bounds_mm(before)[0]
     after = machine.struck(rng)
@@ -125,7 +125,7 @@ def struck(item: tuple[float, int]) -> Struck:
 def checked(item: tuple[float, int]) -> Checked:
     """A full run, then plan `check` twice."""
     robot, machine, rng = _machine(item)
-    fit = identify(robot, machine.machine().run(_stops(item[0], "full"), SAMPLES))
+    fit = identify(robot, machine.machine().run(stops_of("full", item[0]), SAMPLES))
     still = walk(check_run(fit, 0.0, TOMORROW), machine.machine(1)).result
     assert still.check is not None
     joint = int(rng.integers(2))
@@ -138,11 +138,6 @@ def checked(item: tuple[float, int]) -> Checked:
 def _machine(item: tuple[float, int]) -> tuple[Robot, Drawn, np.random.Generator]:
     robot = robot_of(item[0])
     return robot, *drawn(robot, item[1])
-
-
-@cache
-def _stops(tolerance_mm: float, plan: PlanName) -> tuple[Stop, ...]:
-    return make_plan(plan, robot_of(tolerance_mm)).stops
 
 
 def _kept(machine: Drawn, fit: Identification[FiveBar]) -> Kept:

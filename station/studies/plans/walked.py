@@ -7,10 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from station.records import CalibrationResult, MeasurementSequence, Procedure, Reading
-from station.studies.simulation import SimulatedMachine
-
-SAMPLES = 5
-"""Of a reading, as a station takes them."""
+from station.studies.simulation import SAMPLES, SimulatedMachine
 
 
 @dataclass(frozen=True)

@@ -9,12 +9,11 @@ import numpy as np
 from scipy.stats import binomtest
 
 from station.five_bar import NAMES
-from station.quality import Limits, cpk, ppk
+from station.quality import K95, Limits, cpk, ppk
 from station.settings import QualitySettings
 from station.studies.population.one import Calibrated, quantiles
 
 Figures = dict[str, Any]
-_TWO_SIDED_95 = 1.959964
 _DIGITS = 9
 """Significant ones of a figure: more differ from one processor to another."""
 
@@ -38,7 +37,7 @@ def coverage(found: Sequence[Calibrated]) -> Figures:
     off = np.abs([one.off_sd for one in found])
     return {
         "machines": len(found),
-        "inside_95": {name: _share(off[:, k] <= _TWO_SIDED_95) for k, name in enumerate(NAMES)},
+        "inside_95": {name: _share(off[:, k] <= K95) for k, name in enumerate(NAMES)},
         "bound_95_holds": _share([one.largest_mm <= one.bound_mm for one in found]),
         "bound_95_by_model_holds": _share([one.by_model_mm <= one.bound_by_model_mm for one in found]),
         "refused_though_good": _share([not one.passed for one in found]),

@@ -4,16 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cache
 
 import numpy as np
 
 from station.errors import InputRefused
-from station.five_bar import SIZE, Robot, inverse, perturbed
+from station.five_bar import SIZE
 from station.identification import bounds_mm, fresh_stops, identify, verify
-from station.plans import make_plan
-from station.records import PlanName, Real, Stop
-from station.studies.drawn import GRID, drawn, robot_of
+from station.records import PlanName, Real
+from station.studies.drawn import drawn, largest_errors_mm, robot_of, stops_of
 from station.studies.engine import Engine
 from station.studies.population.physics import PlainMachine
 
@@ -68,12 +66,12 @@ def calibrated(case: Case) -> Calibrated | None:
     machine = PlainMachine(robot, truth)
     rng = np.random.default_rng([case.seed, 18])
     try:
-        fit = identify(robot, machine.read(_stops(case.plan, case.tolerance_mm), rng))
+        fit = identify(robot, machine.read(stops_of(case.plan, case.tolerance_mm), rng))
     except InputRefused:
         return None
     check = verify(fit, machine.read(fresh_stops(fit), rng))
     bound, bound_by_model = bounds_mm(fit)
-    largest, by_model = _largest_errors_mm(robot, machine, fit.p, fit.dtheta)
+    largest, by_model = largest_errors_mm(robot, fit, machine.stand)
     error = fit.p[:SIZE] - truth
     return Calibrated(
         off_sd=error / np.sqrt(np.diag(fit.covariance)[:SIZE]),
@@ -85,21 +83,6 @@ def calibrated(case: Case) -> Calibrated | None:
         bound_by_model_mm=bound_by_model,
         passed=fit.adequate and check.passed,
     )
-
-
-def _largest_errors_mm(robot: Robot, machine: PlainMachine, p: Real, dtheta: Real) -> tuple[float, float]:
-    target = robot.workspace_grid(*GRID)
-    wanted = np.stack([target.real, target.imag], axis=-1)
-    largest = []
-    for geometry in (robot.geometry, perturbed(robot.geometry, p[:SIZE])):
-        off = machine.stand(inverse(geometry, target) - dtheta) - wanted
-        largest.append(float(np.hypot(off[:, 0], off[:, 1]).max()))
-    return largest[0], largest[1]
-
-
-@cache
-def _stops(plan: PlanName, tolerance_mm: float) -> tuple[Stop, ...]:
-    return make_plan(plan, robot_of(tolerance_mm)).stops
 
 
 def quantiles(values: Sequence[float] | Real) -> dict[str, float]:

@@ -12,10 +12,9 @@ import numpy as np
 
 from drivers.emulated.spec import MachineSpec
 from station.five_bar import Robot
-from station.records import Measurements, Real, Stop, number
+from station.records import Complex, Measurements, Real, Stop, number
+from station.studies.simulation import SAMPLES
 
-SAMPLES = 5
-"""Of a reading, as a station takes them."""
 _SPEC = MachineSpec()
 _BETWEEN_S = 4.0
 """From one reading to the next."""
@@ -28,8 +27,8 @@ class PlainMachine:
     robot: Robot
     truth: Real
 
-    def stand(self, theta: Real) -> Real:
-        """(K, 2) mm, where P is with the drives at theta (K, 2), rad."""
+    def stand(self, theta: Real) -> Complex:
+        """(K,) mm, where P is with the drives at theta (K, 2), rad."""
         turned = theta + self.truth[:2]
         base = np.array(self.robot.e) + self.truth[2:6].reshape(2, 2)
         arms = np.array(self.robot.L) + self.truth[6:8]
@@ -46,7 +45,8 @@ class PlainMachine:
             ]
         )
         lower = np.argmin(points[:, :, 1], axis=0)
-        return np.asarray(points[lower, np.arange(len(theta))])
+        at = points[lower, np.arange(len(theta))]
+        return np.asarray(at[:, 0] + 1j * at[:, 1])
 
     def read(self, stops: tuple[Stop, ...], rng: np.random.Generator) -> Measurements:
         """One reading at each stop, with the scatter of the servos and the noise of the head."""
@@ -54,15 +54,14 @@ class PlainMachine:
         commanded = (np.array([stop.theta_deg for stop in stops]) - zero_deg) * _SPEC.pulses_per_deg
         scatter = rng.normal(0.0, _SPEC.servo_error_pulses / 3, commanded.shape)
         theta = np.radians(zero_deg + np.round(np.round(commanded) + scatter) / _SPEC.pulses_per_deg)
-        foot = np.array(self.robot.c) + np.array(self.robot.d) + self.truth[10:]
-        from_foot = self.stand(theta) - foot
+        foot = complex(*np.array(self.robot.c) + np.array(self.robot.d) + self.truth[10:])
         noise = rng.normal(0.0, _SPEC.scale_noise_mm, (len(stops), SAMPLES)).mean(axis=1)
         return Measurements(
             ids=tuple(range(1, len(stops) + 1)),
             t_s=_BETWEEN_S * np.arange(1.0, len(stops) + 1),
             theta=theta,
             approach=np.array([stop.approach for stop in stops], dtype=np.int8),
-            distance=np.hypot(from_foot[:, 0], from_foot[:, 1]) - _SPEC.head_zero_mm + noise,
+            distance=np.abs(self.stand(theta) - foot) - _SPEC.head_zero_mm + noise,
             position=number([stop.position for stop in stops])[0],
             mount=np.zeros(len(stops), dtype=np.intp),
             samples=np.full(len(stops), SAMPLES, dtype=np.intp),

@@ -49,9 +49,8 @@ def test_its_noise_and_scatter_are_those_that_the_paper_specifies() -> None:
     # whole pulses add the variance of a uniform distribution
     assert pulses.std() == pytest.approx(((4 / 3) ** 2 + 1 / 12) ** 0.5, rel=0.03)
     still = PlainMachine(robot, TRUTH)
-    bare = np.hypot(
-        *(still.stand(taken.theta) - [robot.c[0] + robot.d[0] + 1.1, robot.c[1] + robot.d[1] + 0.4]).T
-    )
+    foot = complex(robot.c[0] + robot.d[0] + 1.1, robot.c[1] + robot.d[1] + 0.4)
+    bare = np.abs(still.stand(taken.theta) - foot)
     noise = taken.distance - bare + spec.head_zero_mm
     assert noise.std() == pytest.approx(spec.scale_noise_mm / 5**0.5, rel=0.04)
 
