@@ -17,6 +17,7 @@ from station.identification.verification import (
     not_identified,
     predicted_result,
     prediction_fault,
+    residuals_of,
     result_of,
     verify,
 )
@@ -44,6 +45,7 @@ __all__ = [
     "position_error_map",
     "predicted_result",
     "prediction_fault",
+    "residuals_of",
     "result_of",
     "verify",
     "with_accuracy",

@@ -21,6 +21,7 @@ from station.records import (
     Real,
     Reason,
     ReferenceUse,
+    Residual,
     Stop,
     because,
     from_readings,
@@ -131,8 +132,6 @@ def _result(
     mechanism = FiveBar(fit.mechanism.robot, everything)
     start = np.array([p.prior_mean for p in mechanism.parameters])
     raw = everything.distance - mechanism.observe(start, everything.theta).value
-    residual = everything.distance - mechanism.observe(fit.p, everything.theta).value
-    limit = LIMIT_SDS * fit.noise.sigma_mm
     not_finite = _not_finite(fit)
     fault = not_finite or misfit
     return CalibrationResult(
@@ -151,10 +150,18 @@ def _result(
             reading_rms_mm=float(np.sqrt(np.mean(fit.residual_mm**2))),
             predicted_position_error_mm=fit.position_error(compensated=True),
         ),
-        residuals=residual_rows(readings, residual, np.full(len(readings), limit)),
+        residuals=residuals_of(fit, readings),
         references=fit.references,
         lack_of_fit=misfit.text if misfit else None,
     )
+
+
+def residuals_of(fit: Identification[FiveBar], readings: list[Reading]) -> tuple[Residual, ...]:
+    """Measured less predicted of each reading, beside its limit; also of readings that were left out."""
+    everything = from_readings(readings)
+    mechanism = FiveBar(fit.mechanism.robot, everything)
+    residual = everything.distance - mechanism.observe(fit.p, everything.theta).value
+    return residual_rows(readings, residual, np.full(len(readings), LIMIT_SDS * fit.noise.sigma_mm))
 
 
 def not_identified(refusal: str) -> CalibrationResult:

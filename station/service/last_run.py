@@ -5,31 +5,22 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from station.records import CalibrationSummary, Reading, RunReading, RunStop, RunView
+from station.service.run import Place, row_of
 from station.store import Store
 
-Place = Callable[[tuple[float, ...]], tuple[float, float] | None]
+PlaceOf = Callable[[tuple[float, ...]], Place]
 """x, y in mm of joint angles in deg; None where the linkage does not close."""
 
 
-def last_run(store: Store, last: CalibrationSummary, place: Place) -> RunView:
+def last_run(store: Store, last: CalibrationSummary, place: PlaceOf) -> RunView:
     """Its readings with their residuals, each as a position that is done, from the store."""
     residuals = {row.reading: row for row in store.calibration(last.id).residuals}
 
     def row(reading: Reading) -> RunReading:
-        point, judged = place(reading.theta_deg), residuals.get(reading.reading)
-        return RunReading(
-            reading=reading.reading,
-            position=reading.position,
-            x_mm=point and point[0],
-            y_mm=point and point[1],
-            theta1_deg=reading.theta_deg[0],
-            theta2_deg=reading.theta_deg[1],
-            scale_mm=reading.scale_mm,
-            t_s=reading.t_s,
-            walk=reading.sequence,
-            residual_mm=judged.residual_mm if judged else None,
-            limit_mm=judged.limit_mm if judged else None,
-        )
+        shown = row_of(reading, place(reading.theta_deg))
+        judged = residuals.get(reading.reading)
+        found = {"residual_mm": judged.residual_mm, "limit_mm": judged.limit_mm} if judged else {}
+        return shown.model_copy(update=found)
 
     readings = tuple(map(row, store.readings(last.id)))
     return RunView(

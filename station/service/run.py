@@ -37,6 +37,21 @@ TO_COME = 8
 """Readings that are reckoned with as long as another sequence may follow: as many verify a calibration."""
 
 
+def row_of(reading: Reading, place: Place) -> RunReading:
+    """A reading as a page shows it, not judged yet."""
+    return RunReading(
+        reading=reading.reading,
+        position=reading.position,
+        x_mm=place and place[0],
+        y_mm=place and place[1],
+        theta1_deg=reading.theta_deg[0],
+        theta2_deg=reading.theta_deg[1],
+        scale_mm=reading.scale_mm,
+        t_s=reading.t_s,
+        walk=reading.sequence,
+    )
+
+
 @dataclass(frozen=True, slots=True)
 class Answer:
     """What somebody answered a prompt."""
@@ -119,18 +134,7 @@ class Run:
 
     def add_reading(self, index: int, reading: Reading, place: Place) -> RunReading:
         """Reading of the sequence's stop `index`, already stored.  Returns the `reading` event."""
-        row = RunReading(
-            reading=reading.reading,
-            position=reading.position,
-            x_mm=place and place[0],
-            y_mm=place and place[1],
-            theta1_deg=reading.theta_deg[0],
-            theta2_deg=reading.theta_deg[1],
-            scale_mm=reading.scale_mm,
-            sd_mm=statistics.stdev(reading.samples_mm),
-            t_s=reading.t_s,
-            walk=reading.sequence,
-        )
+        row = row_of(reading, place).model_copy(update={"sd_mm": statistics.stdev(reading.samples_mm)})
         with self._lock:
             self.step += 1
             self._stops[index] = self._stops[index].model_copy(update={"done": True})

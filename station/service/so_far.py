@@ -6,12 +6,10 @@ import logging
 import time
 from dataclasses import dataclass, field, replace
 
-import numpy as np
-
 from station.errors import InputRefused
-from station.five_bar import FiveBar, Robot
-from station.identification import identify
-from station.records import LIMIT_SDS, Reading, Residual, from_readings, residual_rows
+from station.five_bar import Robot
+from station.identification import identify, residuals_of
+from station.records import Reading, Residual, from_readings
 
 log = logging.getLogger(__name__)
 
@@ -41,7 +39,7 @@ class SoFar:
         if len(self._readings) < FEWEST or began_s < self._next_s:
             return ()
         try:
-            return self._residuals()
+            return residuals_of(identify(self.robot, from_readings(self._readings)), self._readings)
         except InputRefused:
             return ()
         except Exception:  # what is only looked at must not end a run
@@ -50,10 +48,3 @@ class SoFar:
         finally:
             now_s = time.monotonic()
             self._next_s = now_s + (now_s - began_s) / SHARE
-
-    def _residuals(self) -> tuple[Residual, ...]:
-        everything = from_readings(self._readings)
-        fit = identify(self.robot, everything)
-        predicted = FiveBar(self.robot, everything).observe(fit.p, everything.theta).value
-        limit = np.full(len(self._readings), LIMIT_SDS * fit.noise.sigma_mm)
-        return residual_rows(self._readings, everything.distance - predicted, limit)
