@@ -6,7 +6,6 @@ import hashlib
 
 from station.certificate.facts import CertificateFacts
 from station.certificate.map_drawing import COLOURS, drawing_of, significant
-from station.certificate.qr import modules
 from station.certificate.sheet import Sheet
 from station.messages import local_number
 from station.report import environment
@@ -19,6 +18,8 @@ _END = "</body>"
 
 def html_page(sheet: Sheet, facts: CertificateFacts) -> str:
     """Without the document."""
+    from station.certificate.qr import modules  # here, as the libraries for PDF: it is a part of one
+
     drawing = drawing_of(facts.error_map) if facts.error_map else None
     side, dark = modules(facts.robot_serial)
     ends = [drawing.edges_mm[0], drawing.edges_mm[-1]] if drawing else []

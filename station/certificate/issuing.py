@@ -11,7 +11,6 @@ from typing import Literal, get_args
 from station.certificate.document import CertificateDocument, Page, PrintedLine, signed
 from station.certificate.facts import facts_of
 from station.certificate.html import html_page, html_sha256, with_document
-from station.certificate.pdf import content_sha256, pdf_page, with_attachment
 from station.certificate.sheet import Sheet, sheet_of
 from station.certificate.signature import signing_key
 from station.messages import Language
@@ -63,6 +62,9 @@ def issue(
             page = _page("html", sheet, html_sha256(bare))
             content = with_document(bare, _json(signed(facts, page, key)).decode()).encode()
         else:
+            # here, because libraries for PDF take a second to load and only this needs them
+            from station.certificate.pdf import content_sha256, pdf_page, with_attachment
+
             printed = pdf_page(sheet, facts)
             page = _page("pdf", sheet, content_sha256(printed))
             content = with_attachment(printed, _json(signed(facts, page, key)))

@@ -9,6 +9,7 @@ from xml.sax.saxutils import escape
 
 import reportlab
 from pypdf import PdfReader, PdfWriter
+from pypdf.errors import PyPdfError
 from reportlab.lib.colors import HexColor
 from reportlab.lib.pagesizes import A4
 from reportlab.lib.styles import ParagraphStyle
@@ -193,6 +194,22 @@ def content_sha256(pdf: bytes) -> str:
         digest.update(contents.get_data() if contents is not None else b"")
         digest.update(b"annotated" if "/Annots" in page else b"\n")
     return digest.hexdigest()
+
+
+def attached(pdf: bytes) -> list[bytes]:
+    """The documents inside.
+
+    :raises ValueError: it is damaged.
+    """
+    try:
+        return PdfReader(BytesIO(pdf)).attachments.get(ATTACHMENT, [])
+    except (PyPdfError, KeyError, OSError) as error:
+        raise ValueError(str(error)) from error
+
+
+def shown_text(pdf: bytes) -> str:
+    """Everything that is written on the pages."""
+    return "".join(page.extract_text() for page in PdfReader(BytesIO(pdf)).pages)
 
 
 def with_attachment(pdf: bytes, document: bytes) -> bytes:

@@ -7,17 +7,13 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from html.parser import HTMLParser
-from io import BytesIO
 from pathlib import Path
 
 from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PublicKey
 from pydantic import JsonValue, ValidationError
-from pypdf import PdfReader
-from pypdf.errors import PyPdfError
 
 from station.certificate.document import CertificateDocument, Page
 from station.certificate.html import html_sha256, split_document
-from station.certificate.pdf import ATTACHMENT, content_sha256
 from station.certificate.signature import digests_of, holds, leaves, raw
 from station.errors import InputRefused, NotFound
 from station.store import Store, link_hash
@@ -78,13 +74,17 @@ def _content(path: Path) -> bytes:
 def _opened(content: bytes, path: Path) -> tuple[str, str, str]:
     """Format, the document inside, and the page around it (HTML)."""
     if content.startswith(b"%PDF"):
+        from station.certificate import pdf  # here, as in `issuing`
+
         try:
-            attached = PdfReader(BytesIO(content)).attachments.get(ATTACHMENT, [])
-        except (PyPdfError, ValueError, KeyError, OSError) as error:
+            documents = pdf.attached(content)
+        except ValueError as error:
             raise InputRefused(f"{path} is a damaged PDF; ask for it again.") from error
-        if len(attached) != 1:
-            raise InputRefused(f"{path} has no {ATTACHMENT} inside; it is not a certificate of a station.")
-        return "pdf", attached[0].decode("utf-8", "replace"), ""
+        if len(documents) != 1:
+            raise InputRefused(
+                f"{path} has no {pdf.ATTACHMENT} inside; it is not a certificate of a station."
+            )
+        return "pdf", documents[0].decode("utf-8", "replace"), ""
     try:
         text = content.decode("utf-8")
     except UnicodeDecodeError as error:
@@ -143,10 +143,16 @@ def _page_changed(form: str, content: bytes, page_text: str, page: Page | None) 
     if page is None or page.format != form:
         yield f"page is not that of {form.upper()}: the document inside belongs to another file."
         return
-    now = html_sha256(page_text) if form == "html" else content_sha256(content)
-    if now == page.sha256:
-        return
-    shown = _shown_html(page_text) if form == "html" else _shown_pdf(content)
+    if form == "html":
+        if html_sha256(page_text) == page.sha256:
+            return
+        shown = _shown_html(page_text)
+    else:
+        from station.certificate import pdf
+
+        if pdf.content_sha256(content) == page.sha256:
+            return
+        shown = {"": _bare(pdf.shown_text(content))}
     names = [
         line.field for line in page.lines if _bare(line.text) not in shown.get(line.field, shown.get("", ""))
     ]
@@ -154,10 +160,6 @@ def _page_changed(form: str, content: bytes, page_text: str, page: Page | None) 
         yield from (f"The page shows another {name} than was signed." for name in names)
     else:
         yield "The page was changed beside its fields."
-
-
-def _shown_pdf(content: bytes) -> dict[str, str]:
-    return {"": _bare("".join(page.extract_text() for page in PdfReader(BytesIO(content)).pages))}
 
 
 def _shown_html(text: str) -> dict[str, str]:
