@@ -135,16 +135,25 @@ interface Sized {
 const IN_UM = new Set(["amplitude_mm", "width_mm", "mm_at_100_mm", "mm_per_hour", "mounting_mm", "mm"]);
 const UM = 1000;
 
+/** By the unit that the service states; no language writes them otherwise. */
+const UNITS: Record<string, string> = {
+  deg: "°",
+  "deg/kg": "°/kg",
+  "um/m": "µm/m",
+  "um/m/K": "µm/(m K)",
+  "um/K": "µm/K",
+  "1/rev": "",
+};
+
 /** A parameter as the page shows it: display name, and the page's one unit for its quantity. */
 export function shown({ name, value, sd, unit }: Sized): Sized & { text: string } {
   const um = IN_UM.has(name);
   const scaled = (size: number | null) => (um && size !== null ? UM * size : size);
-  const units: Record<string, string> = t.units;
   return {
     ...parameter(name),
     value: scaled(value),
     sd: scaled(sd),
-    unit: um ? unit.replace("mm", "µm") : (units[unit] ?? unit),
+    unit: um ? unit.replace("mm", "µm") : (UNITS[unit] ?? unit),
   };
 }
 

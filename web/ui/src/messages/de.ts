@@ -21,14 +21,6 @@ export const de: Messages = {
   mounted: (name, mount) => `${name} (Anbauort ${mount})`,
   both: (names) =>
     names.length < 2 ? names.join("") : `${names.slice(0, -1).join(", ")} und ${names.at(-1)}`,
-  units: {
-    deg: "°",
-    "deg/kg": "°/kg",
-    "um/m": "µm/m",
-    "um/m/K": "µm/(m K)",
-    "um/K": "µm/K",
-    "1/rev": "",
-  },
 
   plans: shared.plans,
   runKinds: shared.run_kinds,

@@ -45,15 +45,6 @@ export const en = {
   mounted: (name: string, mount: string) => `${name} (mount ${mount})`,
   both: (names: string[]) =>
     names.length < 2 ? names.join("") : `${names.slice(0, -1).join(", ")} and ${names.at(-1)}`,
-  /** By the unit that the service states. */
-  units: {
-    deg: "°",
-    "deg/kg": "°/kg",
-    "um/m": "µm/m",
-    "um/m/K": "µm/(m K)",
-    "um/K": "µm/K",
-    "1/rev": "",
-  } satisfies Record<string, string>,
 
   plans: shared.plans satisfies Record<Plan, Entry>,
   runKinds: shared.run_kinds satisfies Record<RunKind, Entry>,

@@ -20,14 +20,6 @@ export const zh: Messages = {
   dependences: shared.dependences,
   mounted: (name, mount) => `${name}（安装点 ${mount}）`,
   both: (names) => (names.length < 2 ? names.join("") : `${names.slice(0, -1).join("、")}和${names.at(-1)}`),
-  units: {
-    deg: "°",
-    "deg/kg": "°/kg",
-    "um/m": "µm/m",
-    "um/m/K": "µm/(m K)",
-    "um/K": "µm/K",
-    "1/rev": "",
-  },
 
   plans: shared.plans,
   runKinds: shared.run_kinds,
