@@ -226,10 +226,12 @@ def read_table(content: bytes, required: Sequence[str], optional: Sequence[str],
     lines: list[int] = []
     try:
         for row in reader:
+            if not any(cell.strip() for cell in row):
+                continue
             if not header:
                 header = [name.strip() for name in row]
                 _check_header(header, required, optional, source)
-            elif any(cell.strip() for cell in row):
+            else:
                 if len(row) != len(header):
                     raise InputRefused(
                         f"{source}: row {reader.line_num} has {len(row)} fields where the header has "

@@ -109,14 +109,16 @@ class SerialArm:
         if np.abs(np.degrees(m.theta)).max() < 2.0 * np.pi:
             raise InputRefused(
                 f"Reading {m.ids[0]}, columns theta1_deg to theta{m.joints}_deg: "
-                "the angles look like radians; give degrees, or a column map with their unit."
+                "the angles look like radians; give degrees, or their unit in a column map "
+                "(`station columns` proposes one, for `--columns`)."
             )
         off, size = self._nominal_misfit(), self._length
         furthest = float(np.abs(self.measured).max())
         if furthest < METRES * size:
             raise InputRefused(
                 f"No reading is further off than {furthest:.3g} mm, of an arm of {size:.0f} mm: positions "
-                "and distances look like metres; give millimetres, or a column map with their unit."
+                "and distances look like metres; give millimetres, or their unit in a column map "
+                "(`station columns` proposes one, for `--columns`)."
             )
         if not off < MISFIT * size:
             raise InputRefused(
