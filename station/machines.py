@@ -102,6 +102,7 @@ KINDS: dict[str, MachineKind] = {
         catalogue=lambda arm: arm_catalogue(
             arm.robot.joints,
             by_range=arm.by_range,
+            sliding=arm.robot.sliding,
             timed=TIME not in arm.measurements.guessed,
             warmed=reference_of(arm.measurements).temperature_c is not None,
         ),
