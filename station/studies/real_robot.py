@@ -22,8 +22,8 @@ from station.diagnosis import (
     transfer,
     without_a_quarter,
 )
-from station.machines import Measured, read_readings
-from station.records import Measurements, StageErrors
+from station.machines import read_readings
+from station.records import Measured, Measurements, StageErrors
 from station.report import standalone
 from station.serial_arm import Arm
 
