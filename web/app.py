@@ -102,7 +102,7 @@ def create_app(runtime: Runtime, *, access: Access | None = None, static: Path =
         app.include_router(
             module.router,
             prefix=API,
-            dependencies=[Depends(known_query(API))],
+            dependencies=[Depends(known_query)],
             max_body_size=round(service.body_mb * 1e6) if module is datasets else None,
         )
     app.include_router(live.router, prefix=API)
@@ -111,7 +111,6 @@ def create_app(runtime: Runtime, *, access: Access | None = None, static: Path =
         app.include_router(module.router)
     pages.add(app, static)
     problems.add(app)
-    problems.add_schema(app.openapi())
     app.add_middleware(SlowBodies)
     app.add_middleware(etags.ETags, prefix=f"{API}/calibrations/")
     app.add_middleware(Compression)
