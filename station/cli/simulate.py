@@ -1,0 +1,72 @@
+"""`station simulate`: years of a station in virtual time, with everything that can go wrong."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from dataclasses import asdict
+from pathlib import Path
+from typing import Any
+
+import click
+from rich.console import Console
+
+from station.cli.files import check_folders, write_json
+from station.simulation import INVARIANTS, Life, happenings, month, months
+from station.studies.engine import Engine
+
+
+@click.command("simulate")
+@click.option(
+    "--years",
+    type=click.FloatRange(0, 1000, min_open=True),
+    default=1.0,
+    show_default=True,
+    help="Station-years; a twelfth is a month of one station.",
+)
+@click.option("--seed", type=click.IntRange(0), default=1, show_default=True)
+@click.option("--workers", type=click.IntRange(1), help="Processes; one for each core without it.")
+@click.option("--resume", type=click.Path(file_okay=False, path_type=Path), help="Folder to go on from.")
+@click.option("--json", "json_file", type=click.Path(path_type=Path), help="Write what is printed here.")
+def simulate_command(
+    years: float, seed: int, workers: int | None, resume: Path | None, json_file: Path | None
+) -> None:
+    """Let stations live for years, in virtual time, and look whether what must hold holds.
+
+    The station is the one that `station serve` runs; simulated are its clock, its wires, its disk and the
+    people.  Exit status 1: a sentence did not hold, and the same seed shows it again.
+    """
+    check_folders(json_file)
+    engine = Engine(Console(stderr=True), workers, resume)
+    lives = engine.each(month, months(years, seed), "Months", long=True)
+    found = summary(years, seed, lives)
+    if json_file:
+        write_json(json_file, found)
+    click.echo(json.dumps(found, indent=1))
+    if found["violations"]:
+        raise SystemExit(1)
+
+
+def summary(years: float, seed: int, lives: list[Life]) -> dict[str, Any]:
+    """As the contract has it, and how often each deed and trouble came."""
+    digest = hashlib.sha256("".join(life.digest for life in lives).encode())
+    return {
+        "years": years,
+        "seed": seed,
+        "days": sum(life.days for life in lives),
+        "runs": sum(life.runs for life in lives),
+        "faults": dict(sorted(happenings(lives).items())),
+        "restarts": sum(life.restarts for life in lives),
+        "readings": sum(life.readings for life in lives),
+        "digest": digest.hexdigest(),
+        "violations": [
+            {
+                "month": life.seed,
+                "day": life.days + 1,
+                "sentence": INVARIANTS[found.invariant],
+                **asdict(found),
+            }
+            for life in lives
+            for found in life.violations
+        ],
+    }

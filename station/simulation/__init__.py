@@ -1,0 +1,14 @@
+"""Station-years in virtual time: the production code, and everything outside it simulated.
+
+What is simulated: clocks and threads (`scheduler`, `threads`, `clocks`), put in the place of the real ones
+by `substitution`; wires to the emulated devices (`wires`), the disk's faults and power cuts (`disk`), the
+receiver of events (`receiver`).  `plant` puts them together, `days` lets things happen, `witness` says what
+must hold.
+"""
+
+from __future__ import annotations
+
+from station.simulation.witness import INVARIANTS, Violation
+from station.simulation.years import Life, happenings, live, month, months
+
+__all__ = ["INVARIANTS", "Life", "Violation", "happenings", "live", "month", "months"]
