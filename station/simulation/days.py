@@ -8,8 +8,8 @@ and clock have their faults; the process is killed.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping
-from contextlib import suppress
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from random import Random
 from typing import TypeVar
@@ -139,14 +139,12 @@ class Days:
         if trouble != "none":
             self.happened[trouble] += 1
         request = self._request(deed, key)
-        try:
+        run = 0
+        with self._answered():
             run = self.plant.ask(request)
             self.witness.started(key, run)
-        except REFUSALS:
+        if not run:
             self._idle()
-            return
-        except NotRunning:
-            self._restart()
             return
         helpers = [
             self.plant.scheduler.spawn(lambda: self._answer(run), "operator"),
@@ -170,8 +168,18 @@ class Days:
 
     def _again(self, request: Callable[[Orchestrator], int], key: str) -> None:
         """A program that did not hear how its start ended asks again, with the same key."""
-        with suppress(NotRunning, *REFUSALS):
+        with self._answered():
             self.witness.started(key, self.plant.ask(request))
+
+    @contextmanager
+    def _answered(self) -> Iterator[None]:
+        """A request: refused in a sentence, or not heard because the station was killed, is all right."""
+        try:
+            yield
+        except (NotRunning, *REFUSALS):
+            pass
+        except Exception as error:  # noqa: BLE001 - whatever else it is must not be
+            self.witness.fails("answer", f"{type(error).__name__}: {error}")
 
     def _idle(self) -> None:
         """The station comes to rest; then everything that it keeps is as it was told."""
@@ -235,7 +243,7 @@ class Days:
         world = self.plant.scheduler
         while not self._is_over(run):
             world.wait(seconds=self.random.uniform(1.0, 20.0))
-            with suppress(NotRunning, *REFUSALS):
+            with self._answered():
                 prompt = self.plant.ask(lambda station: station.prompt(run))
                 if prompt is None or self.random.random() < 0.1:
                     continue
@@ -250,7 +258,7 @@ class Days:
     def _trouble(self, trouble: str, run: int, request: Callable[[Orchestrator], int], key: str) -> None:
         world, random = self.plant.scheduler, self.random
         world.wait(lambda: self._is_over(run), random.choice((0.0, 2.0, 15.0, 40.0)) * random.random())
-        with suppress(NotRunning, *REFUSALS):
+        with self._answered():
             match trouble:
                 case "abort":
                     over = self._is_over(run)

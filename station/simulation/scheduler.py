@@ -55,6 +55,7 @@ class Scheduler:
         self._director = self._running = Task("director", Process("world"))
         self._tasks = [self._director]
         self._dead_end: str | None = None
+        self._over = False
 
     @property
     def running(self) -> Task:
@@ -71,7 +72,7 @@ class Scheduler:
         def life() -> None:
             task.baton.acquire()
             try:
-                if not task.process.killed:
+                if not self._is_killed(task):
                     run()
             except Killed:
                 pass
@@ -106,7 +107,8 @@ class Scheduler:
             self._hand_over(following)
             task.baton.acquire()
         if self._dead_end is not None and task is self._director:
-            raise Deadlock(self._dead_end)
+            said, self._dead_end = self._dead_end, None
+            raise Deadlock(said)
         self._check_alive(task)
         return ready is not None and ready()
 
@@ -119,21 +121,28 @@ class Scheduler:
         process.killed = True
         self.wait(lambda: not self.tasks_of(process))
 
+    def end(self) -> None:
+        """End every task but the first, which is the caller's."""
+        self._over = True
+        self.wait(lambda: self._tasks == [self._director])
+
     def tasks_of(self, process: Process) -> list[Task]:
         """Those that have not ended."""
         return [task for task in self._tasks if task.process is process]
 
-    @staticmethod
-    def _check_alive(task: Task) -> None:
-        if task.process.killed:
+    def _check_alive(self, task: Task) -> None:
+        if self._is_killed(task):
             raise Killed
+
+    def _is_killed(self, task: Task) -> bool:
+        return task.process.killed or (self._over and task is not self._director)
 
     def _hand_over(self, task: Task) -> None:
         self._running = task
         task.baton.release()
 
     def _next(self) -> Task:
-        able = [task for task in self._tasks if _can_go_on(task)]
+        able = [task for task in self._tasks if self._can_go_on(task)]
         if not able:
             waiting = [task for task in self._tasks if task.until_s is not None]
             if not waiting:
@@ -145,9 +154,8 @@ class Scheduler:
             able = [task for task in waiting if task.until_s == first_s]
         return able[0] if len(able) == 1 else self._random.choice(able)
 
-
-def _can_go_on(task: Task) -> bool:
-    return task.process.killed or (task.ready is not None and task.ready())
+    def _can_go_on(self, task: Task) -> bool:
+        return self._is_killed(task) or (task.ready is not None and task.ready())
 
 
 def _at_once() -> bool:

@@ -72,8 +72,7 @@ def live(
                 except Stranded:
                     break
                 lived += 1
-            if plant.runs:
-                plant.kill()
+            plant.scheduler.end()
     witness = life.witness
     return Life(
         seed=seed,
