@@ -112,6 +112,7 @@ class Days:
         self.plant.receiver.fails = 0.0
         store = self._store()
         world = self.plant.scheduler
+        world.wait(seconds=2.0)  # until the courier has seen the last end
         limit_s = world.now_s + DELIVERY_LIMIT_S
         while store.backlogs() and world.now_s < limit_s:
             world.wait(seconds=1.0)

@@ -14,6 +14,7 @@ from random import Random
 from tempfile import TemporaryDirectory
 
 from drivers.emulated.spec import MachineSpec
+from station.five_bar import Robot
 from station.simulation.days import DEEDS, TROUBLES, Days, Stranded
 from station.simulation.plant import Plant
 from station.simulation.witness import Violation, Witness
@@ -22,6 +23,7 @@ MONTHS_A_YEAR = 12
 DAYS_A_MONTH = 30
 _ROBOTS = 3
 _TOLERANCE_MM = 0.03
+_MOUNTING_MM = 0.3
 _PACKAGES = ("station.service", "station.run_kinds", "station.diagnosis", "station.outbox", "station.store")
 
 
@@ -94,6 +96,8 @@ def happenings(lives: Sequence[Life]) -> Counter[str]:
 def _machine(random: Random) -> MachineSpec:
     """Within the tolerances that the station reckons with, its zeros shifted."""
 
+    nominal = Robot.default()
+
     def error_mm() -> float:
         return random.gauss(0.0, _TOLERANCE_MM)
 
@@ -103,7 +107,7 @@ def _machine(random: Random) -> MachineSpec:
         L_error_mm=(error_mm(), error_mm()),
         l_error_mm=(error_mm(), error_mm()),
         e_error_mm=(error_mm(), error_mm(), error_mm(), error_mm()),
-        drm_mm=(random.gauss(0.0, 0.3), random.gauss(0.0, 0.3)),
+        drm_mm=(random.gauss(nominal.drm[0], _MOUNTING_MM), random.gauss(nominal.drm[1], _MOUNTING_MM)),
     )
 
 
