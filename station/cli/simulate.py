@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import json
+from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
@@ -12,8 +13,21 @@ import click
 from rich.console import Console
 
 from station.cli.files import check_folders, write_json
-from station.simulation import INVARIANTS, Life, happenings, month, months
+from station.simulation import (
+    INVARIANTS,
+    Life,
+    Outcome,
+    carried_out,
+    happenings,
+    month,
+    months,
+    writes_that_fail,
+)
+from station.simulation import orders as every_order
 from station.studies.engine import Engine
+
+MOST_WRITES = 100
+"""More than the longest of the two runs has."""
 
 
 @click.command("simulate")
@@ -24,27 +38,54 @@ from station.studies.engine import Engine
     show_default=True,
     help="Station-years; a twelfth is a month of one station.",
 )
-@click.option("--seed", type=click.IntRange(0), default=1, show_default=True)
+@click.option("--seed", type=click.IntRange(0), default=1, show_default=True, help="Of the years.")
+@click.option(
+    "--orders",
+    type=click.IntRange(1, 6),
+    help="Instead: every order of so many of eight events, 8^N stations.",
+)
+@click.option("--writes", is_flag=True, help="Instead: a failure and a kill at every write of two runs.")
 @click.option("--workers", type=click.IntRange(1), help="Processes; one for each core without it.")
 @click.option("--resume", type=click.Path(file_okay=False, path_type=Path), help="Folder to go on from.")
 @click.option("--json", "json_file", type=click.Path(path_type=Path), help="Write what is printed here.")
 def simulate_command(
-    years: float, seed: int, workers: int | None, resume: Path | None, json_file: Path | None
+    years: float,
+    seed: int,
+    orders: int | None,
+    writes: bool,
+    workers: int | None,
+    resume: Path | None,
+    json_file: Path | None,
 ) -> None:
     """Let stations live for years, in virtual time, and look whether what must hold holds.
 
     The station is the one that `station serve` runs; simulated are its clock, its wires, its disk and the
-    people.  Exit status 1: a sentence did not hold, and the same seed shows it again.
+    people.  Exit status 1: something did not hold, and the same seed shows it again.
     """
     check_folders(json_file)
     engine = Engine(Console(stderr=True), workers, resume)
-    lives = engine.each(month, months(years, seed), "Months", long=True)
-    found = summary(years, seed, lives)
+    if orders is not None or writes:
+        cases = every_order(orders) if orders is not None else writes_that_fail(MOST_WRITES)
+        found = exhausted(engine.each(carried_out, list(cases), "Cases"))
+    else:
+        found = summary(years, seed, engine.each(month, months(years, seed), "Months", long=True))
     if json_file:
         write_json(json_file, found)
     click.echo(json.dumps(found, indent=1))
     if found["violations"]:
         raise SystemExit(1)
+
+
+def exhausted(outcomes: Sequence[Outcome]) -> dict[str, Any]:
+    """How many cases there were, and those in which something did not hold."""
+    return {
+        "cases": sum(outcome.reached for outcome in outcomes),
+        "violations": [
+            {"case": asdict(outcome.case), "sentence": INVARIANTS[found.invariant], **asdict(found)}
+            for outcome in outcomes
+            for found in outcome.violations
+        ],
+    }
 
 
 def summary(years: float, seed: int, lives: list[Life]) -> dict[str, Any]:

@@ -8,32 +8,27 @@ and clock have their faults; the process is killed.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from random import Random
 from typing import TypeVar
 
 from drivers.emulated.orders import KINDS, Device, FaultOrder
-from station.errors import Busy, InputRefused, NotApplicable, NotFound, StoreUnavailable
 from station.five_bar import Robot
 from station.records import Actor, CalibrationRequest, PlanName
 from station.service import Orchestrator
 from station.simulation.disk import DiskTrouble
-from station.simulation.plant import NotRunning, Plant
+from station.simulation.keeper import RUN_LIMIT_S, Keeper, Stranded
+from station.simulation.plant import Plant
 from station.simulation.witness import Witness
-from station.store import Store
 
 T = TypeVar("T")
 
 ROBOT = Robot.default()
-REFUSALS = (Busy, InputRefused, NotApplicable, NotFound, StoreUnavailable)
 ABORT_LIMIT_S = 20.0
 """Virtual time within which an aborted run has ended."""
-RUN_LIMIT_S = 1800.0
-"""Virtual time within which every run ends by itself, prompts answered or not."""
-DELIVERY_LIMIT_S = 300.0
 _NIGHT_S = 14 * 3600.0
+_KILLED_AT_NIGHT = 0.2
 _RUNS_A_DAY = (3, 8)
 _PLANS: dict[PlanName, float] = {
     "paper": 40,
@@ -68,14 +63,20 @@ _CLOCK_STEPS_S = (-3600.0, -60.0, 90.0, 3600.0, 315_360_000.0)
 class Days:
     """Lives at one plant."""
 
-    plant: Plant
-    witness: Witness
+    keeper: Keeper
     random: Random
     deeds: Mapping[str, float]
     troubles: Mapping[str, float]
     happened: Counter[str] = field(default_factory=Counter)
-    restarts: int = 0
     _key: int = 0
+
+    @property
+    def plant(self) -> Plant:
+        return self.keeper.plant
+
+    @property
+    def witness(self) -> Witness:
+        return self.keeper.witness
 
     def day(self) -> None:
         """From one morning to the next."""
@@ -83,52 +84,15 @@ class Days:
         if random.random() < 0.3:
             plant.bring(random.randrange(len(plant.machines)))
         plant.receiver.fails = random.choice((0.0, 0.0, 0.0, 0.3, 0.8))
-        self._start()
+        self.keeper.start()
         for _ in range(random.randint(*_RUNS_A_DAY)):
             self._job(_drawn(random, self.deeds), _drawn(random, self.troubles))
-        self._evening()
-        plant.clocks.set_s += _NIGHT_S
-
-    # The station ---------------------------------------------------------------------------------------
-
-    def _start(self) -> None:
-        if not self.plant.start():
-            self.witness.fails("start", f"the station does not start: {self.plant.refusal}")
-            raise Stranded
-        runtime = self.plant.runtime
-        assert runtime is not None
-        runtime.orchestrator.subscribe(self.witness.heard)
-        self.witness.look(runtime.store)
-
-    def _restart(self) -> None:
-        """After a kill."""
-        self.restarts += 1
-        off_s = self.plant.scheduler.now_s
-        self.plant.scheduler.wait(seconds=self.random.uniform(1.0, 20.0))
-        self.witness.off(off_s)
-        self._start()
-
-    def _evening(self) -> None:
-        self.plant.receiver.fails = 0.0
-        store = self._store()
-        world = self.plant.scheduler
-        world.wait(seconds=2.0)  # until the courier has seen the last end
-        limit_s = world.now_s + DELIVERY_LIMIT_S
-        while store.backlogs() and world.now_s < limit_s:
-            world.wait(seconds=1.0)
-        for backlog in store.backlogs():
-            self.witness.fails("deliveries", f"{backlog.count} events wait still")
-        self.witness.look_at_all(store)
-        if self.random.random() < 0.2:
+        if random.random() < _KILLED_AT_NIGHT:
             self.happened["kill"] += 1
-            self.plant.kill()
-        elif not self.plant.end():
-            self.witness.fails("idle", "the station does not end")
-            raise Stranded
-
-    def _store(self) -> Store:
-        assert self.plant.runtime is not None
-        return self.plant.runtime.store
+            plant.kill()
+            self.keeper.restart(random.uniform(1.0, 20.0))
+        self.keeper.end()
+        plant.clocks.set_s += _NIGHT_S
 
     # One job -------------------------------------------------------------------------------------------
 
@@ -141,11 +105,11 @@ class Days:
             self.happened[trouble] += 1
         request = self._request(deed, key)
         run = 0
-        with self._answered():
+        with self.keeper.answered():
             run = self.plant.ask(request)
             self.witness.started(key, run)
         if not run:
-            self._idle()
+            self._rest()
             return
         helpers = [
             self.plant.scheduler.spawn(lambda: self._answer(run), "operator"),
@@ -159,57 +123,22 @@ class Days:
         self.plant.disk.mend()
         if not self.plant.runs:
             self._restart()
-            self._again(request, key)
+            with self.keeper.answered():  # who did not hear how its start ended asks again
+                self.witness.started(key, self.plant.ask(request))
         elif not ended:
             self.witness.fails("idle", f"run {run} ({deed}, {trouble}) does not end")
             raise Stranded
         elif trouble == "none":
-            self.witness.undisturbed(run, self._store())
-        self._idle()
+            self.witness.undisturbed(run, self.keeper.store)
+        self._rest()
 
-    def _again(self, request: Callable[[Orchestrator], int], key: str) -> None:
-        """A program that did not hear how its start ended asks again, with the same key."""
-        with self._answered():
-            self.witness.started(key, self.plant.ask(request))
-
-    @contextmanager
-    def _answered(self) -> Iterator[None]:
-        """A request: refused in a sentence, or not heard because the station was killed, is all right."""
-        try:
-            yield
-        except (NotRunning, *REFUSALS):
-            pass
-        except Exception as error:  # noqa: BLE001 - whatever else it is must not be
-            self.witness.fails("answer", f"{type(error).__name__}: {error}")
-
-    def _idle(self) -> None:
-        """The station comes to rest; then everything that it keeps is as it was told."""
-        plant = self.plant
-        if not plant.runs:
+    def _rest(self) -> None:
+        if not self.plant.runs:
             self._restart()
-        runtime = plant.runtime
-        assert runtime is not None
-        orchestrator = runtime.orchestrator
-        if not plant.scheduler.wait(lambda: orchestrator.running is None, RUN_LIMIT_S):
-            self.witness.fails("idle", f"run {orchestrator.running} does not end")
-            raise Stranded
-        plant.scheduler.wait(seconds=2.0)  # ends that the disk did not take are repeated meanwhile
-        orchestrator.snapshot().model_dump_json()
-        self.witness.look(runtime.store)
-        if orchestrator.snapshot().retract.needed:
-            self._retract(orchestrator)
+        self.keeper.come_to_rest()
 
-    def _retract(self, orchestrator: Orchestrator) -> None:
-        self.happened["retract"] += 1
-        try:
-            run = self.plant.ask(lambda station: station.retract("ada").id)
-        except REFUSALS as refusal:
-            self.witness.fails("idle", f"the arm is outside, and retract is refused: {refusal}")
-            raise Stranded from refusal
-        self.plant.scheduler.wait(lambda: orchestrator.running is None, RUN_LIMIT_S)
-        if orchestrator.snapshot().retract.needed:
-            self.witness.fails("idle", f"run {run} did not bring the arm back")
-            raise Stranded
+    def _restart(self) -> None:
+        self.keeper.restart(self.random.uniform(1.0, 20.0))
 
     def _request(self, deed: str, key: str) -> Callable[[Orchestrator], int]:
         serial = self.plant.serials[self.plant.robot]
@@ -230,7 +159,7 @@ class Days:
         return lambda station: station.follow(deed, passed, "ada", idempotency_key=key, by=program).id
 
     def _last_pass(self, serial: str) -> int:
-        runs = self._store().calibrations(limit=10, robot_serial=serial, verdict="pass").items
+        runs = self.keeper.store.calibrations(limit=10, robot_serial=serial, verdict="pass").items
         return next((run.id for run in runs if run.of is None and run.kind == "calibrate"), 1)
 
     def _is_over(self, run: int) -> bool:
@@ -244,7 +173,7 @@ class Days:
         world = self.plant.scheduler
         while not self._is_over(run):
             world.wait(seconds=self.random.uniform(1.0, 20.0))
-            with self._answered():
+            with self.keeper.answered():
                 prompt = self.plant.ask(lambda station: station.prompt(run))
                 if prompt is None or self.random.random() < 0.1:
                     continue
@@ -259,7 +188,7 @@ class Days:
     def _trouble(self, trouble: str, run: int, request: Callable[[Orchestrator], int], key: str) -> None:
         world, random = self.plant.scheduler, self.random
         world.wait(lambda: self._is_over(run), random.choice((0.0, 2.0, 15.0, 40.0)) * random.random())
-        with self._answered():
+        with self.keeper.answered():
             match trouble:
                 case "abort":
                     over = self._is_over(run)
@@ -309,10 +238,6 @@ class Days:
         count = self.random.choice((1, 1, 3, None))
         for_s = self.random.choice((0.05, 0.5, 3.0)) if count is None else None
         self.plant.orders.replace([FaultOrder(device=device, kind=kind, count=count, for_s=for_s, mm=0.2)])
-
-
-class Stranded(Exception):
-    """The day cannot go on."""
 
 
 def _drawn(random: Random, weights: Mapping[T, float]) -> T:

@@ -54,6 +54,8 @@ class Scheduler:
         self._random = random
         self._director = self._running = Task("director", Process("world"))
         self._tasks = [self._director]
+        self.failures: list[str] = []
+        """Threads that ended by an error, and the error."""
         self._dead_end: str | None = None
         self._over = False
 
@@ -74,8 +76,9 @@ class Scheduler:
             try:
                 if not self._is_killed(task):
                     run()
-            except Killed:
-                pass
+            except BaseException as error:  # noqa: BLE001 - end of the thread
+                if not self._is_killed(task):
+                    self.failures.append(f"{name} ended by {type(error).__name__}: {error}")
             finally:
                 task.ended = True
                 self._tasks.remove(task)

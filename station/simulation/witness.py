@@ -41,6 +41,7 @@ INVARIANTS = {
     "times": "Created before started before ended, whatever the clock does.",
     "ends": "An end is told once, and stays as it was told.",
     "start": "The station starts whenever its disk is sound.",
+    "threads": "No thread of the station ends by an error.",
     "answer": "A request is answered or refused in a sentence.",
 }
 """By the name under which a violation is reported."""
@@ -154,6 +155,8 @@ class Witness:
 
     def look(self, store: Store) -> None:
         """While no run is under way and the disk is sound."""
+        while self.plant.scheduler.failures:
+            self.fails("threads", self.plant.scheduler.failures.pop())
         fresh = store.calibrations(limit=_MANY, order="oldest", cursor=self._seen or None).items
         for run in fresh:
             self._look_at_run(store, run)

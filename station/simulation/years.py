@@ -15,7 +15,8 @@ from tempfile import TemporaryDirectory
 
 from drivers.emulated.spec import MachineSpec
 from station.five_bar import Robot
-from station.simulation.days import DEEDS, TROUBLES, Days, Stranded
+from station.simulation.days import DEEDS, TROUBLES, Days
+from station.simulation.keeper import Keeper, Stranded
 from station.simulation.plant import Plant
 from station.simulation.witness import Violation, Witness
 
@@ -62,26 +63,26 @@ def live(
     :param deeds: how often each is asked for; :param troubles: how often each comes
     """
     random = Random(seed)
-    with TemporaryDirectory() as folder, _quiet():
-        _load()
+    with TemporaryDirectory() as folder, prepared():
         plant = Plant(Path(folder) / "home", [_machine(random) for _ in range(_ROBOTS)], random)
-        life = Days(plant, Witness(plant), Random(random.random()), deeds, troubles)
+        keeper = Keeper(plant, Witness(plant))
+        life = Days(keeper, Random(random.random()), deeds, troubles)
         lived = 0
         with plant.entered():
-            while lived < days and not life.witness.violations:
+            while lived < days and not keeper.witness.violations:
                 try:
                     life.day()
                 except Stranded:
                     break
                 lived += 1
             plant.scheduler.end()
-    witness = life.witness
+    witness = keeper.witness
     return Life(
         seed=seed,
         days=lived,
         runs=witness.runs,
         readings=witness.readings,
-        restarts=life.restarts,
+        restarts=keeper.restarts,
         happened=dict(sorted(life.happened.items())),
         digest=witness.digest,
         violations=tuple(witness.violations),
@@ -112,8 +113,9 @@ def _machine(random: Random) -> MachineSpec:
 
 
 @contextmanager
-def _quiet() -> Iterator[None]:
-    """The station's log would tell every fault that is drawn."""
+def prepared() -> Iterator[None]:
+    """Everything is loaded, and the station's log, which would tell every fault, is quiet."""
+    _load()
     logging.disable(logging.CRITICAL)
     try:
         yield
