@@ -7,7 +7,6 @@ import json
 from collections.abc import Sequence
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any
 
 import click
 from rich.console import Console
@@ -15,6 +14,7 @@ from rich.console import Console
 from station.cli.files import check_folders, write_json
 from station.simulation import (
     INVARIANTS,
+    Case,
     Life,
     Outcome,
     carried_out,
@@ -65,8 +65,9 @@ def simulate_command(
     check_folders(json_file)
     engine = Engine(Console(stderr=True), workers, resume)
     if orders is not None or writes:
-        cases = every_order(orders) if orders is not None else writes_that_fail(MOST_WRITES)
-        found = exhausted(engine.each(carried_out, list(cases), "Cases"))
+        cases: list[Case] = []
+        cases += every_order(orders) if orders is not None else writes_that_fail(MOST_WRITES)
+        found = exhausted(engine.each(carried_out, cases, "Cases"))
     else:
         found = summary(years, seed, engine.each(month, months(years, seed), "Months", long=True))
     if json_file:
@@ -76,7 +77,7 @@ def simulate_command(
         raise SystemExit(1)
 
 
-def exhausted(outcomes: Sequence[Outcome]) -> dict[str, Any]:
+def exhausted(outcomes: Sequence[Outcome]) -> dict[str, object]:
     """How many cases there were, and those in which something did not hold."""
     return {
         "cases": sum(outcome.reached for outcome in outcomes),
@@ -88,7 +89,7 @@ def exhausted(outcomes: Sequence[Outcome]) -> dict[str, Any]:
     }
 
 
-def summary(years: float, seed: int, lives: list[Life]) -> dict[str, Any]:
+def summary(years: float, seed: int, lives: list[Life]) -> dict[str, object]:
     """As the contract has it, and how often each deed and trouble came."""
     digest = hashlib.sha256("".join(life.digest for life in lives).encode())
     return {

@@ -9,9 +9,8 @@ must hold.  `exhaustive` leaves nothing to a draw where that is possible.
 from __future__ import annotations
 
 from station.simulation.exhaustive import (
-    Order,
+    Case,
     Outcome,
-    WriteThatFails,
     carried_out,
     orders,
     writes_that_fail,
@@ -21,11 +20,10 @@ from station.simulation.years import Life, happenings, live, month, months
 
 __all__ = [
     "INVARIANTS",
+    "Case",
     "Life",
-    "Order",
     "Outcome",
     "Violation",
-    "WriteThatFails",
     "carried_out",
     "happenings",
     "live",

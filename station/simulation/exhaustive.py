@@ -49,11 +49,14 @@ class WriteThatFails:
     times: int = 1
 
 
+Case = Order | WriteThatFails
+
+
 @dataclass(frozen=True, slots=True)
 class Outcome:
     """What came of a case."""
 
-    case: Order | WriteThatFails
+    case: Case
     reached: bool
     """False where the deed has fewer writes than that."""
     violations: tuple[Violation, ...]
@@ -80,7 +83,7 @@ def writes_that_fail(most: int) -> list[WriteThatFails]:
     ]
 
 
-def carried_out(case: Order | WriteThatFails) -> Outcome:
+def carried_out(case: Case) -> Outcome:
     """One case on a station of its own."""
     with TemporaryDirectory() as folder, prepared():
         home = Path(folder) / "home"
