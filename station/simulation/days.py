@@ -143,7 +143,8 @@ class Days:
     def _request(self, deed: str, key: str) -> Callable[[Orchestrator], int]:
         serial = self.plant.serials[self.plant.robot]
         program = Actor(name="mes", via="key")
-        if deed == "measure":
+        passed = self._last_pass(serial)
+        if deed == "measure" or (deed != "retract" and passed is None):
             plan: PlanName = _drawn(self.random, _PLANS)
             asked = CalibrationRequest(
                 serial,
@@ -155,12 +156,11 @@ class Days:
             return lambda station: station.submit(asked, idempotency_key=key, by=program).id
         if deed == "retract":
             return lambda station: station.retract("ada", idempotency_key=key).id
-        passed = self._last_pass(serial)
-        return lambda station: station.follow(deed, passed, "ada", idempotency_key=key, by=program).id
+        return lambda station: station.follow(deed, passed or 0, "ada", idempotency_key=key, by=program).id
 
-    def _last_pass(self, serial: str) -> int:
+    def _last_pass(self, serial: str) -> int | None:
         runs = self.keeper.store.calibrations(limit=10, robot_serial=serial, verdict="pass").items
-        return next((run.id for run in runs if run.of is None and run.kind == "calibrate"), 1)
+        return next((run.id for run in runs if run.of is None and run.kind == "calibrate"), None)
 
     def _is_over(self, run: int) -> bool:
         runtime = self.plant.runtime
