@@ -12,6 +12,7 @@ from station import __version__
 from station.people import Access
 from station.service import Runtime, Timer, listens_on_loopback
 from web import etags, methods, pages, problems
+from web.application import Application
 from web.borders import Borders, Forwarded
 from web.compression import Compression
 from web.headers import SecurityHeaders
@@ -84,7 +85,7 @@ def create_app(runtime: Runtime, *, access: Access | None = None, static: Path =
         with app.state.feed.attached(), app.state.metrics.attached(), noting:
             yield
 
-    app = FastAPI(
+    app = Application(
         title="Five-bar calibration station",
         version=__version__,
         description=DESCRIPTION,
@@ -111,7 +112,6 @@ def create_app(runtime: Runtime, *, access: Access | None = None, static: Path =
         app.include_router(module.router)
     pages.add(app, static)
     problems.add(app)
-    problems.add_schema(app.openapi())
     app.add_middleware(SlowBodies)
     app.add_middleware(etags.ETags, prefix=f"{API}/calibrations/")
     app.add_middleware(Compression)
