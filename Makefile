@@ -14,11 +14,11 @@ run: $(VENV)/installed  ## install and start the service on the emulated rig; pr
 
 test: $(VENV)/installed-for-tests  ## everything that can be checked
 	$(NPM) test
-	deploy/debian-packages chromium mbpoll mosquitto
+	deploy/debian-packages chromium curl mbpoll mosquitto nginx openssl
 	$(BIN)/pytest --numprocesses 3 --dist loadfile
 
 coverage: $(VENV)/installed-for-tests  ## the same tests, with the lines that none of them runs (slower)
-	deploy/debian-packages chromium mbpoll mosquitto
+	deploy/debian-packages chromium curl mbpoll mosquitto nginx openssl
 	$(BIN)/pytest --numprocesses 3 --dist loadfile --cov=station --cov=drivers --cov=web
 
 record: $(VENV)/installed-for-tests  ## the closed loop in the browser, recorded; prints the folder
@@ -48,9 +48,10 @@ mutate: $(VENV)/installed-for-tests  ## changes what decides, one place at a tim
 	$(BIN)/mutmut run > mutants/progress.log 2>&1
 	$(BIN)/python tests/mutation_score.py mutants
 
-reference: $(VENV)/installed-for-tests  ## docs/reference and web/openapi.json, made from the code
+reference: $(VENV)/installed-for-tests  ## docs/reference, web/openapi.json and the client's models, made from the code
 	$(BIN)/python -m web.openapi
 	$(BIN)/python -m station.reference docs/reference
+	PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/python web/client/make_models.py
 
 lock: $(VENV)/installed-for-tests  ## newest versions that fit, with hashes
 	deploy/lock $(BIN)
