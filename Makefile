@@ -14,11 +14,11 @@ run: $(VENV)/installed  ## install and start the service on the emulated rig; pr
 
 test: $(VENV)/installed-for-tests  ## everything that can be checked
 	$(NPM) test
-	deploy/debian-packages chromium curl mbpoll mosquitto nginx openssl
+	deploy/debian-packages chromium curl mbpoll mosquitto nginx
 	$(BIN)/pytest --numprocesses 3 --dist loadfile
 
 coverage: $(VENV)/installed-for-tests  ## the same tests, with the lines that none of them runs (slower)
-	deploy/debian-packages chromium curl mbpoll mosquitto nginx openssl
+	deploy/debian-packages chromium curl mbpoll mosquitto nginx
 	$(BIN)/pytest --numprocesses 3 --dist loadfile --cov=station --cov=drivers --cov=web
 
 record: $(VENV)/installed-for-tests  ## the closed loop in the browser, recorded; prints the folder
