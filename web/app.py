@@ -103,7 +103,7 @@ def create_app(runtime: Runtime, *, access: Access | None = None, static: Path =
         app.include_router(
             module.router,
             prefix=API,
-            dependencies=[Depends(known_query(API))],
+            dependencies=[Depends(known_query)],
             max_body_size=round(service.body_mb * 1e6) if module is datasets else None,
         )
     app.include_router(live.router, prefix=API)
