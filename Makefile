@@ -14,6 +14,7 @@ run: $(VENV)/installed  ## install and start the service on the emulated rig; pr
 
 test: $(VENV)/installed-for-tests  ## everything that can be checked
 	$(NPM) test
+	$(NPM) ci --prefix ../../tests/web/provider
 	deploy/debian-packages chromium curl mbpoll mosquitto nginx
 	$(BIN)/pytest --numprocesses 3 --dist loadfile
 

@@ -13,10 +13,11 @@ from typing import Any
 
 import pytest
 import uvicorn
+from argon2 import PasswordHasher
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
-from station.people import new_secret, secret_hash
+from station.people import new_secret, passwords, secret_hash
 from station.records import Actor, Role
 from station.service.orchestrator import Orchestrator
 from station.service.runtime import Runtime
@@ -27,6 +28,8 @@ from tests.station.conftest import SETTINGS
 from tests.station.fakes import Rig, make_rig, two_sequences
 from web.app import create_app
 
+passwords._hasher = PasswordHasher(time_cost=1, memory_cost=8, parallelism=1)
+"""The real cost, 64 MB and a processor for a moment, is looked at in tests/station/people."""
 BODY = {"robot_serial": "FB-1", "plan": "paper", "operator": "ada"}
 LIMIT_S = 10.0
 
@@ -130,7 +133,16 @@ def a_runtime(tmp_path: Path, settings: Settings = SETTINGS) -> Iterator[tuple[R
         orchestrator = Orchestrator(rig.devices, store, settings, kinds_with(two_sequences))
         opened.callback(orchestrator.shutdown)
         opened.callback(rig.released.set)
+        _wait_for_devices(orchestrator)
         yield Runtime(settings, tmp_path, store, orchestrator, ExitStack()), rig
+
+
+def _wait_for_devices(orchestrator: Orchestrator) -> None:
+    """Until they are connected: a stop before that is confirmed by nobody."""
+    deadline = time.monotonic() + LIMIT_S
+    while [device for device in orchestrator.snapshot().devices if device.state == "unknown"]:
+        assert time.monotonic() < deadline
+        time.sleep(0.005)
 
 
 @contextmanager

@@ -101,7 +101,12 @@ def _actor(user: User) -> Actor:
 
 
 def _signed_in(access: Access, actor: Actor, cookie: str, request: Request, response: Response) -> SignedIn:
+    set_session(response, cookie, request)
+    return access.session(actor)
+
+
+def set_session(response: Response, cookie: str, request: Request) -> None:
+    """Only this station's page can send it."""
     response.set_cookie(
         COOKIE, cookie, path="/", httponly=True, samesite="strict", secure=request.url.scheme == "https"
     )
-    return access.session(actor)
