@@ -7,7 +7,7 @@ PAGE := $(shell find web/ui \( -name node_modules -o -name tests -o -name api-ty
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 NPM := $(BIN)/python deploy/node.py
 
-.PHONY: run test coverage record lint format bench mutate reference lock bundle clean
+.PHONY: run test coverage record lint format bench security mutate reference lock bundle clean
 
 run: $(VENV)/installed  ## install and start the service on the emulated rig; prints the address
 	$(BIN)/station serve
@@ -42,6 +42,10 @@ format: $(VENV)/installed-for-tests
 
 bench: $(VENV)/installed-for-tests  ## the figures of docs/benchmarks.md
 	$(BIN)/station bench
+
+security: $(VENV)/installed-for-tests  ## bandit, then 2,000 requests as each role and as nobody (half an hour)
+	$(BIN)/bandit --quiet --recursive station drivers web deploy --exclude ./web/ui,./web/static -lll
+	$(BIN)/python -m tests.web.fuzz --cases 2000
 
 mutate: $(VENV)/installed-for-tests  ## changes what decides, one place at a time; lists what no test notices (hours)
 	mkdir -p mutants

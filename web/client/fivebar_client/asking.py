@@ -52,7 +52,8 @@ class Asking:
                 if time.monotonic() >= deadline_s:
                     raise
                 wished_s = None
-            pause_s = wait_s * random.uniform(0.5, 1.0) if wished_s is None else wished_s
+            some_s = wait_s * random.uniform(0.5, 1.0)  # noqa: S311 - not all clients at once
+            pause_s = some_s if wished_s is None else wished_s
             time.sleep(max(0.0, min(deadline_s - time.monotonic(), pause_s)))
             wait_s = min(2 * wait_s, LONGEST_WAIT_S)
 
