@@ -97,7 +97,7 @@ async def complete(
         await aside(lambda: access.sign_out(earlier))
     cookie = await aside(lambda: access.sign_in_by_provider(user))
     actor = Actor(name=user.name, via="user", role=user.role)
-    later.add_task(record_later, runtime.store, actor, "session.begun", f"user {user.id}")
+    later.add_task(record_later, runtime.orchestrator, actor, "session.begun", f"user {user.id}")
     answer = RedirectResponse("/", _SEE_OTHER)
     answer.delete_cookie(BROWSER, path=PATH)
     set_session(answer, cookie, request)

@@ -75,7 +75,7 @@ async def sign_in(
     if earlier := request.cookies.get(COOKIE):  # who signed in before at this page is not there any more
         await aside(lambda: access.sign_out(earlier))
     actor = _actor(user)
-    later.add_task(record_later, runtime.store, actor, "session.begun", f"user {user.id}")
+    later.add_task(record_later, runtime.orchestrator, actor, "session.begun", f"user {user.id}")
     return _signed_in(access, actor, cookie, request, response)
 
 
