@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from functools import partial
+from collections.abc import Mapping
 from http import HTTPStatus
 from typing import Any
 
@@ -93,14 +92,8 @@ RESPONSES = documented(401, 403, 422, 500, 503)
 """What any route may answer."""
 
 
-def _openapi(of_routes: Callable[[], dict[str, Any]]) -> dict[str, Any]:
-    """The OpenAPI document with the schemas that no route names: problems, and messages of the live feed.
-
-    Made when it is asked for: it takes a second, and a station that starts is not asked.
-    """
-    document = of_routes()
-    if "Problem" in document["components"]["schemas"]:
-        return document
+def add_schema(document: dict[str, Any]) -> dict[str, Any]:
+    """The OpenAPI document with the schemas that no route names: problems, and messages of the live feed."""
     reference = "#/components/schemas/{model}"
     problem_schema = Problem.model_json_schema(ref_template=reference)
     live = LIVE_MESSAGE.json_schema(ref_template=reference, mode="serialization")
@@ -113,8 +106,7 @@ def _openapi(of_routes: Callable[[], dict[str, Any]]) -> dict[str, Any]:
 
 
 def add(app: FastAPI) -> None:
-    """Turn every exception that leaves a route into its problem document; the OpenAPI document says so."""
-    app.openapi = partial(_openapi, app.openapi)  # type: ignore[method-assign]
+    """Turn every exception that leaves a route into its problem document."""
 
     @app.exception_handler(RequestValidationError)
     async def invalid(request: Request, error: RequestValidationError) -> ProblemResponse:

@@ -18,7 +18,7 @@ from pydantic import JsonValue
 
 from station.records import Actor, AuditChecked, AuditEntry
 from station.store.kept_file import KeptFile
-from station.store.rows import compact
+from station.store.rows import compact, millis
 from station.store.times import now_ms
 
 _HASHED = ("n", "at_ms", "who_sha256", "via", "role", "action", "subject", "before", "after")
@@ -35,14 +35,18 @@ class AuditTrail(KeptFile):
         *,
         before: Mapping[str, JsonValue] | None = None,
         after: Mapping[str, JsonValue] | None = None,
+        at: datetime | None = None,
     ) -> None:
-        """One more entry; within a transaction it is part of that."""
+        """One more entry; within a transaction it is part of that.
+
+        :param at: when it was done, if that is not now
+        """
         with self._writing() as db:
             last = db.execute("SELECT n, hash FROM audit ORDER BY n DESC LIMIT 1").fetchone() or (0, "")
             salt = secrets.token_hex(16)
             row = {
                 "n": last[0] + 1,
-                "at_ms": now_ms(),
+                "at_ms": now_ms() if at is None else millis(at),
                 "who_sha256": _sha256(f"{salt} {by.name}".encode()),
                 "via": by.via,
                 "role": by.role,

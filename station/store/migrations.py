@@ -278,5 +278,12 @@ def search(db: Database) -> None:
     db.execute("CREATE INDEX calibrations_serial_nocase ON calibrations (robot_serial COLLATE NOCASE)")
 
 
+@migrations()
+def users_of_a_provider(db: Database) -> None:
+    """Users may be known by a hash of who they are at an OpenID Connect provider."""
+    db.execute("ALTER TABLE users ADD COLUMN openid_sha256 BLOB")
+    db.execute("CREATE UNIQUE INDEX users_openid ON users (openid_sha256)")
+
+
 def _expand(blob: bytes) -> bytes:
     return zlib.decompressobj(zdict=_WORDS).decompress(blob)

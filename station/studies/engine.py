@@ -84,7 +84,7 @@ class Engine:
         file = self._file(title, chunk)
         if file is None or not file.exists():
             return None
-        results: list[Any] = pickle.loads(file.read_bytes())
+        results: list[Any] = pickle.loads(file.read_bytes())  # noqa: S301 - written by this study
         return results
 
     def _keep(self, title: str, chunk: Sequence[Item], results: list[Result]) -> None:
