@@ -86,16 +86,18 @@ class ModbusBus(OnLine):
             if not self._owners:
                 self._link.close()
 
-    def read(self, unit: int, address: int, count: int) -> list[int]:
+    def read(self, unit: int, address: int, count: int, *, budget_s: float | None = None) -> list[int]:
         """Holding registers (function 03), asked for again when the reply is lost, malformed or "busy".
 
+        :param budget_s: for how long; without it that of the bus
         :return: `count` values 0..65535
         :raises DeviceFault: the drive refuses
         :raises GarbledReply: a reply of the wrong kind or length
         :raises LinkLost: no reply
         """
         request = read_request(unit, address, count)
-        return registers_of(within(self._budget_s, lambda: self._ask(request)))
+        budget_s = self._budget_s if budget_s is None else budget_s
+        return registers_of(within(budget_s, lambda: self._ask(request)))
 
     def write_one(self, unit: int, address: int, value: int) -> None:
         """One register (function 06), sent once.

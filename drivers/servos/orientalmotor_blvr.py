@@ -19,10 +19,11 @@ from pydantic import Field
 
 from drivers.driver import Drive, DriverSettings, Seconds, ServoDriver
 from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
-from drivers.lines import ModbusBus, OnLine, UnansweredWrite
+from drivers.lines import ModbusBus, UnansweredWrite
 from drivers.protocols import AxisStatus
 from drivers.scaling import JointScaling
 from drivers.servos.joint_commands import JointCommands
+from drivers.servos.on_bus import OnBus
 from drivers.servos.registers import values_of, words_of
 
 DIRECT_DATA, POSITION_DATA = 0x0058, 0x005C
@@ -64,14 +65,13 @@ class OrientalMotorSettings(DriverSettings):
     """A drive that hears nothing for so long stops with alarm 85h; 0 switches that off."""
 
 
-class OrientalMotorBLVR(OnLine):
+class OrientalMotorBLVR(OnBus):
     """One drive as a `ServoAxis`; may be called from any thread."""
 
     def __init__(
         self, bus: ModbusBus, unit: int, scaling: JointScaling, *, name: str, watchdog_ms: int
     ) -> None:
-        super().__init__(bus.line)
-        self._bus = bus
+        super().__init__(bus)
         self._unit = unit
         self._scaling = scaling
         self._name = name

@@ -78,6 +78,7 @@ from station.records.live import (
     SequenceView,
     StationInfo,
     StationView,
+    Trip,
     Workspace,
 )
 from station.records.made_by import DeviceUsed, MadeBy, ScaleCertificate
@@ -329,6 +330,7 @@ __all__ = [
     "TrainingView",
     "TranslatedPosition",
     "TrendPoint",
+    "Trip",
     "User",
     "Verdict",
     "Via",
