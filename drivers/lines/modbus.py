@@ -7,12 +7,14 @@ link that fell silent heals, and a stop passes all that wait.
 from __future__ import annotations
 
 import logging
+import math
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, nullcontext
 from threading import Lock
 
 from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
+from drivers.lines.lane import Gate
 from drivers.lines.modbus_frames import Request, read_request, registers_of, write_one_request, write_request
 from drivers.lines.modbus_rtu import RtuLink
 from drivers.lines.modbus_tcp import TcpLink
@@ -62,6 +64,11 @@ class ModbusBus(OnLine):
         self._owning = Lock()
         self._sending = Lock()
         self._stops = 0
+        self._heard_at_s: dict[int, float] = {}
+
+    def silent_s(self, unit: int) -> float:
+        """For how long a unit has not been heard, inf before the first time."""
+        return time.monotonic() - self._heard_at_s.get(unit, -math.inf)
 
     @property
     def stops(self) -> int:
@@ -171,7 +178,7 @@ class ModbusBus(OnLine):
 
         def attempt() -> None:
             try:
-                _check(request, self._link.exchange(request, gate))
+                _check(request, self._exchange(request, gate))
             except NotSent:
                 raise
             except (LinkLost, GarbledReply) as error:
@@ -187,8 +194,13 @@ class ModbusBus(OnLine):
             ) from uncertain.cause
 
     def _ask(self, request: Request) -> bytes:
-        pdu = self._link.exchange(request, nullcontext)
+        pdu = self._exchange(request, nullcontext)
         _check(request, pdu)
+        return pdu
+
+    def _exchange(self, request: Request, gate: Gate) -> bytes:
+        pdu = self._link.exchange(request, gate)
+        self._heard_at_s[request.unit] = time.monotonic()
         return pdu
 
 
