@@ -20,6 +20,12 @@ class Traffic:
         self.round_trips_s = 0.0
         """Sum over all replies."""
         self.last_round_trip_s: float | None = None
+        self.stop_sent_at_s: dict[int, float] = {}
+        """By unit, when its last stop frame went out that was no repetition; of the clock."""
+
+    def note_stop(self, unit: int) -> None:
+        """The first frame of a stop has been sent."""
+        self.stop_sent_at_s[unit] = time.monotonic()
 
     def note(self, what: str) -> None:
         """Something happened on the line.
