@@ -25,6 +25,7 @@ GIVEN_OTHERWISE = {
     "drivers.emulated.machine.Machine",
     "drivers.emulated.orders.Orders",
     "station.outbox.webhook.Webhook",
+    "station.people.openid.OpenId",
     "station.people.tries.Tries",
 }
 """Classes whose clock is an argument, which the simulation gives, or which it does not use."""
