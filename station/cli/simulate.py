@@ -26,9 +26,6 @@ from station.simulation import (
 from station.simulation import orders as every_order
 from station.studies.engine import Engine
 
-MOST_WRITES = 100
-"""More than the longest of the two runs has."""
-
 
 @click.command("simulate")
 @click.option(
@@ -66,7 +63,7 @@ def simulate_command(
     engine = Engine(Console(stderr=True), workers, resume)
     if orders is not None or writes:
         cases: list[Case] = []
-        cases += every_order(orders) if orders is not None else writes_that_fail(MOST_WRITES)
+        cases += every_order(orders) if orders is not None else writes_that_fail()
         found = exhausted(engine.each(carried_out, cases, "Cases"))
     else:
         found = summary(years, seed, engine.each(month, months(years, seed), "Months", long=True))

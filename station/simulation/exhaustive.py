@@ -6,6 +6,8 @@ Each case is a station of its own with one calibration that has passed, so that 
 from __future__ import annotations
 
 import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass
 from functools import cache
 from itertools import product
@@ -67,8 +69,8 @@ def orders(depth: int) -> list[Order]:
     return [Order(events) for events in product(EVENTS, repeat=depth)]
 
 
-def writes_that_fail(most: int) -> list[WriteThatFails]:
-    """Every write up to `most` of a measurement and of an application: once, for good, and a kill at it."""
+def writes_that_fail() -> list[WriteThatFails]:
+    """Every write of a measurement and of an application: it fails, it and all later ones fail, a kill at it."""
     kinds: tuple[tuple[DiskTrouble | Literal["kill"], int], ...] = (
         ("error", 1),
         ("full", _FOR_GOOD),
@@ -79,32 +81,46 @@ def writes_that_fail(most: int) -> list[WriteThatFails]:
         WriteThatFails(deed, trouble, write, times)
         for deed in deeds
         for trouble, times in kinds
-        for write in range(most)
+        for write in range(_writes_of(deed))
     ]
+
+
+def _writes_of(deed: Deed) -> int:
+    """How many writes it has when nothing fails."""
+    with _station() as keeper:
+        keeper.start()
+        first = keeper.plant.disk.writes
+        _let_happen(keeper, "submit" if deed == "measure" else "apply", "the deed")
+        keeper.plant.scheduler.wait(lambda: keeper.orchestrator.running is None)
+        return keeper.plant.disk.writes - first
 
 
 def carried_out(case: Case) -> Outcome:
     """One case on a station of its own."""
+    reached = True
+    with _station(repr(case)) as keeper:
+        with suppress(Stranded):
+            keeper.start()
+            if isinstance(case, Order):
+                _in_order(keeper, case)
+            else:
+                reached = _failing(keeper, case)
+            _settled(keeper)
+        return Outcome(case, reached, tuple(keeper.witness.violations))
+
+
+@contextmanager
+def _station(seed: str = "") -> Iterator[Keeper]:
+    """One that has a passed calibration; not started."""
     with TemporaryDirectory() as folder, prepared():
         home = Path(folder) / "home"
         calibrated, taken = _calibrated()
         shutil.copytree(calibrated, home)
-        plant = Plant(home, [_SPEC], Random(repr(case)))
+        plant = Plant(home, [_SPEC], Random(seed))
         plant.receiver.taken = list(taken)
-        keeper = Keeper(plant, Witness(plant))
-        reached = True
         with plant.entered():
-            try:
-                keeper.start()
-                if isinstance(case, Order):
-                    _in_order(keeper, case)
-                else:
-                    reached = _failing(keeper, case)
-                _settled(keeper)
-            except Stranded:
-                pass
+            yield Keeper(plant, Witness(plant))
             plant.scheduler.end()
-    return Outcome(case, reached, tuple(keeper.witness.violations))
 
 
 @cache
