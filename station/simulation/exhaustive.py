@@ -70,7 +70,7 @@ def orders(depth: int) -> list[Order]:
 
 
 def writes_that_fail() -> list[WriteThatFails]:
-    """Every write of a measurement and of an application: it fails, it and all later ones fail, a kill at it."""
+    """Every write of a measurement and an application: it fails, all from it on fail, a kill at it."""
     kinds: tuple[tuple[DiskTrouble | Literal["kill"], int], ...] = (
         ("error", 1),
         ("full", _FOR_GOOD),
