@@ -61,7 +61,7 @@ reference: $(VENV)/installed-for-tests  ## docs/reference, web/openapi.json and 
 lock: $(VENV)/installed-for-tests  ## newest versions that fit, with hashes
 	deploy/lock $(BIN)
 
-bundle: $(VENV)/installed  ## dist/bundle, which installs on a computer without internet
+bundle: $(VENV)/installed-for-tests  ## dist/bundle, which installs on a computer without internet
 	deploy/bundle $(BIN) dist/bundle
 
 clean:

@@ -102,6 +102,7 @@ KINDS: dict[str, MachineKind] = {
         catalogue=lambda arm: arm_catalogue(
             arm.robot.joints,
             by_range=arm.by_range,
+            sliding=arm.robot.sliding,
             timed=TIME not in arm.measurements.guessed,
             warmed=reference_of(arm.measurements).temperature_c is not None,
         ),
@@ -186,13 +187,14 @@ def _foreign(path: Path, columns: Columns, mapping: ColumnMap | None) -> Measure
         content = path.read_bytes()
     except OSError as error:
         raise InputRefused(f"{path} cannot be read: {error.strerror}.") from error
-    content, lost = translated(content, mapping, columns, path.name)
-    if lost:
-        log.warning("%s: %d rows are left out: the instrument had lost its target there.", path.name, lost)
-    header = content.partition(b"\n")[0].decode().split(",")
-    if not set(columns.theta) & set(header):
+    read = translated(content, mapping, columns, path.name)
+    if read.lost:
+        log.warning(
+            "%s: %d readings are left out: the instrument had lost its target there.", path.name, read.lost
+        )
+    if not set(columns.theta) & set(read.names):
         raise InputRefused(
             f"{path.name}: none of the columns {', '.join(columns.theta)} is there; `station columns "
             f"{path.name}` proposes a column map for files made elsewhere, to be given with --columns."
         )
-    return parse_measurements(content, columns, source=path.name)
+    return parse_measurements(read.content, columns, source=path.name)

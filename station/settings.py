@@ -25,6 +25,7 @@ from drivers.driver import DriverSettings
 from drivers.scaling import JointScaling
 from drivers.strict_numbers import StrictNumbers
 from station.errors import InputRefused
+from station.interlock_settings import InterlockSettings
 from station.records import EventType, ScaleCertificate, said
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
@@ -362,6 +363,7 @@ class Settings(_Section):
     scale: ScaleSettings | None = None
     servo: ServoSettings | None = None
     limits: LimitSettings = LimitSettings()
+    interlocks: InterlockSettings = InterlockSettings()
     service: ServiceSettings = ServiceSettings()
     backup: BackupSettings = BackupSettings()
     retention: RetentionSettings = RetentionSettings()

@@ -41,6 +41,11 @@ class Request:
         return self.pdu[0]
 
     @property
+    def is_read(self) -> bool:
+        """Whether it changes nothing in the drive."""
+        return self.function == READ
+
+    @property
     def rtu(self) -> bytes:
         """The frame on RS-485."""
         return with_check_sum(bytes((self.unit,)) + self.pdu)

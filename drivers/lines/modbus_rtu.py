@@ -30,6 +30,8 @@ class _Stop:
 
     request: Request
     timeout_s: float
+    first: bool
+    """Whether it is no repetition."""
     sent_at_s: float | None = None
     reply: bytes | None = None
     error: DeviceError | None = None
@@ -76,7 +78,7 @@ class RtuLink:
         Stops of several drives that are asked for at the same time go out one right after the other;
         their answers are collected together.  :raises: as `exchange`
         """
-        stop = _Stop(request, timeout_s)
+        stop = _Stop(request, timeout_s, first)
         with self._stops_lock:
             self._stops.append(stop)
         with self._lane.hold(urgent=True):
@@ -187,4 +189,6 @@ class RtuLink:
     def _send_stop(self, stop: _Stop) -> None:
         stop.sent_at_s = time.monotonic()
         self._line.write(stop.request.rtu)
+        if stop.first and not stop.request.is_read:
+            self._line.traffic.note_stop(stop.request.unit)
         self._free_from_s = time.monotonic() + len(stop.request.rtu) * self._byte_s + self._gap_s

@@ -12,7 +12,7 @@ from station.records.calibration import (
     CalibrationSummary,
     JointApplication,
 )
-from station.records.column_map import ColumnMap, translated
+from station.records.column_map import ColumnMap
 from station.records.column_proposal import proposed_map
 from station.records.csv_cells import harmless
 from station.records.device_detail import DeviceDetail
@@ -78,6 +78,7 @@ from station.records.live import (
     SequenceView,
     StationInfo,
     StationView,
+    Trip,
     Workspace,
 )
 from station.records.made_by import DeviceUsed, MadeBy, ScaleCertificate
@@ -167,6 +168,7 @@ from station.records.training import (
     Score,
     TrainingView,
 )
+from station.records.translation import Translated, translated
 from station.records.trend import TrendPoint
 from station.records.types import LARGEST_ID, Angles, Complex, Flags, Index, Real
 from station.records.uid import uid7
@@ -327,8 +329,10 @@ __all__ = [
     "TemperatureReference",
     "TermOfModel",
     "TrainingView",
+    "Translated",
     "TranslatedPosition",
     "TrendPoint",
+    "Trip",
     "User",
     "Verdict",
     "Via",

@@ -29,7 +29,7 @@ PAUSE_S = 0.5
 class _Late:
     what: str
     write: Callable[[], None]
-    written: Event = field(default_factory=Event)
+    written: Event = field(default_factory=lambda: Event())
 
 
 class LateRecords:

@@ -146,7 +146,9 @@ def victim(servo: str) -> Iterator[Victim]:
 
 def _toml(devices: Mapping[str, Mapping[str, Any]]) -> str:
     lines = []
-    for section, options in devices.items():
+    tables = {name: options for name, options in devices.items() if name != "interlocks"}
+    tables |= {f"interlocks.{name}": options for name, options in devices["interlocks"].items()}
+    for section, options in tables.items():
         lines += [f"[{section}]", *(f"{key} = {json.dumps(value)}" for key, value in options.items())]
     for joint in DEFAULT_JOINTS:
         lines += ["[[servo.joint]]", f"unit = {joint.unit}", f"zero_at_deg = {joint.zero_at_deg}"]

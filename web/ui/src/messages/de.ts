@@ -68,9 +68,14 @@ export const de: Messages = {
   },
   interlocks: {
     devices: "Alle Geräte antworten",
-    alarm: "Kein Antrieb meldet einen Alarm",
+    drives: "Beide Antriebe sind bereit",
     workspace: "Der Arm steht in seinem Arbeitsraum",
     scale: "Der Maßstab zeigt einen Wert",
+    travel: "Der Maßstab bewegt sich so weit, wie die Gelenke sagen",
+    following_error: "Jedes Gelenk bleibt auf seinem Weg",
+    guard_door: "Die Schutztür ist geschlossen",
+    temperature: "Die Temperatur liegt in ihrem Bereich",
+    reference_check: "Die Referenzprüfung gilt",
   },
   stages: {
     paper: {
@@ -214,6 +219,8 @@ export const de: Messages = {
     interlocks: "Verriegelungen",
     interlockOk: "in Ordnung",
     interlockNotMet: "◆ nicht erfüllt",
+    lastTrip: (run: number, frameMs: number | null, standstillMs: number) =>
+      `Hat Lauf ${run} angehalten: ${frameMs === null ? "" : `Stopptelegramme nach ${frameMs} ms gesendet, `}Stillstand nach ${standstillMs} ms gesehen`,
     run: "Lauf",
     noRun: "Kein Lauf im Gang",
     wayBack: "Weg zurück",

@@ -96,9 +96,14 @@ export const en = {
   /** By identifier. */
   interlocks: {
     devices: "All devices answer",
-    alarm: "No drive shows an alarm",
+    drives: "Both drives are ready",
     workspace: "The arm stands within its workspace",
     scale: "The scale reads",
+    travel: "The scale moves as far as the joints say",
+    following_error: "Each joint keeps to its way",
+    guard_door: "The guard door is closed",
+    temperature: "The temperature is within its window",
+    reference_check: "The reference check is valid",
   } as Record<string, string>,
   /** By the name of the stage; the others are effects. */
   stages: {
@@ -238,6 +243,8 @@ export const en = {
     interlocks: "Interlocks",
     interlockOk: "ok",
     interlockNotMet: "◆ not met",
+    lastTrip: (run: number, frameMs: number | null, standstillMs: number) =>
+      `Stopped run ${run}: ${frameMs === null ? "" : `stop frames sent after ${frameMs} ms, `}standstill seen after ${standstillMs} ms`,
     /** Of devices and interlocks while the station does not answer. */
     notKnown: "not known",
     run: "Run",

@@ -55,9 +55,14 @@ export const zh: Messages = {
   },
   interlocks: {
     devices: "所有设备均有应答",
-    alarm: "没有驱动器报警",
+    drives: "两个驱动器均已就绪",
     workspace: "臂位于其工作空间内",
     scale: "光栅尺有读数",
+    travel: "光栅尺的移动量与关节一致",
+    following_error: "每个关节都保持在其路径上",
+    guard_door: "防护门已关闭",
+    temperature: "温度在允许范围内",
+    reference_check: "参考检查有效",
   },
   stages: {
     paper: { name: "已发表模型", text: "零点与安装；几何为标称值。" },
@@ -190,6 +195,8 @@ export const zh: Messages = {
     interlocks: "联锁",
     interlockOk: "正常",
     interlockNotMet: "◆ 未满足",
+    lastTrip: (run: number, frameMs: number | null, standstillMs: number) =>
+      `停止了运行 ${run}：${frameMs === null ? "" : `${frameMs} ms 后发出停止帧，`}${standstillMs} ms 后确认静止`,
     run: "运行",
     noRun: "没有正在进行的运行",
     wayBack: "返回",
