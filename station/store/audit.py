@@ -23,6 +23,12 @@ from station.store.times import now_ms
 
 _HASHED = ("n", "at_ms", "who_sha256", "via", "role", "action", "subject", "before", "after")
 
+_TEXT = (
+    "coalesce(who, '') || ' ' || coalesce(role, '') || ' ' || via || ' ' || action || ' ' || subject"
+    " || ' ' || replace(replace(coalesce(before, '') || ' ' || coalesce(after, ''), '\"', ''), ':', ' ')"
+)
+"""Of an entry, as it is searched: `{value 20}` for `{"value":"20"}`."""
+
 
 class AuditTrail(KeptFile):
     """Append-only."""
@@ -61,10 +67,15 @@ class AuditTrail(KeptFile):
                 [*row.values(), by.name, salt, _link(last[1], row)],
             )
 
-    def audit(self, *, limit: int = 100, cursor: int | None = None) -> list[AuditEntry]:
-        """The newest first; only entries before number `cursor`."""
+    def audit(self, *, limit: int = 100, cursor: int | None = None, contains: str = "") -> list[AuditEntry]:
+        """The newest first; only entries before number `cursor`.
+
+        :param contains: only entries that have this in name, role, action, subject or values, in any case
+        """
         rows = self._readers.all(
-            "SELECT * FROM audit WHERE n < coalesce(?, n + 1) ORDER BY n DESC LIMIT ?", [cursor, limit]
+            "SELECT * FROM audit WHERE n < coalesce(?, n + 1)"
+            f" AND (? = '' OR instr(lower({_TEXT}), lower(?))) ORDER BY n DESC LIMIT ?",
+            [cursor, contains, contains, limit],
         )
         return [_entry(row) for row in rows]
 

@@ -9,18 +9,20 @@ import shutil
 import subprocess
 import sys
 import time
+from concurrent.futures import Future, ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
 
+from fivebar_client import CalibrationBody, CalibrationSummary, Station
 from station.people import new_secret, secret_hash
 from station.records import Actor
 from station.store import Store
 from tests.docs.pages import FENCE, ROOT
 from tests.served import Served
 
-LIMIT_S = 60.0
-STATION = "[service]\nopen = false\n[emulated]\nspeed = 1000\n"
+LIMIT_S, STORM = 60.0, 50
+TOML = "[service]\nopen = false\n[emulated]\nspeed = 1000\n"
 
 
 def block(name: str) -> str:
@@ -37,7 +39,7 @@ def served(tmp_path: Path) -> Served:
     store = Store(tmp_path / "station.db")
     store.add_key(Actor(name="root", via="terminal"), "line 4", "mes", secret_hash(key), None)
     store.close()
-    return Served(tmp_path, STATION)
+    return Served(tmp_path, TOML)
 
 
 def environment(served: Served) -> dict[str, str]:
@@ -83,18 +85,29 @@ def the_same_with_curl(served: Served) -> None:
     assert (served.home / "readings.csv").read_text().startswith("reading,")
 
 
+def storm(clients: ThreadPoolExecutor, mes: Station, times: int) -> list[Future[CalibrationSummary]]:
+    """The job's own start, so many times at once."""
+    order = CalibrationBody(robot_serial="FB-1", plan="rapid", operator="line 4", work_order="WO-7")
+    return [clients.submit(mes.start, order, "WO-7/1") for _ in range(times)]
+
+
 @pytest.mark.skipif(shutil.which("curl") is None, reason="curl is not there")
 def test_the_job_goes_on_after_kills_of_both_sides(served: Served) -> None:
     served.start()
-    first = job(served)
-    wait_for_readings(served)
-    first.kill()
-    first.communicate()
-    second = job(served)
-    served.kill()
-    with served:
-        said, _ = second.communicate(timeout=LIMIT_S)
-        the_same_with_curl(served)
+    key = (served.home / "key").read_text()
+    with ThreadPoolExecutor(STORM) as clients, Station(served.url, key) as mes:
+        started = storm(clients, mes, STORM)
+        first = job(served)
+        wait_for_readings(served)
+        first.kill()
+        first.communicate()
+        second = job(served)
+        started += storm(clients, mes, STORM // 5)
+        served.kill()
+        with served:
+            assert {one.result(LIMIT_S).id for one in started} == {1}, "one run, killed in between"
+            said, _ = second.communicate(timeout=LIMIT_S)
+            the_same_with_curl(served)
     assert second.returncode == 0, said
     assert re.search(r"WO-7: run 2 succeeded, verdict pass: ", said)
     kept = json.loads((served.home / "WO-7.json").read_text())
