@@ -60,6 +60,18 @@ class LinearScale(Device, Protocol):
 
 
 @runtime_checkable
+class RegisterReader(Protocol):
+    """A device on a Modbus line, which brings what other units on that line show as well."""
+
+    def read_register(self, unit: int, address: int) -> int:
+        """One holding register of a unit on the line, 0..65535.
+
+        :raises DeviceError: the unit refuses, or does not answer.
+        """
+        ...
+
+
+@runtime_checkable
 class ServoAxis(Device, Protocol):
     """One positioning drive of an active joint."""
 

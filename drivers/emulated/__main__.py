@@ -1,9 +1,9 @@
 """Run an emulated rig: `python -m drivers.emulated RIG.toml [--speed X] [--state FILE]`.
 
-One JSON line on standard output tells `[scale]` and `[servo]` of a station file for it; the rig runs until
-standard input ends (so it never outlives whoever started it) or until it is terminated.  A line of standard
-input is JSON with `faults` or `effects` that replace those ordered before, or a `mount` of the mechanism;
-one line on standard output answers it.
+One JSON line on standard output tells `[scale]`, `[servo]` and `[interlocks]` of a station file for it; the
+rig runs until standard input ends (so it never outlives whoever started it) or until it is terminated.  A
+line of standard input is JSON with `faults` or `effects` that replace those ordered before, or a `mount` of
+the mechanism; one line on standard output answers it.
 """
 
 from __future__ import annotations
@@ -45,7 +45,12 @@ def main() -> int:
     try:
         rig = EmulatedRig(load_rig(arguments.rig), speed=arguments.speed, state_file=arguments.state)
         with rig:
-            print(json.dumps({"scale": rig.scale_options, "servo": rig.servo_options}), flush=True)
+            found = {
+                "scale": rig.scale_options,
+                "servo": rig.servo_options,
+                "interlocks": rig.interlock_options,
+            }
+            print(json.dumps(found), flush=True)
             for line in sys.stdin:
                 print(_ordered(rig, line), flush=True)
     except (RigFileError, StateFileError) as error:

@@ -39,7 +39,7 @@ class BLVRDrive(EmulatedDrive):
         registers = {address + half: 0 for address in _ITEMS for half in (0, 1)}
         registers[_RESOLUTION + 1], registers[_RESOLUTION + 3] = counts_per_rev, 1
         super().__init__(machine, joint, faults, registers)
-        self._heard_s = time.monotonic()
+        self._silent_s = 0.0
         self._closing = Event()
         self._thread = Thread(target=self._watch, name=f"emulated watchdog of joint {joint}")
         self._thread.start()
@@ -49,13 +49,18 @@ class BLVRDrive(EmulatedDrive):
         self._thread.join()
 
     def answer(self, request: bytes) -> bytes:
-        self._heard_s = time.monotonic()
+        self._silent_s = 0.0
         return super().answer(request)
 
     def _watch(self) -> None:
+        """Silence counts while this program runs: what a busy computer keeps from it, a drive would hear."""
+        looked_s = time.monotonic()
         while not self._closing.wait(_LOOK_S):
+            now_s = time.monotonic()
+            self._silent_s += min(now_s - looked_s, 2 * _LOOK_S)
+            looked_s = now_s
             limit_s = self._item(_WATCHDOG) / 1000
-            if limit_s and not self._alarm and time.monotonic() - self._heard_s > limit_s:
+            if limit_s and not self._alarm and self._silent_s > limit_s:
                 self.raise_alarm(_SILENCE_ALARM)
 
     def _switch_off(self) -> None:

@@ -15,7 +15,7 @@ from pydantic import ConfigDict, Field, TypeAdapter, model_validator
 
 from drivers.strict_numbers import StrictNumbers
 
-Device = Literal["scale", "axis1", "axis2", "line"]
+Device = Literal["scale", "axis1", "axis2", "line", "inputs"]
 Kind = Literal[
     "silent",
     "late",
@@ -39,6 +39,8 @@ Kind = Literal[
     "jump",
     "unit",
     "reboot",
+    "door_open",
+    "temperature",
 ]
 _ON_ANY_WIRE: tuple[Kind, ...] = (
     "silent",
@@ -67,6 +69,7 @@ KINDS: dict[Device, tuple[Kind, ...]] = {
     "axis1": (*_ON_MODBUS, *_OF_A_DRIVE),
     "axis2": (*_ON_MODBUS, *_OF_A_DRIVE),
     "line": _ON_MODBUS,
+    "inputs": (*_ON_MODBUS, "door_open", "temperature"),
 }
 EVENTS: tuple[Kind, ...] = ("jump", "lost_counts", "reboot", "alarm", "following_error")
 LATE_S = 1.5
@@ -81,7 +84,7 @@ class FaultOrder(StrictNumbers):
     model_config = ConfigDict(frozen=True, extra="forbid")
 
     device: Device
-    """`line` is the Modbus line of both axes."""
+    """`line` is the Modbus line of both axes, `inputs` the module on it with guard door and thermometer."""
     kind: Kind
     after_s: Seconds = 0.0
     """From the order on."""
@@ -93,6 +96,8 @@ class FaultOrder(StrictNumbers):
     """Of an exception or alarm; 0 takes a usual one."""
     mm: Annotated[float, Field(ge=-1000, le=1000, allow_inf_nan=False)] = 0.1
     """Of a jump."""
+    temperature_c: Annotated[float, Field(ge=-100, le=300, allow_inf_nan=False)] = 80.0
+    """What the thermometer shows, degC, with `temperature`."""
 
     @model_validator(mode="after")
     def _device_can_have_it(self) -> Self:
@@ -138,6 +143,8 @@ class Orders:
 
     def due(self, kind: Kind, *devices: Device) -> FaultOrder | None:
         """An occasion for `kind` has come: the order that spoils it, one occasion of it used up."""
+        if not self._given:
+            return None
         with self._lock:
             passed_s = self._clock() - self._since_s
             for number, order in enumerate(self._given):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections.abc import Callable
 from contextlib import ExitStack
 from dataclasses import replace
 from pathlib import Path
@@ -14,6 +15,7 @@ from drivers.emulated.blvr import BLVRDrive
 from drivers.emulated.drive import EmulatedDrive
 from drivers.emulated.el7 import CS2RS, EL7, EL7Drive
 from drivers.emulated.faults import Faults
+from drivers.emulated.input_module import INPUTS, TEMPERATURE, UNIT, InputModule
 from drivers.emulated.link import DriveReply, DropLink
 from drivers.emulated.machine import Machine, MachineState
 from drivers.emulated.modbus_rtu import RtuLine
@@ -24,8 +26,10 @@ from drivers.emulated.pty_line import PtyLine
 from drivers.emulated.readout import EmulatedReadout
 from drivers.emulated.siko_head import SikoDevice
 from drivers.emulated.spec import Fault, RigSpec
-from drivers.emulated.spoiled import ReadoutOnLine, SpoiledDrive
+from drivers.emulated.spoiled import ReadoutOnLine, SpoiledDrive, SpoiledInputs
 
+Answer = Callable[[bytes], DriveReply]
+"""Of a unit on the line to a request PDU."""
 _SAVE_EVERY_S = 0.05
 _SCALE_LINES = {"heidenhain-nd": "baud=9600&format=7E2&override=8N1", "siko": "baud=19200&format=8N1"}
 
@@ -60,14 +64,17 @@ class EmulatedRig:
             drives = {joint: self._drive(joint) for joint in (1, 2)}
             for drive in drives.values():
                 stack.callback(drive.close)
-            units = {
+            behind_gateway = self.spec.emulated.line == "tcp"
+            units: dict[int, Answer] = {
                 joint: _DriveOnLine(
-                    SpoiledDrive(drive, joint, self.orders, behind_gateway=self.spec.emulated.line == "tcp"),
+                    SpoiledDrive(drive, joint, self.orders, behind_gateway=behind_gateway),
                     joint,
                     self._faults,
                 )
                 for joint, drive in drives.items()
             }
+            inputs = InputModule(self.machine)
+            units[UNIT] = SpoiledInputs(inputs, self.orders, behind_gateway=behind_gateway).answer
             self.servo_url = self._connect(units, drives[1].check_sum_exception, stack)
             self._open = stack.pop_all()
         return self
@@ -113,9 +120,21 @@ class EmulatedRig:
             return BLVRDrive(self.machine, joint, self._faults, self.spec.machine.counts_per_rev)
         return EL7Drive(self.machine, joint, self._faults, CS2RS if family == "leadshine-cs2rs" else EL7)
 
-    def _connect(
-        self, units: dict[int, _DriveOnLine], check_sum_exception: int | None, stack: ExitStack
-    ) -> str:
+    @property
+    def interlock_options(self) -> dict[str, dict[str, float]]:
+        """`[interlocks]` of a station file for this rig: where guard door and thermometer are wired to."""
+        return {
+            "guard_door": {"unit": UNIT, "address": INPUTS, "bit": 0},
+            "temperature": {
+                "unit": UNIT,
+                "address": TEMPERATURE,
+                "factor_c": 0.1,
+                "low_c": 0.0,
+                "high_c": 60.0,
+            },
+        }
+
+    def _connect(self, units: dict[int, Answer], check_sum_exception: int | None, stack: ExitStack) -> str:
         """Put the drives on their line; its address."""
         if self.spec.emulated.line == "tcp":
             gateway = ModbusTcpGateway(units)

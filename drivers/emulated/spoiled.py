@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from typing import Final
 
 from drivers.emulated.drive import EmulatedDrive
+from drivers.emulated.input_module import InputModule
 from drivers.emulated.link import DriveReply, DropLink, HalfOpen
 from drivers.emulated.orders import LATE_S, Device, FaultOrder, Kind, Orders
 from drivers.emulated.readout import EmulatedReadout, Reply
@@ -15,15 +17,13 @@ _ALARMS: tuple[Kind, ...] = ("alarm", "following_error")
 _LOSSES: tuple[Kind, ...] = ("lost_counts", "reboot")
 
 
-class SpoiledDrive:
-    """A drive and its place on the line."""
+class _Unit(ABC):
+    """What is on the line, and its place there."""
 
-    def __init__(
-        self, drive: EmulatedDrive, joint: int, orders: Orders, *, behind_gateway: bool = True
-    ) -> None:
+    def __init__(self, own: Device, orders: Orders, *, behind_gateway: bool) -> None:
         self._behind_gateway = behind_gateway
-        self._drive = drive
-        self._own: Final[Device] = "axis1" if joint == 1 else "axis2"
+        self._on_the_way = tuple(k for k in _ON_THE_WAY if k != "bad_crc" or not behind_gateway)
+        self._own: Final = own
         self._orders = orders
 
     def answer(self, request: bytes) -> DriveReply:
@@ -39,16 +39,40 @@ class SpoiledDrive:
             return DriveReply(request)
         if refused := self._due("exception"):
             return DriveReply(bytes((request[0] | 0x80, refused.code or _SLAVE_BUSY)))
-        self._change_drive()
-        reply = DriveReply(self._drive.answer(request))
+        self._change()
+        reply = DriveReply(self._answer(request))
         if self._due("late"):
             return DriveReply(reply.pdu, LATE_S)
-        for kind in _ON_THE_WAY:
+        for kind in self._on_the_way:
             if self._due(kind):
                 return DriveReply(reply.pdu, spoil=kind)
         return reply
 
-    def _change_drive(self) -> None:
+    @abstractmethod
+    def _answer(self, request: bytes) -> bytes:
+        """The device's own."""
+
+    @abstractmethod
+    def _change(self) -> None:
+        """What is ordered befalls the device."""
+
+    def _due(self, kind: Kind) -> FaultOrder | None:
+        return self._orders.due(kind, self._own, "line")
+
+
+class SpoiledDrive(_Unit):
+    """A drive."""
+
+    def __init__(
+        self, drive: EmulatedDrive, joint: int, orders: Orders, *, behind_gateway: bool = True
+    ) -> None:
+        super().__init__("axis1" if joint == 1 else "axis2", orders, behind_gateway=behind_gateway)
+        self._drive = drive
+
+    def _answer(self, request: bytes) -> bytes:
+        return self._drive.answer(request)
+
+    def _change(self) -> None:
         if not self._orders.hold(_LOSSES, self._own, "line"):
             self._drive.find_reference()
         for kind in _ALARMS:
@@ -61,8 +85,21 @@ class SpoiledDrive:
         if self._due("reboot"):
             self._drive.reboot()
 
-    def _due(self, kind: Kind) -> FaultOrder | None:
-        return self._orders.due(kind, self._own, "line")
+
+class SpoiledInputs(_Unit):
+    """The input module."""
+
+    def __init__(self, module: InputModule, orders: Orders, *, behind_gateway: bool = True) -> None:
+        super().__init__("inputs", orders, behind_gateway=behind_gateway)
+        self._module = module
+
+    def _answer(self, request: bytes) -> bytes:
+        return self._module.answer(request)
+
+    def _change(self) -> None:
+        self._module.door_open = self._due("door_open") is not None
+        shown = self._due("temperature")
+        self._module.shown_c = None if shown is None else shown.temperature_c
 
 
 _ON_THE_WAY: tuple[Kind, ...] = ("wrong_id", "wrong_function", "bad_crc", "short", "garbage", "twice")

@@ -7,12 +7,14 @@ link that fell silent heals, and a stop passes all that wait.
 from __future__ import annotations
 
 import logging
+import math
 import time
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager, nullcontext
 from threading import Lock
 
 from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
+from drivers.lines.lane import Gate
 from drivers.lines.modbus_frames import Request, read_request, registers_of, write_one_request, write_request
 from drivers.lines.modbus_rtu import RtuLink
 from drivers.lines.modbus_tcp import TcpLink
@@ -62,6 +64,11 @@ class ModbusBus(OnLine):
         self._owning = Lock()
         self._sending = Lock()
         self._stops = 0
+        self._heard_at_s: dict[int, float] = {}
+
+    def silent_s(self, unit: int) -> float:
+        """For how long a unit has not been heard, inf before the first time."""
+        return time.monotonic() - self._heard_at_s.get(unit, -math.inf)
 
     @property
     def stops(self) -> int:
@@ -86,16 +93,18 @@ class ModbusBus(OnLine):
             if not self._owners:
                 self._link.close()
 
-    def read(self, unit: int, address: int, count: int) -> list[int]:
+    def read(self, unit: int, address: int, count: int, *, budget_s: float | None = None) -> list[int]:
         """Holding registers (function 03), asked for again when the reply is lost, malformed or "busy".
 
+        :param budget_s: for how long; without it that of the bus
         :return: `count` values 0..65535
         :raises DeviceFault: the drive refuses
         :raises GarbledReply: a reply of the wrong kind or length
         :raises LinkLost: no reply
         """
         request = read_request(unit, address, count)
-        return registers_of(within(self._budget_s, lambda: self._ask(request)))
+        budget_s = self._budget_s if budget_s is None else budget_s
+        return registers_of(within(budget_s, lambda: self._ask(request)))
 
     def write_one(self, unit: int, address: int, value: int) -> None:
         """One register (function 06), sent once.
@@ -169,7 +178,7 @@ class ModbusBus(OnLine):
 
         def attempt() -> None:
             try:
-                _check(request, self._link.exchange(request, gate))
+                _check(request, self._exchange(request, gate))
             except NotSent:
                 raise
             except (LinkLost, GarbledReply) as error:
@@ -185,8 +194,13 @@ class ModbusBus(OnLine):
             ) from uncertain.cause
 
     def _ask(self, request: Request) -> bytes:
-        pdu = self._link.exchange(request, nullcontext)
+        pdu = self._exchange(request, nullcontext)
         _check(request, pdu)
+        return pdu
+
+    def _exchange(self, request: Request, gate: Gate) -> bytes:
+        pdu = self._link.exchange(request, gate)
+        self._heard_at_s[request.unit] = time.monotonic()
         return pdu
 
 

@@ -41,6 +41,16 @@ class Request:
         return self.pdu[0]
 
     @property
+    def is_answered_by_a_copy(self) -> bool:
+        """Whether a proper reply cannot be told from an echo, as with function 06."""
+        return self.reply_start == self.pdu
+
+    @property
+    def is_read(self) -> bool:
+        """Whether it changes nothing in the drive."""
+        return self.function == READ
+
+    @property
     def rtu(self) -> bytes:
         """The frame on RS-485."""
         return with_check_sum(bytes((self.unit,)) + self.pdu)

@@ -30,6 +30,8 @@ class _Stop:
 
     request: Request
     timeout_s: float
+    first: bool
+    """Whether it is no repetition."""
     sent_at_s: float | None = None
     reply: bytes | None = None
     error: DeviceError | None = None
@@ -76,7 +78,7 @@ class RtuLink:
         Stops of several drives that are asked for at the same time go out one right after the other;
         their answers are collected together.  :raises: as `exchange`
         """
-        stop = _Stop(request, timeout_s)
+        stop = _Stop(request, timeout_s, first)
         with self._stops_lock:
             self._stops.append(stop)
         with self._lane.hold(urgent=True):
@@ -104,7 +106,8 @@ class RtuLink:
                 if self._lane.urgent_waiting and now_s > sent_s + on_wire_s + _PATIENCE_S:
                     break
                 received += self._line.read_some(now_s + _SLICE_S)
-                self._line.refuse_echo(frame, received)
+                if not request.is_answered_by_a_copy:
+                    self._line.refuse_echo(frame, received)
                 pdu = find_rtu_reply(received, request)
                 if pdu is not None:
                     self._free_from_s = time.monotonic() + self._gap_s
@@ -187,4 +190,6 @@ class RtuLink:
     def _send_stop(self, stop: _Stop) -> None:
         stop.sent_at_s = time.monotonic()
         self._line.write(stop.request.rtu)
+        if stop.first and not stop.request.is_read:
+            self._line.traffic.note_stop(stop.request.unit)
         self._free_from_s = time.monotonic() + len(stop.request.rtu) * self._byte_s + self._gap_s

@@ -7,7 +7,8 @@ the next request opens another.  A stop never trusts an old one: it goes out on 
 from __future__ import annotations
 
 import time
-from contextlib import nullcontext
+from collections.abc import Iterator
+from contextlib import contextmanager, nullcontext
 from threading import Lock
 
 from drivers.errors import DeviceError, GarbledReply, LinkLost
@@ -50,11 +51,18 @@ class TcpLink:
         """One attempt, past all that wait and past a reply in flight.  :raises: as `exchange`"""
         if self._busy or not first:  # a gateway that takes one connection only has to be freed for this one
             self._line.interrupt()
+
+        @contextmanager
+        def noted() -> Iterator[None]:
+            yield
+            self._line.traffic.note_stop(request.unit)
+
         line = SerialLine.at(self._line.address)
         line.opener, line.recorder = self._line.opener, self._line.recorder
         try:
             line.open()
-            return self._ask(line, request, timeout_s, nullcontext)
+            gate = noted if first and not request.is_read else nullcontext
+            return self._ask(line, request, timeout_s, gate)
         finally:
             line.close()
 

@@ -15,10 +15,11 @@ from enum import IntFlag
 
 from drivers.driver import Drive, DriverSettings, Seconds, ServoDriver
 from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
-from drivers.lines import ModbusBus, OnLine, UnansweredWrite
+from drivers.lines import ModbusBus, UnansweredWrite
 from drivers.protocols import AxisStatus
 from drivers.scaling import JointScaling
 from drivers.servos.joint_commands import JointCommands
+from drivers.servos.on_bus import OnBus
 from drivers.servos.registers import values_of, words_of
 
 CONTROL_MODE = 0x0003
@@ -79,14 +80,13 @@ class FamilyRegisters:
     """Where it is switched on, and what is written there."""
 
 
-class LeadshineEL7(OnLine):
+class LeadshineEL7(OnBus):
     """One drive as a `ServoAxis`; may be called from any thread."""
 
     _registers = FamilyRegisters(MOTION_STATUS, ALARM, ALARM_RESET, (DIGITAL_INPUT_1, SERVO_ON_ALWAYS))
 
     def __init__(self, bus: ModbusBus, unit: int, scaling: JointScaling, *, name: str) -> None:
-        super().__init__(bus.line)
-        self._bus = bus
+        super().__init__(bus)
         self._unit = unit
         self._scaling = scaling
         self._name = name

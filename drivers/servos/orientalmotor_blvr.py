@@ -19,10 +19,11 @@ from pydantic import Field
 
 from drivers.driver import Drive, DriverSettings, Seconds, ServoDriver
 from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
-from drivers.lines import ModbusBus, OnLine, UnansweredWrite
+from drivers.lines import ModbusBus, UnansweredWrite
 from drivers.protocols import AxisStatus
 from drivers.scaling import JointScaling
 from drivers.servos.joint_commands import JointCommands
+from drivers.servos.on_bus import OnBus
 from drivers.servos.registers import values_of, words_of
 
 DIRECT_DATA, POSITION_DATA = 0x0058, 0x005C
@@ -41,7 +42,7 @@ _IN_POSITION_PULSES = 20
 _ENABLE_TIMEOUT_S = 2.0
 _RESET_TIMEOUT_S = 1.0
 _POLL_S = 0.01
-_FEEDS_PER_TIMEOUT = 4
+_FEEDS_PER_TIMEOUT = 10
 
 
 class Output(IntFlag):
@@ -64,14 +65,13 @@ class OrientalMotorSettings(DriverSettings):
     """A drive that hears nothing for so long stops with alarm 85h; 0 switches that off."""
 
 
-class OrientalMotorBLVR(OnLine):
+class OrientalMotorBLVR(OnBus):
     """One drive as a `ServoAxis`; may be called from any thread."""
 
     def __init__(
         self, bus: ModbusBus, unit: int, scaling: JointScaling, *, name: str, watchdog_ms: int
     ) -> None:
-        super().__init__(bus.line)
-        self._bus = bus
+        super().__init__(bus)
         self._unit = unit
         self._scaling = scaling
         self._name = name
@@ -106,7 +106,8 @@ class OrientalMotorBLVR(OnLine):
             self._bus.release(self)
             raise
         if self._watchdog_ms and not self.line.is_played_back:
-            self._feeder = _Feeder(self._feed, self._watchdog_ms / 1000 / _FEEDS_PER_TIMEOUT, self._name)
+            period_s = self._watchdog_ms / 1000 / _FEEDS_PER_TIMEOUT
+            self._feeder = _Feeder(self._feed, lambda: self._bus.silent_s(self._unit), period_s, self._name)
 
     def make_safe(self) -> None:
         """Stop; the axis stays powered, since an arm without torque would fall."""
@@ -274,10 +275,15 @@ class OrientalMotorBLVR(OnLine):
 
 
 class _Feeder:
-    """Speaks to a drive often enough for its watchdog, until closed; dies and freezes with the process."""
+    """Speaks to a drive often enough for its watchdog, until closed; dies and freezes with the process.
 
-    def __init__(self, feed: Callable[[], None], period_s: float, name: str) -> None:
-        self._feed, self._period_s = feed, period_s
+    Whoever works with the drive feeds it as well: it is spoken to only after it has been left alone.
+    """
+
+    def __init__(
+        self, feed: Callable[[], None], silent_s: Callable[[], float], period_s: float, name: str
+    ) -> None:
+        self._feed, self._silent_s, self._period_s = feed, silent_s, period_s
         self._closing = Event()
         self._thread = Thread(target=self._run, name=f"watchdog of {name}", daemon=True)
         self._thread.start()
@@ -287,8 +293,12 @@ class _Feeder:
         self._thread.join()
 
     def _run(self) -> None:
-        while not self._closing.wait(self._period_s):
-            self._feed()
+        wait_s = self._period_s
+        while not self._closing.wait(wait_s):
+            wait_s = self._period_s - self._silent_s()
+            if wait_s <= 0.0:
+                self._feed()
+                wait_s = self._period_s
 
 
 def _make(settings: OrientalMotorSettings, drives: Sequence[Drive]) -> tuple[OrientalMotorBLVR, ...]:

@@ -42,6 +42,7 @@ _COMMANDS = {
     "runs": ("history", "The runs, newest first."),
     "serve": ("serve", "The service with the operator's page."),
     "show": ("history", "One run."),
+    "simulate": ("simulate", "Years of a station in virtual time, with everything that can go wrong."),
     "solve": ("diagnosis", "Joint commands for target positions under the identified model."),
     "user": ("people", "People who sign in at the page."),
     "verify-certificate": ("certificate", "Whether a certificate says what was certified."),

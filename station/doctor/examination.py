@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 
 from drivers.errors import DeviceError
 from drivers.lines import SerialLine, line_of
@@ -13,7 +14,7 @@ from station.doctor.ports import examine_port
 from station.doctor.round_trips import RoundTrips
 from station.doctor.swapped import axes_exchanged, lines_exchanged
 from station.five_bar import Robot
-from station.motion import Devices, outside_mm
+from station.motion import Devices, Interlocks, outside_mm
 from station.settings import Settings
 
 _LOOKS = 5
@@ -37,7 +38,32 @@ def _examined(
         _examine_arm(settings, robot, [angle for angle in angles if angle is not None], tree)
     elif not devices.emulated and (text := lines_exchanged(settings)):
         tree.add(text, "trouble", "exchange the two addresses in the station file, or the plugs")
+    _examine_interlocks(settings, devices, robot, tree)
     return tree
+
+
+def _examine_interlocks(settings: Settings, devices: Devices, robot: Robot, tree: Finding) -> None:
+    """Each with its limits; guard door and thermometer are read where the station file names them."""
+    branch = tree.add("interlocks")
+    locks = Interlocks(settings.interlocks, settings.limits, devices.read_register)
+    if settings.interlocks.reads_registers:
+        drive, line = devices.axes[0], line_of(devices.axes[0])
+        opened = line is None or not line.is_open
+        with suppress(DeviceError):  # the branch of the drive says why
+            if opened:
+                drive.connect()
+            locks.look_at_guard_door()
+            locks.look_at_temperature()
+        if opened:
+            drive.close()
+    for lock in locks.views({}, robot.serial):
+        limits = ", ".join(f"{name} {value:g}" for name, value in lock.limits.items())
+        said = f"{lock.text}{f' ({limits})' if limits else ''}{f': {lock.shows}' if lock.shows else ''}"
+        if lock.ok:
+            branch.add(said)
+        else:
+            do = f"if that is not so, check [interlocks.{lock.id}] in the station file"
+            branch.add(f"{said}: {lock.detail}", "trouble", do)
 
 
 def examine_in_service(settings: Settings, devices: Devices, robot: Robot) -> Finding:

@@ -7,6 +7,7 @@ from station.motion.devices import Devices, build_devices
 from station.motion.emulated_rig import EffectTable, EmulatedRig
 from station.motion.emulated_rig import FaultOrder as FaultOrder
 from station.motion.events import Listener, Listeners, LiveEvent
+from station.motion.interlocks import Interlocks, Tripped
 from station.motion.machine import Machine
 from station.motion.opening import Equipment, equipment
 from station.motion.positioner import Cancelled, Positioner
@@ -24,6 +25,7 @@ __all__ = [
     "EmulatedRig",
     "Equipment",
     "FaultOrder",
+    "Interlocks",
     "Listener",
     "Listeners",
     "LiveEvent",
@@ -32,6 +34,7 @@ __all__ = [
     "Positioner",
     "Retracting",
     "RunClock",
+    "Tripped",
     "Zeroing",
     "build_devices",
     "equipment",

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from drivers.driver import Drive
 from drivers.errors import DeviceError
-from drivers.protocols import LinearScale, ServoAxis
+from drivers.protocols import LinearScale, RegisterReader, ServoAxis
 from drivers.scales import SCALES
 from drivers.servos import SERVOS
 from station.errors import InputRefused
@@ -23,6 +23,8 @@ class Devices:
     addresses: tuple[str, str, str]
     """Where scale and axes hang, for people."""
     emulated: bool = False
+    read_register: Callable[[int, int], int] | None = None
+    """A holding register of a unit on the line of the drives; None where they are on no such line."""
     remount: Callable[[tuple[float, float]], None] | None = None
     """Mounts the mechanism of the emulated machine; None where a person does it."""
     speed: float = 1.0
@@ -48,6 +50,7 @@ def build_devices(settings: Settings, *, emulated: bool = False, speed: float = 
             scale=SCALES[scale.protocol].make(scale.options),
             axes=(axis1, axis2),
             addresses=(scale.options.url, first, second),
+            read_register=axis1.read_register if isinstance(axis1, RegisterReader) else None,
             emulated=emulated,
             speed=speed,
         )

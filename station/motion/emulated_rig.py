@@ -21,6 +21,7 @@ from pydantic import JsonValue
 from drivers.emulated.orders import ORDERS
 from drivers.emulated.orders import FaultOrder as FaultOrder
 from station.errors import InputRefused
+from station.interlock_settings import InterlockSettings
 from station.settings import DEFAULT_JOINTS, ScaleSettings, ServoSettings, Settings
 
 log = logging.getLogger(__name__)
@@ -78,6 +79,7 @@ class EmulatedRig:
         try:
             told = json.loads(self._lines.get(timeout=_START_LIMIT_S))
             self._scale, self._servo = dict(told["scale"]), dict(told["servo"])
+            self._interlocks = dict(told["interlocks"])
         except (Empty, json.JSONDecodeError, KeyError, TypeError) as error:
             self.close()
             said = self._complaints[-1] if self._complaints else "it did not say why"
@@ -122,12 +124,15 @@ class EmulatedRig:
         return answer[what]
 
     def settings(self, settings: Settings) -> Settings:
-        """The same station with its devices at this rig's addresses."""
+        """The same station with its devices at this rig's addresses, and its door and thermometer where the
+        station file does not name others."""
+        declared = settings.interlocks.model_dump(exclude_none=True)
         joints = settings.servo.joint if settings.servo else DEFAULT_JOINTS
         return settings.model_copy(
             update={
                 "scale": ScaleSettings.model_validate(self._scale),
                 "servo": ServoSettings.model_validate({**self._servo, "joint": joints}),
+                "interlocks": InterlockSettings.model_validate({**self._interlocks, **declared}),
             }
         )
 

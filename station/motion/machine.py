@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import time
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
@@ -15,12 +15,23 @@ from drivers.errors import DeviceError, DeviceFault
 from drivers.lines import Traffic, line_of
 from drivers.protocols import AxisStatus, Device, ServoAxis
 from station.five_bar import Robot, Unreachable, forward
+from station.interlock_settings import InterlockSettings
 from station.motion.devices import Devices
 from station.motion.events import Listeners
+from station.motion.interlocks import Interlocks, Tripped
 from station.motion.limits import outside_text
 from station.motion.time_limit import each_within
 from station.motion.way_back import outside_mm
-from station.records import DeviceDetail, DeviceState, DeviceView, Interlock, MachineView, RetractView
+from station.records import (
+    CalibrationHolds,
+    DeviceDetail,
+    DeviceState,
+    DeviceView,
+    Interlock,
+    MachineView,
+    RetractView,
+    Trip,
+)
 from station.settings import LimitSettings
 
 STOP_LIMIT_S = 1.5
@@ -56,9 +67,18 @@ class _Known:
 class Machine:
     """Scale and two axes.  One thread works with it; `quick_stop` and the views may be called by any."""
 
-    def __init__(self, devices: Devices, limits: LimitSettings, listeners: Listeners) -> None:
+    def __init__(
+        self,
+        devices: Devices,
+        limits: LimitSettings,
+        listeners: Listeners,
+        interlocks: InterlockSettings,
+        reference: Callable[[str], CalibrationHolds] | None = None,
+    ) -> None:
+        """:param reference: what the checks of a robot say; None: it is not asked for"""
         self.devices = devices
         self.limits = limits
+        self.locks = Interlocks(interlocks, limits, devices.read_register, reference)
         self.robot = Robot.default()
         """Whose geometry turns joint angles into a place."""
         self.compensation_deg = (0.0, 0.0)
@@ -70,6 +90,9 @@ class Machine:
         self._stands_deg: tuple[float, float] | None = None
         """As in the pose; known without the scale, too."""
         self._published: tuple[Interlock, ...] = ()
+        self._failed: Device | None = None
+        """Whose use failed last."""
+        self._stop_frames_at_s: float | None = None
         self._published_retract: RetractView | None = None
 
     # Working with the devices --------------------------------------------------------------------
@@ -82,6 +105,7 @@ class Machine:
         except DeviceError as error:
             works = isinstance(error, DeviceFault)
             self._known[device.name].errors += 1
+            self._failed = device
             self._known[device.name].connected &= works
             self._learn(device, "fault" if works else "lost", str(error))
             raise
@@ -144,15 +168,24 @@ class Machine:
 
     def watch(self) -> None:
         """One look while nothing runs: connects what is missing, reads what is there."""
+        self.locks.hold_again()
         try:
             self.connect_missing()
             for axis in self.devices.axes:
                 self.status(axis)
+            self.look_around()
             self.look()
         except DeviceError:
             self._pose = None  # a place that is not known is not shown
             self._look_at_axes()
+            if self._stands_deg is None:
+                self.locks.forget()
             self._tell_interlocks()
+
+    def look_around(self) -> None:
+        """Guard door and temperature, where the station file names them."""
+        self.locks.look_at_guard_door()
+        self.locks.look_at_temperature()
 
     def _look_at_axes(self) -> None:
         """Where the arm stands is known without the scale: enough to bring it back."""
@@ -197,6 +230,7 @@ class Machine:
         :return: None, or a sentence about what could not be confirmed.
         """
         each_within(STOP_LIMIT_S, {device.name: device.make_safe for device in self._all})
+        self._stop_frames_at_s = self._stop_frames_sent_at_s()
         return self._rest(self.devices.axes, STANDSTILL_LIMIT_S if insist else 0.0)
 
     def standstill(self) -> str | None:
@@ -217,6 +251,12 @@ class Machine:
                 said = "; ".join(f"{name}: {text.rstrip('.')}" for name, text in doubts.items())
                 return f"Standstill could not be confirmed, look at the arm ({said})."
             time.sleep(_REST_POLL_S)
+
+    def _stop_frames_sent_at_s(self) -> float | None:
+        """When the later of both drives was sent its stop last; None where one never was."""
+        lines = {id(line): line for axis in self.devices.axes if (line := line_of(axis)) is not None}
+        sent = [at_s for line in lines.values() for at_s in line.traffic.stop_sent_at_s.values()]
+        return max(sent) if len(sent) == len(self.devices.axes) else None
 
     def close(self) -> None:
         """Release all lines."""
@@ -285,6 +325,33 @@ class Machine:
             replies=traffic.replies,
         )
 
+    # Interlocks ----------------------------------------------------------------------------------
+
+    def trip(self, interlock: str, text: str) -> Tripped:
+        """An interlock was found broken in motion: published, and to be raised."""
+        tripped = self.locks.trip(interlock, text)
+        self._tell_interlocks()
+        return tripped
+
+    def trip_by(self, error: DeviceError, text: str) -> Tripped:
+        """The same of a device that failed in motion."""
+        if not isinstance(error, DeviceFault):
+            return self.trip("devices", text)
+        return self.trip("scale" if self._failed is self.devices.scale else "drives", text)
+
+    def came_to_rest(self, run: int, tripped: Tripped) -> Trip:
+        """After the motion that an interlock ended: how long the stop took."""
+        sent_at_s = self._stop_frames_at_s
+        trip = Trip(
+            run=run,
+            text=str(tripped),
+            stop_frame_ms=None if sent_at_s is None else _ms(sent_at_s - tripped.noticed_at_s),
+            standstill_ms=_ms(time.monotonic() - tripped.noticed_at_s),
+        )
+        self.locks.ended(tripped, trip)
+        self._tell_interlocks()
+        return trip
+
     def interlocks(self) -> tuple[Interlock, ...]:
         """What must hold before and during motion, as data."""
         missing = [name for name, known in self._known.items() if not known.connected]
@@ -293,16 +360,14 @@ class Machine:
             for name, known in self._known.items()
             if known.alarm is not None
         ]
-        outside = self._outside()
         scale_mm = self._pose.scale_mm if self._pose else math.nan
-        return (
-            _interlock(
-                "devices", "All devices answer", "no answer: " + ", ".join(missing) if missing else ""
-            ),
-            _interlock("alarm", "No drive shows an alarm", "; ".join(alarms)),
-            _interlock("workspace", "The arm stands within its workspace", outside),
-            _interlock("scale", "The scale reads", "" if math.isfinite(scale_mm) else "no reading"),
-        )
+        known = {
+            "devices": "no answer: " + ", ".join(missing) if missing else "",
+            "drives": "; ".join(alarms),
+            "workspace": self._outside(),
+            "scale": "" if math.isfinite(scale_mm) else "no reading",
+        }
+        return self.locks.views(known, self.robot.serial)
 
     def retract(self) -> RetractView:
         """The `retract` part of the snapshot."""
@@ -331,7 +396,7 @@ class Machine:
         place = self.place(self._pose.theta_deg)
         if place is None:
             return "the linkage cannot close at these joint angles"
-        return outside_text(self.robot, complex(*place), self.limits.swing_mm)
+        return outside_text(self.robot, complex(*place), self.locks.outside_mm)
 
     def _learn(self, device: Device, state: DeviceState, text: str) -> None:
         known = self._known[device.name]
@@ -343,7 +408,9 @@ class Machine:
 
     def _tell_interlocks(self) -> None:
         interlocks = self.interlocks()
-        if interlocks != self._published:
+        if [lock.without_value() for lock in interlocks] != [
+            lock.without_value() for lock in self._published
+        ]:
             self._published = interlocks
             self._listeners.publish("interlock", interlocks)
         retract = self.retract()
@@ -357,5 +424,5 @@ def _expect_standstill(axis: ServoAxis) -> None:
         raise DeviceFault("still moves")
 
 
-def _interlock(id: str, text: str, detail: str) -> Interlock:
-    return Interlock(id=id, text=text, ok=not detail, detail=detail)
+def _ms(seconds: float) -> float:
+    return round(1000 * seconds, 1)

@@ -16,7 +16,7 @@ from station.errors import StepFailed, sentence
 from station.five_bar import Robot, forward, inverse
 from station.motion.clock import Clock, RunClock
 from station.motion.limits import check_way
-from station.motion.machine import Machine, NotReady
+from station.motion.machine import Machine, NotReady, Pose
 from station.records import Angles, Reading, Stop
 from station.settings import JointSettings
 
@@ -51,6 +51,8 @@ class Positioner:
     clock: Clock = field(default_factory=RunClock)
     mount: str | None = None
     """Where the mechanism is mounted; None: at the robot file's `c`."""
+    _goes_back: bool = False
+    """Whether only what forbids any motion stops it."""
     _theta: Angles = (math.nan, math.nan)
     _direction: tuple[int, int] = (0, 0)
     _origin: tuple[float, float] | None = None
@@ -73,11 +75,15 @@ class Positioner:
         self.machine.connect_missing(axes_only=from_outside)
         self.check_cancel()
         self.machine.ready_axes()
+        self._goes_back = from_outside
+        self.machine.locks.hold_again()
+        self.machine.look_around()
         if from_outside:
             with suppress(NotReady):  # outside the workspace its head may be off the scale
                 self.machine.connect_missing()
             self._theta = self._feedback()
             return
+        self.machine.locks.look_at_reference()
         self.look()
         broken = [f"{lock.text}: {lock.detail}" for lock in self.machine.interlocks() if not lock.ok]
         if broken:
@@ -112,6 +118,7 @@ class Positioner:
     def _move_to(self, stop: Stop) -> None:
         way = self._way(stop)
         check_way(self.robot, self.joints, self.machine.limits, stop, [self._theta, *way])
+        self._check_temperature(stop)
         self.machine.compensation_deg = self._compensation(stop)
         for target in way:
             self._go(stop, target, self.machine.limits.speed_deg_s)
@@ -147,6 +154,7 @@ class Positioner:
 
     def _go(self, stop: Stop, target: Angles, speed: float, *, scale: bool = True) -> None:
         """Both joints at once, so timed that they arrive together."""
+        self._check_door(stop)
         start = self._theta
         travel = [abs(end - begin) for begin, end in zip(start, target, strict=True)]
         longest = max(travel)
@@ -159,9 +167,10 @@ class Positioner:
         theta = self._feedback()
         for joint in (0, 1):
             if not abs(theta[joint] - target[joint]) <= self.machine.limits.feedback_deg:
-                raise StepFailed(
+                raise self.machine.trip(
+                    "following_error",
                     f"At position {stop.position} joint {joint + 1} stands at {theta[joint]:.4f} deg"
-                    f" instead of {target[joint]:.4f}."
+                    f" instead of {target[joint]:.4f}.",
                 )
         self._direction = (
             _direction(theta[0] - start[0], self._direction[0]),
@@ -176,6 +185,7 @@ class Positioner:
         deadline, next_look = now + limit_s, now + _LOOK_S
         while True:
             self.check_cancel()
+            self._check_door(stop)
             # Both, each time: one that has arrived may still raise an alarm while the other moves.
             waiting = [axis for axis in self.machine.devices.axes if not self._arrived(stop, axis)]
             if not waiting:
@@ -183,10 +193,12 @@ class Positioner:
             now = self.clock.now()
             if now > deadline:
                 names = " and ".join(axis.name for axis in waiting)
-                raise StepFailed(
-                    f"{sentence(names)} did not reach position {stop.position} within {limit_s:.1f} s."
+                raise self.machine.trip(
+                    "following_error",
+                    f"{sentence(names)} did not reach position {stop.position} within {limit_s:.1f} s.",
                 )
             if now > next_look:
+                self._check_temperature(stop)
                 self._check_corridor(stop, start, target, scale)
                 next_look = now + _LOOK_S
             self._wait(_POLL_S)
@@ -194,25 +206,60 @@ class Positioner:
     def _arrived(self, stop: Stop, axis: ServoAxis) -> bool:
         status = self.machine.status(axis)
         if status.alarm is not None:
-            raise StepFailed(
+            raise self.machine.trip(
+                "drives",
                 f"{sentence(axis.name)} shows alarm {status.alarm:X}h on the way to position {stop.position};"
-                " find its cause, the next run resets it."
+                " find its cause, the next run resets it.",
             )
         if not status.enabled:
-            raise StepFailed(f"{sentence(axis.name)} lost its power on the way to position {stop.position}.")
+            raise self.machine.trip(
+                "drives", f"{sentence(axis.name)} lost its power on the way to position {stop.position}."
+            )
         return status.in_position and not status.moving
 
     def _check_corridor(self, stop: Stop, start: Angles, target: Angles, scale: bool) -> None:
-        """Each joint stays between where it came from and where it goes; the scale keeps reading."""
-        theta = self.machine.look().theta_deg if scale else self._feedback()
-        room = self.machine.limits.corridor_deg
+        """Each joint stays between where it came from and where it goes; the scale keeps reading, and moves
+        as they do."""
+        pose = self.machine.look() if scale else None
+        theta = self._feedback()
+        room = self.machine.locks.following_error_deg
         for joint in (0, 1):
             low, high = sorted((start[joint], target[joint]))
             if not low - room <= theta[joint] <= high + room:
-                raise StepFailed(
+                raise self.machine.trip(
+                    "following_error",
                     f"Joint {joint + 1} left its way to position {stop.position}: it is at"
-                    f" {theta[joint]:.3f} deg."
+                    f" {theta[joint]:.3f} deg.",
                 )
+        if pose is not None and self._origin is not None:
+            self._check_moving_scale(stop, pose, theta)
+
+    def _check_moving_scale(self, stop: Stop, before: Pose, after: Angles) -> None:
+        """What the scale read lies between what the joints said before and after it."""
+        assert self._origin is not None
+        if not math.isfinite(before.scale_mm):
+            raise self.machine.trip(
+                "scale", f"On the way to position {stop.position} the scale does not give a number."
+            )
+        travel = before.scale_mm - self._origin[0]
+        low, high = sorted(self._distance(theta) - self._origin[1] for theta in (before.theta_deg, after))
+        doubt = max(low - travel, travel - high)
+        if not doubt <= self.machine.locks.travel_error_mm:
+            raise self.machine.trip(
+                "travel",
+                f"On the way to position {stop.position} the scale moved {doubt:.1f} mm beside what the"
+                " joints say; check its rod and channel.",
+            )
+
+    def _check_door(self, stop: Stop) -> None:
+        if trouble := self.machine.locks.look_at_guard_door():
+            text = f"Guard door, on the way to position {stop.position}: {trouble}."
+            raise self.machine.trip("guard_door", text)
+
+    def _check_temperature(self, stop: Stop) -> None:
+        if not self._goes_back and (trouble := self.machine.locks.look_at_temperature()):
+            text = f"Temperature, on the way to position {stop.position}: {trouble}."
+            raise self.machine.trip("temperature", text)
 
     # Reading --------------------------------------------------------------------------------------
 
@@ -243,7 +290,9 @@ class Positioner:
             for _ in range(self.machine.limits.samples):
                 self._sample(scale, angles)
             if not all(math.isfinite(value) for value in scale):
-                raise StepFailed(f"Reading {number} at position {stop.position} is not a number.")
+                raise self.machine.trip(
+                    "scale", f"Reading {number} at position {stop.position} is not a number."
+                )
             spread = max(scale) - min(scale)
             if spread <= self.machine.limits.scale_spread_mm:
                 return scale, _mean(angles)
@@ -272,10 +321,11 @@ class Positioner:
             self._arrived(stop, axis)
         for joint in (0, 1):
             if not abs(theta[joint] - stop.theta_deg[joint]) <= self.machine.limits.feedback_deg:
-                raise StepFailed(
+                raise self.machine.trip(
+                    "following_error",
                     f"While position {stop.position} was read, joint {joint + 1} came to stand at"
                     f" {theta[joint]:.4f} deg instead of {stop.theta_deg[joint]:.4f};"
-                    " has its drive restarted?"
+                    " has its drive restarted?",
                 )
 
     def _check_travel(self, stop: Stop, number: int, samples: Sequence[float], theta: Angles) -> None:
@@ -283,26 +333,31 @@ class Positioner:
 
         And it must have moved at all: a readout that froze goes on to answer.
         """
-        geometry = self.robot.geometry
-        foot = complex(*(self.robot.mount_of(self.mount or "") or self.robot.c)) + complex(*self.robot.d)
-        distance = float(abs(forward(geometry, np.radians(np.array([theta])))[0] - foot))
+        distance = self._distance(theta)
         scale_mm = statistics.fmean(samples)
         if self._before is not None:
             stood = abs(samples[0] - self._before[0]) < _FROZEN_MM
             if stood and abs(distance - self._before[1]) > _MOVED_MM:
-                raise StepFailed(
+                raise self.machine.trip(
+                    "travel",
                     f"Reading {number} at position {stop.position} is implausible: the scale shows"
-                    f" {scale_mm:.4f} mm as before, although the joints moved; check its display and its rod."
+                    f" {scale_mm:.4f} mm as before, although the joints moved; check its display and rod.",
                 )
         self._before = (samples[-1], distance)
         if self._origin is None:
             self._origin = (scale_mm, distance)
         doubt = (scale_mm - self._origin[0]) - (distance - self._origin[1])
-        if not abs(doubt) <= self.machine.limits.travel_error_mm:
-            raise StepFailed(
+        if not abs(doubt) <= self.machine.locks.travel_error_mm:
+            raise self.machine.trip(
+                "travel",
                 f"Reading {number} at position {stop.position} is implausible: the scale moved"
-                f" {doubt:+.1f} mm more than the joints say; check its rod and channel."
+                f" {doubt:+.1f} mm more than the joints say; check its rod and channel.",
             )
+
+    def _distance(self, theta: Angles) -> float:
+        """From the foot of the mechanism to P, mm, by the nominal geometry."""
+        foot = complex(*(self.robot.mount_of(self.mount or "") or self.robot.c)) + complex(*self.robot.d)
+        return float(abs(forward(self.robot.geometry, np.radians(np.array([theta])))[0] - foot))
 
     def _pause(self, machine_s: float) -> None:
         """Seconds of the machine's own time."""

@@ -79,6 +79,7 @@ from station.records.live import (
     SequenceView,
     StationInfo,
     StationView,
+    Trip,
     Workspace,
 )
 from station.records.made_by import DeviceUsed, MadeBy, ScaleCertificate
@@ -337,6 +338,7 @@ __all__ = [
     "Translated",
     "TranslatedPosition",
     "TrendPoint",
+    "Trip",
     "User",
     "Verdict",
     "Via",

@@ -5,6 +5,8 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Literal
 
+from pydantic import Field
+
 from station.records.calibration import CalibrationSummary
 from station.records.prompt import Prompt
 from station.records.record import Record
@@ -39,6 +41,18 @@ class DeviceView(Record):
     text: str = ""
 
 
+class Trip(Record):
+    """An interlock that ended a motion."""
+
+    run: int
+    text: str
+    """What was noticed."""
+    stop_frame_ms: float | None
+    """From noticing it until the stop frames of both drives were sent; null where none was."""
+    standstill_ms: float
+    """From noticing it until both drives were seen to stand."""
+
+
 class Interlock(Record):
     """One condition that must hold before and during motion."""
 
@@ -47,6 +61,18 @@ class Interlock(Record):
     ok: bool
     detail: str = ""
     """What is wrong; empty when it holds."""
+    own_text: bool = False
+    """Whether `text` is the station file's, to be shown as it is in every language."""
+    limits: dict[str, float] = Field(default_factory=dict)
+    """As the station file declares them, by name with unit, or its defaults."""
+    shows: str = ""
+    """The value that was looked at last, with its unit, where there is one."""
+    last_trip: Trip | None = None
+    """When it last ended a motion, since the station was started."""
+
+    def without_value(self) -> Interlock:
+        """The same without what changes all the time."""
+        return self.model_copy(update={"shows": ""})
 
 
 class MachineView(Record):

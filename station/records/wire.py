@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal
 
-from pydantic import JsonValue
+from pydantic import Field, JsonValue
 
 from station.records.record import Record
 
@@ -19,5 +19,7 @@ class WireHeader(Record):
     """`[servo]`, likewise."""
     limits: dict[str, JsonValue]
     """`[limits]`, likewise."""
+    interlocks: dict[str, JsonValue] = Field(default_factory=dict)
+    """`[interlocks]`, likewise."""
     speed: float
     """How much faster than real time the machine lived."""

@@ -12,7 +12,6 @@ from datetime import UTC, datetime, timedelta
 from typing import Any
 
 from drivers.errors import DeviceError
-from station.errors import StepFailed
 from station.motion import Cancelled, Clock, Listeners, Machine, Positioner, Retracting, Zeroing
 from station.records import (
     Ask,
@@ -139,7 +138,7 @@ class CarryingOut:
             try:
                 reading = positioner.measure(stop, run.step + 1, sequence.number)
             except DeviceError as error:
-                raise StepFailed(f"At position {stop.position}: {error}") from error
+                raise self.machine.trip_by(error, f"At position {stop.position}: {error}") from error
             reading = replace(reading, mount=sequence.mount)
             self.store.add_reading(run.id, reading, wire=self.take_wire())
             readings.append(reading)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from station.motion import Tripped
 from station.records import CalibrationResult, Reason, State, because
 
 
@@ -14,10 +15,12 @@ class Ending:
     state: State
     reason: Reason | None = None
     result: CalibrationResult | None = None
+    tripped: Tripped | None = None
+    """The interlock that ended it."""
 
     def without_result(self, doubt: str | None) -> Ending:
         """Of a run that did not end well, with what could not be confirmed about standstill."""
         if doubt is None:
-            return Ending(self.state, self.reason)
+            return Ending(self.state, self.reason, tripped=self.tripped)
         said = [self.reason.text] if self.reason else []
-        return Ending(self.state, because("step_failed", text=" ".join([*said, doubt])))
+        return Ending(self.state, because("step_failed", text=" ".join([*said, doubt])), tripped=self.tripped)

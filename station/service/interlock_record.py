@@ -38,6 +38,6 @@ class InterlockRecord:
 
     def _record(self, run: int, interlock: Interlock) -> None:
         try:
-            self._store.add_event(run, "interlock", interlock.model_dump())
+            self._store.add_event(run, "interlock", interlock.model_dump(exclude={"own_text", "last_trip"}))
         except StoreUnavailable:
             log.exception("That the interlock %s changed could not be recorded", interlock.id)

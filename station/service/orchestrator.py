@@ -10,11 +10,10 @@ from __future__ import annotations
 import logging
 import time
 from collections.abc import Callable, Mapping
+from functools import partial
 from queue import Empty, Queue
 from threading import Lock, Thread
 from typing import Any, TypeVar
-
-from pydantic import JsonValue
 
 from drivers.errors import DeviceError
 from station.errors import (
@@ -43,7 +42,6 @@ from station.records import (
     CalibrationRequest,
     DeviceDetail,
     Prompt,
-    Reason,
     RunView,
     State,
     StationInfo,
@@ -60,11 +58,12 @@ from station.service.ending import Ending
 from station.service.idle_look import IdleLook, Looker
 from station.service.interlock_record import InterlockRecord
 from station.service.last_run import last_run
+from station.service.late_records import LateRecords
 from station.service.made_here import made_here
 from station.service.recording import Recording
 from station.service.robot_fits import check_fits
 from station.service.run import Run
-from station.service.stop_records import StopRecords
+from station.service.trips import Trips
 from station.settings import Settings
 from station.store import Store, request_hash, too_full
 
@@ -91,7 +90,10 @@ class Orchestrator:
         self._settings = settings
         self._kinds = kinds
         self._listeners = Listeners()
-        self._machine = Machine(devices, settings.limits, self._listeners)
+        self._machine = Machine(
+            devices, settings.limits, self._listeners, settings.interlocks, partial(calibration_holds, store)
+        )
+        self._trips = Trips(self._machine, store)
         self._listeners.subscribe(InterlockRecord(store, lambda: self._run.id if self._run else None))
         self._submitting = Lock()
         self._lock = Lock()
@@ -104,7 +106,7 @@ class Orchestrator:
             self._finished = last_run(store, self._last, self._machine.shown_place)
         self._holds = self._calibration_holds()
         self._closing = False
-        self._stop_records = StopRecords(store)
+        self.late_records = LateRecords(store)
         self._queue: Queue[Run | IdleLook[Any] | None] = Queue()
         self._worker = Thread(target=self._work, name="orchestrator", daemon=True)
         self._worker.start()
@@ -234,6 +236,7 @@ class Orchestrator:
         """Of the robot measured last; kept, so that a snapshot asks nothing."""
         serial = self._machine.robot.serial
         try:
+            self._machine.locks.look_at_reference()
             return calibration_holds(self._store, serial)
         except StoreUnavailable as error:
             return CalibrationHolds(robot_serial=serial, locked=True, text=f"Not known: {error}")
@@ -271,7 +274,7 @@ class Orchestrator:
         outcome = self._machine.quick_stop()
         trouble = {name: text for name, text in outcome.items() if text}
         log.warning("Stop by %s: %s", who, trouble or "both axes confirmed")
-        self._stop_records.begin(run.id if run else None, who, trouble)
+        self.late_records.stop(run.id if run else None, who, trouble)
         return outcome
 
     def wait(self, calibration_id: int, timeout_s: float | None = None) -> State:
@@ -292,7 +295,7 @@ class Orchestrator:
         self._worker.join(SHUTDOWN_LIMIT_S)
         if self._worker.is_alive():
             log.error("The worker hangs in a device; the run will be marked interrupted at the next start")
-        self._stop_records.join(SHUTDOWN_LIMIT_S)
+        self.late_records.close(SHUTDOWN_LIMIT_S)
         self._machine.close()
 
     # Watching ------------------------------------------------------------------------------------
@@ -370,9 +373,7 @@ class Orchestrator:
         ending = self._perform(run, recording)
         failed_s = time.monotonic()
         ending = self._bring_to_rest(run, ending)
-        reason = ending.reason
-        if run.has_moved and reason is not None and reason.code == "step_failed":
-            self._record_trip(run, reason, time.monotonic() - failed_s)
+        self._trips.record(run, ending, failed_s)
         self._keep_wire(run, recording)
         judged = self._kinds[run.request.kind].judged
         run.state = self._store.finish(run.id, ending.state, ending.result, ending.reason, judged=judged)
@@ -386,17 +387,6 @@ class Orchestrator:
             self._finished = run.view()
         run.ended.set()
         self._listeners.publish("ended", summary)
-
-    def _record_trip(self, run: Run, reason: Reason, standstill_after_s: float) -> None:
-        """What ended a motion, and how long after it was noticed both axes were seen to stand."""
-        data: dict[str, JsonValue] = {
-            "text": reason.text,
-            "standstill_after_ms": round(standstill_after_s * 1000, 1),
-        }
-        try:
-            self._store.add_event(run.id, "trip", data)
-        except StoreUnavailable:
-            log.exception("What stopped run %d could not be recorded as an event", run.id)
 
     def _keep_wire(self, run: Run, recording: Recording) -> None:
         try:
@@ -422,7 +412,8 @@ class Orchestrator:
         except Unanswered as error:
             return Ending(State.ABORTED, because("prompt_expired", text=error.text, limit_s=error.limit_s))
         except (DeviceError, StepFailed, InputRefused) as error:
-            return Ending(State.FAILED, because("step_failed", text=str(error)))
+            tripped = self._trips.tripped(run, error)
+            return Ending(State.FAILED, because("step_failed", text=str(error)), tripped=tripped)
         except StoreUnavailable as error:
             log.exception("Run %d cannot be stored", run.id)
             return Ending(State.FAILED, because("store_failed", text=str(error)))

@@ -28,6 +28,7 @@ class Recording:
             scale=settings.scale.flat() if settings.scale else {},
             servo=settings.servo.flat() if settings.servo else {},
             limits=settings.limits.model_dump(mode="json"),
+            interlocks=settings.interlocks.model_dump(mode="json", exclude_none=True),
             speed=devices.speed,
         )
         self._header_text = header.model_dump_json() + "\n"

@@ -90,13 +90,18 @@ def _carry_out(
 ) -> str:
     """To its end in the copy; where the station departed from the log, else empty."""
     settings = Settings.model_validate(
-        {"scale": header.scale, "servo": header.servo, "limits": header.limits}
+        {
+            "scale": header.scale,
+            "servo": header.servo,
+            "limits": header.limits,
+            "interlocks": header.interlocks,
+        }
     )
     devices = build_devices(settings, speed=header.speed)
     for number, line in lines_of(devices).items():
         numbered = number == SERVO and str(header.servo["url"]).startswith(_NUMBERED)
         line.opener = playback.opener(number, numbered=numbered)
-    machine = Machine(devices, settings.limits, Listeners())
+    machine = Machine(devices, settings.limits, Listeners(), settings.interlocks)
     kind = RUN_KINDS[request.kind]
     carrying_out = CarryingOut(
         Run(run, copy.summary(run).uid, request, copy.robot_of(run).informed(request.references)),

@@ -5,6 +5,7 @@ from __future__ import annotations
 import fcntl
 import logging
 import os
+import sys
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from dataclasses import dataclass
@@ -27,6 +28,10 @@ from station.store import Store
 
 log = logging.getLogger(__name__)
 
+_SWITCH_S = 0.0005
+"""How long a thread that computes keeps the interpreter from one that waits for it: a stop, or what feeds the
+watchdog of a drive, must not wait for a fit.  Python's own 5 ms add up to a quarter of a second on a busy
+computer."""
 LAST_HISTORY = "last-history"
 """File in the home folder: the database that was used last."""
 
@@ -52,6 +57,7 @@ class Runtime:
         :param emulate: rig file of the emulated machine, even when the station file names devices.
         :raises InputRefused: another process holds the rig, or something cannot be opened.
         """
+        sys.setswitchinterval(_SWITCH_S)
         with ExitStack() as opened:
             opened.enter_context(holding(home))
             path = database_path(settings, home)

@@ -145,7 +145,7 @@ async def abort_calibration(
         runtime.orchestrator.abort(calibration_id, by.name)
         return runtime.store.summary(calibration_id)
 
-    later.add_task(record_later, runtime.store, by, "run.aborted", f"run {calibration_id}")
+    later.add_task(record_later, runtime.orchestrator, by, "run.aborted", f"run {calibration_id}")
 
     try:
         return await aside(abort, timeout_s=ABORT_TIMEOUT_S)

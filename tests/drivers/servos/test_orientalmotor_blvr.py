@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from contextlib import contextmanager
 from threading import Event
@@ -90,13 +91,28 @@ def test_the_watchdog_is_set_read_back_and_switched_off_at_the_end() -> None:
 
 def test_the_watchdog_is_fed_until_the_drive_is_closed() -> None:
     fed = Event()
-    feeder = _Feeder(fed.set, 0.001, "servo axis 1")
+    feeder = _Feeder(fed.set, lambda: math.inf, 0.001, "servo axis 1")
     assert fed.wait(5.0)
     fed.clear()
     assert fed.wait(5.0)
     feeder.close()
     fed.clear()
     assert not fed.wait(0.01)
+
+
+def test_whoever_works_with_the_drive_feeds_it_as_well() -> None:
+    fed, asked = Event(), Event()
+
+    def heard_just_now() -> float:
+        asked.set()
+        return 0.0
+
+    feeder = _Feeder(fed.set, heard_just_now, 0.001, "servo axis 1")
+    assert asked.wait(5.0)
+    asked.clear()
+    assert asked.wait(5.0)
+    feeder.close()
+    assert not fed.is_set()
 
 
 def test_a_watchdog_that_is_not_taken_is_refused() -> None:

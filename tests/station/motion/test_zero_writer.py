@@ -29,7 +29,7 @@ class Bench:
         self.store, self.rig, self.cancel = store, rig, Event()
         self.of = store.create(asked("R1", "rapid"), ROBOT)
         self.run = store.create(asked("R1", "apply", of=self.of), ROBOT)
-        machine = Machine(rig.devices, SETTINGS.limits, Listeners())
+        machine = Machine(rig.devices, SETTINGS.limits, Listeners(), SETTINGS.interlocks)
         self.positioner = Positioner(machine, ROBOT, SETTINGS.joints, self.cancel)
         machine.connect_missing()
         self.zeroing = Zeroing(self.run, machine, self.positioner, store)

@@ -258,7 +258,7 @@ def test_an_alarm_on_the_way_is_named_and_reset_by_the_next_run(start: Start, st
     state, _, reason = outcome(store, run_to_end(orchestrator))
     assert state == "failed"
     assert "Axis 2 shows alarm 180h" in reason
-    lock = next(lock for lock in orchestrator.snapshot().interlocks if lock.id == "alarm")
+    lock = next(lock for lock in orchestrator.snapshot().interlocks if lock.id == "drives")
     assert not lock.ok
     assert outcome(store, run_to_end(orchestrator))[0] == "succeeded"
     assert "axis 2 reset_alarm" in rig.script.calls

@@ -1,6 +1,6 @@
 /** Display names of what the service calls by an identifier. */
 import { t } from "./messages";
-import type { EffectAt, Plan, RunKind } from "./types";
+import type { EffectAt, Interlock, Plan, RunKind } from "./types";
 
 interface Entry {
   name: string;
@@ -160,7 +160,18 @@ export function shown({ name, value, sd, unit }: Sized): Sized & { text: string 
 export const deviceName = (name: string) => own<string>(t.deviceNames, name) ?? name;
 
 /** What must hold before and during motion; a station of another version may know more. */
-export const interlockName = (id: string, text: string) => own<string>(t.interlocks, id) ?? readable(text);
+export const interlockName = ({ id, text, own_text }: Interlock) =>
+  own_text ? text : (own<string>(t.interlocks, id) ?? readable(text));
+
+/** Limits of an interlock with their units, for instance "≤ 60 mm". */
+export function interlockLimits({ limits }: Interlock): string {
+  const { low_c, high_c, ...others } = limits;
+  const window = low_c !== undefined && high_c !== undefined ? [`${low_c} … ${high_c} °C`] : [];
+  const most = Object.entries(others).map(
+    ([name, most]) => `≤ ${most} ${name.endsWith("_deg") ? "°" : "mm"}`,
+  );
+  return [...window, ...most].join(", ");
+}
 
 /** What would raise the accuracy, in the page's language; of a kind that it does not know, in English. */
 export const adviceText = ({ kind, joint, text }: { kind: string; joint?: number | null; text: string }) =>

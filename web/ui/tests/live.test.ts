@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import type { LiveEvent, LiveMessage, Station } from "../src/types";
-import { reading, run, stationNow, summary } from "./samples";
+import { interlock as lock, reading, run, stationNow, summary } from "./samples";
 
 /** The service's end of a socket. */
 class FakeSocket {
@@ -143,7 +143,7 @@ describe("numbered events", () => {
       state: "lost" as const,
       text: "unplugged",
     };
-    const interlock = { id: "door", text: "Door closed", ok: false, detail: "the door is open" };
+    const interlock = lock({ detail: "the door is open" });
     const machine = { theta1_deg: 1, theta2_deg: 2, x_mm: 3, y_mm: 4, scale_mm: 5, age_s: 0.5 };
     const now = events(
       { type: "device", data: device },

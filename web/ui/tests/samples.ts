@@ -3,6 +3,7 @@ import type {
   Calibration,
   Diagnosis,
   Finding,
+  Interlock,
   ResidualRow,
   Run,
   RunReading,
@@ -71,6 +72,18 @@ export const run = (given: Partial<Run> = {}): Run => ({
   readings: [],
   iterations: [],
   prompt: null,
+  ...given,
+});
+
+export const interlock = (given: Partial<Interlock> = {}): Interlock => ({
+  id: "door",
+  text: "Door closed",
+  ok: false,
+  detail: "",
+  own_text: false,
+  limits: {},
+  shows: "",
+  last_trip: null,
   ...given,
 });
 

@@ -68,9 +68,14 @@ export const de: Messages = {
   },
   interlocks: {
     devices: "Alle Geräte antworten",
-    alarm: "Kein Antrieb meldet einen Alarm",
+    drives: "Beide Antriebe sind bereit",
     workspace: "Der Arm steht in seinem Arbeitsraum",
     scale: "Der Maßstab zeigt einen Wert",
+    travel: "Der Maßstab bewegt sich so weit, wie die Gelenke sagen",
+    following_error: "Jedes Gelenk bleibt auf seinem Weg",
+    guard_door: "Die Schutztür ist geschlossen",
+    temperature: "Die Temperatur liegt in ihrem Bereich",
+    reference_check: "Die Referenzprüfung gilt",
   },
   stages: {
     paper: {
@@ -136,6 +141,21 @@ export const de: Messages = {
     out: "Abmelden",
     open: "OFFEN: Jeder an diesem Rechner darf Läufe starten; niemand meldet sich an (emulierte Maschine)",
     stopWithout: "An diesem Rechner wirkt der Stopp ohne Anmeldung.",
+    withProvider: (label) => `Mit ${label} anmelden`,
+    refused: {
+      unreachable:
+        "Der Anmeldedienst antwortet nicht. Versuchen Sie es später, oder melden Sie sich mit einem Passwort dieser Station an.",
+      cancelled: "Die Anmeldung wurde beim Anmeldedienst abgebrochen.",
+      expired:
+        "Die Anmeldung hat zu lange gedauert oder wurde in einem anderen Browser begonnen. Beginnen Sie neu.",
+      not_valid:
+        "Die Antwort des Anmeldedienstes ist nicht verwendbar. Das Protokoll der Station nennt die Ursache.",
+      no_role:
+        "Der Anmeldedienst kennt Sie, aber keine Ihrer Gruppen hat an dieser Station eine Rolle. Fragen Sie den Administrator.",
+      name_taken:
+        "Diese Station hat einen Benutzer Ihres Namens, der sich mit einem Passwort anmeldet. Fragen Sie den Administrator.",
+      disabled: "Ihr Benutzer an dieser Station ist gesperrt. Fragen Sie den Administrator.",
+    },
   },
   header: {
     views: "Ansichten",
@@ -199,6 +219,8 @@ export const de: Messages = {
     interlocks: "Verriegelungen",
     interlockOk: "in Ordnung",
     interlockNotMet: "◆ nicht erfüllt",
+    lastTrip: (run: number, frameMs: number | null, standstillMs: number) =>
+      `Hat Lauf ${run} angehalten: ${frameMs === null ? "" : `Stopptelegramme nach ${frameMs} ms gesendet, `}Stillstand nach ${standstillMs} ms gesehen`,
     run: "Lauf",
     noRun: "Kein Lauf im Gang",
     wayBack: "Weg zurück",

@@ -96,9 +96,14 @@ export const en = {
   /** By identifier. */
   interlocks: {
     devices: "All devices answer",
-    alarm: "No drive shows an alarm",
+    drives: "Both drives are ready",
     workspace: "The arm stands within its workspace",
     scale: "The scale reads",
+    travel: "The scale moves as far as the joints say",
+    following_error: "Each joint keeps to its way",
+    guard_door: "The guard door is closed",
+    temperature: "The temperature is within its window",
+    reference_check: "The reference check is valid",
   } as Record<string, string>,
   /** By the name of the stage; the others are effects. */
   stages: {
@@ -164,6 +169,18 @@ export const en = {
     out: "Sign out",
     open: "OPEN: anybody at this computer may start runs; nobody signs in (emulated machine)",
     stopWithout: "At this computer the stop works without signing in.",
+    withProvider: (label: string) => `Sign in with ${label}`,
+    refused: {
+      unreachable:
+        "The provider does not answer. Try again later, or sign in with a password of this station.",
+      cancelled: "The sign-in was cancelled at the provider.",
+      expired: "The sign-in took too long, or was begun in another browser. Begin again.",
+      not_valid: "The answer of the provider cannot be used. The log of the station has the cause.",
+      no_role:
+        "The provider knows you, but none of your groups has a role at this station. Ask its administrator.",
+      name_taken: "This station has a user of your name who signs in with a password. Ask its administrator.",
+      disabled: "Your user at this station is disabled. Ask its administrator.",
+    },
   },
   header: {
     views: "Views",
@@ -226,6 +243,8 @@ export const en = {
     interlocks: "Interlocks",
     interlockOk: "ok",
     interlockNotMet: "◆ not met",
+    lastTrip: (run: number, frameMs: number | null, standstillMs: number) =>
+      `Stopped run ${run}: ${frameMs === null ? "" : `stop frames sent after ${frameMs} ms, `}standstill seen after ${standstillMs} ms`,
     /** Of devices and interlocks while the station does not answer. */
     notKnown: "not known",
     run: "Run",

@@ -55,9 +55,14 @@ export const zh: Messages = {
   },
   interlocks: {
     devices: "所有设备均有应答",
-    alarm: "没有驱动器报警",
+    drives: "两个驱动器均已就绪",
     workspace: "臂位于其工作空间内",
     scale: "光栅尺有读数",
+    travel: "光栅尺的移动量与关节一致",
+    following_error: "每个关节都保持在其路径上",
+    guard_door: "防护门已关闭",
+    temperature: "温度在允许范围内",
+    reference_check: "参考检查有效",
   },
   stages: {
     paper: { name: "已发表模型", text: "零点与安装；几何为标称值。" },
@@ -119,6 +124,16 @@ export const zh: Messages = {
     out: "退出",
     open: "开放：本机任何人都可启动运行；无人登录（仿真机器）",
     stopWithout: "在本机上，停止无需登录。",
+    withProvider: (label) => `使用 ${label} 登录`,
+    refused: {
+      unreachable: "身份提供方没有应答。请稍后重试，或使用本站的密码登录。",
+      cancelled: "登录已在身份提供方取消。",
+      expired: "登录耗时过长，或在另一个浏览器中开始。请重新开始。",
+      not_valid: "身份提供方的应答无法使用。原因见本站日志。",
+      no_role: "身份提供方认识您，但您的任何组在本站都没有角色。请联系管理员。",
+      name_taken: "本站已有同名用户使用密码登录。请联系管理员。",
+      disabled: "您在本站的用户已停用。请联系管理员。",
+    },
   },
   header: {
     views: "视图",
@@ -180,6 +195,8 @@ export const zh: Messages = {
     interlocks: "联锁",
     interlockOk: "正常",
     interlockNotMet: "◆ 未满足",
+    lastTrip: (run: number, frameMs: number | null, standstillMs: number) =>
+      `停止了运行 ${run}：${frameMs === null ? "" : `${frameMs} ms 后发出停止帧，`}${standstillMs} ms 后确认静止`,
     run: "运行",
     noRun: "没有正在进行的运行",
     wayBack: "返回",

@@ -4,7 +4,7 @@ import { now, station } from "../../src/live";
 import { Header } from "../../src/parts/header";
 import { navigate } from "../../src/router";
 import type { Device, Station } from "../../src/types";
-import { run, stationNow } from "../samples";
+import { interlock, run, stationNow } from "../samples";
 
 const device = (state: Device["state"]): Device => ({
   name: "scale",
@@ -13,7 +13,7 @@ const device = (state: Device["state"]): Device => ({
   state,
   text: "",
 });
-const door = { id: "door", text: "Door closed", ok: false, detail: "" };
+const door = interlock();
 
 const drawn = () => {
   const place = document.createElement("div");

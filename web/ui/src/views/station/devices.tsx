@@ -1,6 +1,6 @@
 import { connected, station } from "../../live";
 import { t } from "../../messages";
-import { deviceName, interlockName } from "../../names";
+import { deviceName, interlockLimits, interlockName } from "../../names";
 import type { DeviceState } from "../../types";
 
 const ALARMS: Record<DeviceState, { shape: string; alarm: string }> = {
@@ -33,7 +33,9 @@ export function Devices() {
       <ul>
         {now?.interlocks.map((interlock) => (
           <li key={interlock.id}>
-            <span>{interlockName(interlock.id, interlock.text)}</span>
+            <span>
+              {interlockName(interlock)} <small>{interlockLimits(interlock)}</small>
+            </span>
             <strong class={interlock.ok || !online ? "" : "alarm warn"}>
               {!online
                 ? t.station.notKnown
@@ -42,6 +44,16 @@ export function Devices() {
                   : t.station.interlockNotMet}
             </strong>
             {online && !interlock.ok && interlock.detail && <small>{interlock.detail}</small>}
+            {online && interlock.ok && interlock.shows && <small>{interlock.shows}</small>}
+            {online && interlock.last_trip && (
+              <small>
+                {t.station.lastTrip(
+                  interlock.last_trip.run,
+                  interlock.last_trip.stop_frame_ms,
+                  interlock.last_trip.standstill_ms,
+                )}
+              </small>
+            )}
           </li>
         ))}
       </ul>

@@ -1,0 +1,128 @@
+"""`[interlocks]` of the station file: what must hold before and during motion, as data."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any, Self
+
+from pydantic import ConfigDict, Field, model_validator
+
+from drivers.strict_numbers import StrictNumbers
+
+Text = Annotated[str, Field(min_length=1, max_length=120)]
+
+
+class InterlockSection(StrictNumbers):
+    """What every interlock has."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    text: Text | None = None
+    """What must hold, as people read it; without it, the station's own words in the language of the page."""
+
+
+class AllDevicesAnswer(InterlockSection):
+    """`[interlocks.devices]`: all devices answer."""
+
+
+class DrivesAreReady(InterlockSection):
+    """`[interlocks.drives]`: no drive shows an alarm, and none loses its power in motion."""
+
+
+class ArmIsInside(InterlockSection):
+    """`[interlocks.workspace]`: the arm stands within its workspace when a run starts."""
+
+    outside_mm: Annotated[float, Field(ge=0, le=200)] | None = None
+    """How far outside it may stand; without it `[limits] swing_mm`."""
+
+
+class ScaleReads(InterlockSection):
+    """`[interlocks.scale]`: the scale gives a number."""
+
+
+class ScaleTravels(InterlockSection):
+    """`[interlocks.travel]`: the scale moves as far as the joints say, on the way and at each reading."""
+
+    error_mm: Annotated[float, Field(gt=0, le=500)] | None = None
+    """How far the two may differ; without it `[limits] travel_error_mm`."""
+
+
+class JointsFollow(InterlockSection):
+    """`[interlocks.following_error]`: each joint keeps to its way, and arrives."""
+
+    error_deg: Annotated[float, Field(gt=0, le=10)] | None = None
+    """How far a moving joint may leave its way; without it `[limits] corridor_deg`."""
+
+
+class OnLineOfDrives(InterlockSection):
+    """A value in a register of something on the Modbus line of the drives: a drive or an input module."""
+
+    unit: Annotated[int, Field(ge=1, le=247)]
+    """Address of the drive or module on the line."""
+    address: Annotated[int, Field(ge=0, le=0xFFFF)]
+    """Of the holding register, as on the wire."""
+
+
+class GuardDoor(OnLineOfDrives):
+    """`[interlocks.guard_door]`: a digital input says that the guard door is closed.  Without this section
+    there is no such input."""
+
+    bit: Annotated[int, Field(ge=0, le=15)]
+    """Which bit of the register is the input; 0 is the lowest."""
+    closed: Annotated[int, Field(ge=0, le=1)] = 1
+    """What the bit is while the door is closed."""
+
+
+class TemperatureWindow(OnLineOfDrives):
+    """`[interlocks.temperature]`: a thermometer shows a temperature at which the machine may be measured.
+    Without this section there is no thermometer."""
+
+    factor_c: Annotated[float, Field(gt=0, le=100)] = 0.1
+    """Degrees Celsius for each count of the register, which is signed."""
+    low_c: Annotated[float, Field(ge=-100, le=300)]
+    """Lowest temperature, degrees Celsius."""
+    high_c: Annotated[float, Field(ge=-100, le=300)]
+    """Highest temperature, degrees Celsius."""
+
+    @model_validator(mode="after")
+    def _is_a_window(self) -> Self:
+        if self.low_c >= self.high_c:
+            raise ValueError("low_c must be below high_c")
+        return self
+
+
+class ReferenceCheck(InterlockSection):
+    """`[interlocks.reference_check]`: the last check of a reference robot has passed and is still valid
+    (`[limits] check_valid_h`) when a run of another robot starts.  Without this section nobody asks."""
+
+    robot: Annotated[str, Field(min_length=1, max_length=64)]
+    """Serial number of the reference robot."""
+
+
+class InterlockSettings(StrictNumbers):
+    """`[interlocks]`: each is a table of its own.  What is left out holds with its default limits."""
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    devices: AllDevicesAnswer = AllDevicesAnswer()
+    drives: DrivesAreReady = DrivesAreReady()
+    workspace: ArmIsInside = ArmIsInside()
+    scale: ScaleReads = ScaleReads()
+    travel: ScaleTravels = ScaleTravels()
+    following_error: JointsFollow = JointsFollow()
+    guard_door: GuardDoor | None = None
+    temperature: TemperatureWindow | None = None
+    reference_check: ReferenceCheck | None = None
+
+    @property
+    def reads_registers(self) -> bool:
+        """Whether something beside the drives has to be asked."""
+        return self.guard_door is not None or self.temperature is not None
+
+    @model_validator(mode="before")
+    @classmethod
+    def _names_are_known(cls, data: Any) -> Any:
+        unknown = sorted(set(data) - set(cls.model_fields)) if isinstance(data, dict) else []
+        if unknown:
+            known = ", ".join(cls.model_fields)
+            raise ValueError(f'there is no interlock "{unknown[0]}"; there is {known}')
+        return data
