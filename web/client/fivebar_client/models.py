@@ -675,9 +675,7 @@ class CalibrationBody(BaseModel):
     operator: str
     work_order: str | None = None
     metadata: dict[str, Any] | None = None
-    references: (
-        list[Annotated[JointAngle | MountingError, Field(discriminator="kind")]] | None
-    ) = None
+    references: list[Annotated[JointAngle | MountingError, Field(discriminator="kind")]] | None = None
     """
     what other instruments measured; for this run
     """
