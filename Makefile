@@ -7,18 +7,19 @@ PAGE := $(shell find web/ui \( -name node_modules -o -name tests -o -name api-ty
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 NPM := $(BIN)/python deploy/node.py
 
-.PHONY: run test coverage record lint format bench mutate reference lock bundle clean
+.PHONY: run test coverage record lint format bench security mutate reference lock bundle clean
 
 run: $(VENV)/installed  ## install and start the service on the emulated rig; prints the address
 	$(BIN)/station serve
 
 test: $(VENV)/installed-for-tests  ## everything that can be checked
 	$(NPM) test
-	deploy/debian-packages chromium mbpoll mosquitto
+	$(NPM) ci --prefix ../../tests/web/provider
+	deploy/debian-packages chromium curl mbpoll mosquitto nginx
 	$(BIN)/pytest --numprocesses 3 --dist loadfile
 
 coverage: $(VENV)/installed-for-tests  ## the same tests, with the lines that none of them runs (slower)
-	deploy/debian-packages chromium mbpoll mosquitto
+	deploy/debian-packages chromium curl mbpoll mosquitto nginx
 	$(BIN)/pytest --numprocesses 3 --dist loadfile --cov=station --cov=drivers --cov=web
 
 record: $(VENV)/installed-for-tests  ## the closed loop in the browser, recorded; prints the folder
@@ -42,20 +43,25 @@ format: $(VENV)/installed-for-tests
 bench: $(VENV)/installed-for-tests  ## the figures of docs/benchmarks.md
 	$(BIN)/station bench
 
+security: $(VENV)/installed-for-tests  ## bandit, then 2,000 requests as each role and as nobody (half an hour)
+	$(BIN)/bandit --quiet --recursive station drivers web deploy --exclude ./web/ui,./web/static -lll
+	$(BIN)/python -m tests.web.fuzz --cases 2000
+
 mutate: $(VENV)/installed-for-tests  ## changes what decides, one place at a time; lists what no test notices (hours)
 	mkdir -p mutants
 	@echo "Progress goes to mutants/progress.log"
 	$(BIN)/mutmut run > mutants/progress.log 2>&1
 	$(BIN)/python tests/mutation_score.py mutants
 
-reference: $(VENV)/installed-for-tests  ## docs/reference and web/openapi.json, made from the code
+reference: $(VENV)/installed-for-tests  ## docs/reference, web/openapi.json and the client's models, made from the code
 	$(BIN)/python -m web.openapi
 	$(BIN)/python -m station.reference docs/reference
+	PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/python web/client/make_models.py
 
 lock: $(VENV)/installed-for-tests  ## newest versions that fit, with hashes
 	deploy/lock $(BIN)
 
-bundle: $(VENV)/installed  ## dist/bundle, which installs on a computer without internet
+bundle: $(VENV)/installed-for-tests  ## dist/bundle, which installs on a computer without internet
 	deploy/bundle $(BIN) dist/bundle
 
 clean:

@@ -253,6 +253,12 @@ class ScanSettings(_Section):
         return self
 
 
+def _refuse_plain_http(url: str) -> None:
+    host = urlsplit(url).hostname or ""
+    if url.startswith("http:") and host not in ("127.0.0.1", "localhost", "::1"):
+        raise ValueError("plain http goes to this computer only; use https")
+
+
 EventTypes = tuple[EventType, ...]
 
 
@@ -268,9 +274,7 @@ class WebhookSettings(_Section):
 
     @model_validator(mode="after")
     def _plain_to_loopback_only(self) -> Self:
-        host = urlsplit(self.url).hostname or ""
-        if self.url.startswith("http:") and host not in ("127.0.0.1", "localhost", "::1"):
-            raise ValueError("plain http goes to this computer only; use https")
+        _refuse_plain_http(self.url)
         return self
 
 
@@ -294,6 +298,34 @@ class FolderSettings(_Section):
     """Of the files."""
     events: EventTypes = ("run.ended", "alarm")
     """Types of event that are written."""
+
+
+class OpenIdSettings(_Section):
+    """`[openid]`: the plant's OpenID Connect provider, which signs in people beside the station's users."""
+
+    label: Annotated[str, Field(min_length=1, max_length=40)] = "OpenID Connect"
+    """Name of the provider on the sign-in page."""
+    issuer: Annotated[str, Field(pattern=r"^https?://[^\s@?#]+$")]
+    """`https://...` as the provider calls itself; plain `http` to this computer only."""
+    client_id: Annotated[str, Field(min_length=1, max_length=200)]
+    """Under which the provider knows this station."""
+    client_secret_file: Path | None = None
+    """File with the secret of the client; without it the client is public, PKCE alone protects the code."""
+    scope: Annotated[str, Field(pattern=r"^openid( \S+)*$")] = "openid profile"
+    """What is asked for; `openid` is the first."""
+    name_claim: Annotated[str, Field(min_length=1)] = "preferred_username"
+    """Claim with the name under which the station knows somebody."""
+    role_claim: Annotated[str, Field(min_length=1)] = "groups"
+    """Claim, a text or a list, whose values decide the role; `realm_access.roles` is `roles` inside of it."""
+    roles: Annotated[
+        dict[str, Literal["viewer", "operator", "engineer", "administrator"]], Field(min_length=1)
+    ]
+    """Role by value of that claim.  Of several the one that may do most; without any, nobody is let in."""
+
+    @model_validator(mode="after")
+    def _plain_to_loopback_only(self) -> Self:
+        _refuse_plain_http(self.issuer)
+        return self
 
 
 class ScaleCertificateSettings(StrictNumbers, ScaleCertificate):
@@ -339,6 +371,7 @@ class Settings(_Section):
     scale_certificate: ScaleCertificateSettings | None = None
     scan: ScanSettings = ScanSettings()
     outbox: OutboxSettings = OutboxSettings()
+    openid: OpenIdSettings | None = None
     emulated: EmulatedSettings = EmulatedSettings()
 
     @model_validator(mode="after")

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import re
 import shutil
 import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -25,6 +27,17 @@ def test_the_command_of_the_service_and_of_the_container_exists(file: str) -> No
     known = CliRunner().invoke(main, ["serve", "--help"]).output
     assert [option for option in options if option not in known] == []
     assert re.search(r"^(User=|USER )station$", text, re.M), "not as root"
+
+
+def test_the_bill_of_materials_names_every_package(tmp_path: Path) -> None:
+    bin = Path(sys.executable).parent
+    subprocess.run([DEPLOY / "bill-of-materials", bin, tmp_path], cwd=ROOT, check=True, timeout=60)
+    python = json.loads((tmp_path / "python.cdx.json").read_text())["components"]
+    locked = re.findall(r"^([\w.-]+)==(\S+)", (DEPLOY / "requirements.lock").read_text(), re.M)
+    assert {(part["name"], part["version"]) for part in python} == set(locked)
+    page = json.loads((tmp_path / "page.cdx.json").read_text())["components"]
+    used = json.loads((ROOT / "web/ui/package.json").read_text())["dependencies"]
+    assert set(used.items()) <= {(part["name"], part["version"]) for part in page}
 
 
 def bundle(folder: Path) -> None:

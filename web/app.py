@@ -9,9 +9,10 @@ from pathlib import Path
 from fastapi import Depends, FastAPI
 
 from station import __version__
-from station.people import Access
+from station.people import Access, OpenId
 from station.service import Runtime, Timer, listens_on_loopback
 from web import etags, methods, pages, problems
+from web.application import Application
 from web.borders import Borders, Forwarded
 from web.compression import Compression
 from web.headers import SecurityHeaders
@@ -33,6 +34,7 @@ from web.routes import (
     keys,
     live,
     metrics,
+    openid,
     plans,
     quality,
     readings,
@@ -66,6 +68,8 @@ ROUTES = (
     users, versions, wire,
 )  # fmt: skip
 LIVE_ROUTES = (live,)
+PROVIDER_ROUTES = (openid,)
+"""A provider may add parameters of its own to the address that it leads back to."""
 TOP_ROUTES = (metrics,)
 """Where the tools that ask for them expect them."""
 
@@ -75,7 +79,7 @@ def create_app(runtime: Runtime, *, access: Access | None = None, static: Path =
 
     :param access: who may do what; by default as the settings of the station have it
     """
-    service = runtime.settings.service
+    service, openid_settings = runtime.settings.service, runtime.settings.openid
     access = access or access_of(runtime, service.host)
 
     @asynccontextmanager
@@ -84,7 +88,7 @@ def create_app(runtime: Runtime, *, access: Access | None = None, static: Path =
         with app.state.feed.attached(), app.state.metrics.attached(), noting:
             yield
 
-    app = FastAPI(
+    app = Application(
         title="Five-bar calibration station",
         version=__version__,
         description=DESCRIPTION,
@@ -96,22 +100,23 @@ def create_app(runtime: Runtime, *, access: Access | None = None, static: Path =
     )
     app.state.access = access
     app.state.runtime = runtime
+    app.state.openid = OpenId(openid_settings, runtime.store) if openid_settings else None
     app.state.feed = LiveFeed(runtime.orchestrator, build=pages.build_id(static), open=access.open)
     app.state.metrics = Metrics(runtime, lambda: app.state.feed.clients)
     for module in ROUTES:
         app.include_router(
             module.router,
             prefix=API,
-            dependencies=[Depends(known_query(API))],
+            dependencies=[Depends(known_query)],
             max_body_size=round(service.body_mb * 1e6) if module is datasets else None,
         )
-    app.include_router(live.router, prefix=API)
+    for module in (*LIVE_ROUTES, *PROVIDER_ROUTES):
+        app.include_router(module.router, prefix=API)
     app.include_router(health.router)
     for module in TOP_ROUTES:
         app.include_router(module.router)
     pages.add(app, static)
     problems.add(app)
-    problems.add_schema(app.openapi())
     app.add_middleware(SlowBodies)
     app.add_middleware(etags.ETags, prefix=f"{API}/calibrations/")
     app.add_middleware(Compression)

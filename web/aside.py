@@ -2,20 +2,15 @@
 
 from __future__ import annotations
 
-import logging
 import math
 from collections.abc import Callable, Mapping
-from contextlib import suppress
 from typing import TypeVar
 
 from anyio import CapacityLimiter, fail_after, to_thread
 from pydantic import JsonValue
 
-from station.errors import StoreUnavailable
 from station.records import Actor
-from station.store import Store
-
-log = logging.getLogger(__name__)
+from station.service import Orchestrator
 
 T = TypeVar("T")
 RECORD_WAIT_S = 0.5
@@ -24,21 +19,18 @@ _UNLIMITED = CapacityLimiter(math.inf)
 
 
 async def record_later(
-    store: Store, by: Actor, action: str, subject: str, after: Mapping[str, JsonValue] | None = None
+    orchestrator: Orchestrator,
+    by: Actor,
+    action: str,
+    subject: str,
+    after: Mapping[str, JsonValue] | None = None,
 ) -> None:
     """An entry of the audit about what was done already, made after it was answered.
 
     A database that is locked does not hold the caller's connection: the entry follows when it can.
     """
-
-    def record() -> None:
-        try:
-            store.record(by, action, subject, after=after)
-        except StoreUnavailable:
-            log.exception("%s by %s could not be recorded in the audit", action, by.name)
-
-    with suppress(TimeoutError):
-        await aside(record, timeout_s=RECORD_WAIT_S)
+    written = orchestrator.late_records.deed(by, action, subject, after)
+    await aside(lambda: written.wait(RECORD_WAIT_S))
 
 
 async def aside(function: Callable[[], T], *, timeout_s: float | None = None) -> T:

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 from typing import cast
+
+from fastapi import FastAPI
 
 from station.people import Access
 from station.service import Runtime
 from station.settings import Settings
 from station.store import Store
+from web import problems
 from web.app import create_app
-
-FILE = Path(__file__).with_name("openapi.json")
+from web.application import FILE
 
 
 class _NoStation:
@@ -23,7 +24,8 @@ class _NoStation:
 def text() -> str:
     """The OpenAPI document as it is kept: the routes alone decide it, no rig is needed."""
     app = create_app(cast(Runtime, _NoStation()), access=Access(cast(Store, None), open=False))
-    return json.dumps(app.openapi(), indent=1, ensure_ascii=False) + "\n"
+    document = problems.add_schema(FastAPI.openapi(app))
+    return json.dumps(document, indent=1, ensure_ascii=False) + "\n"
 
 
 if __name__ == "__main__":

@@ -220,6 +220,11 @@ class Machine:
         """The clock's time at which both axes stand still."""
         return max(axis.rests_from_s for axis in self.axes)
 
+    @property
+    def commanded_s(self) -> float:
+        """The clock's time of the last motion that was begun; before the first, minus infinity."""
+        return self._commanded_s
+
     # -- power off and on ----------------------------------------------------------------------
 
     def state(self) -> MachineState:

@@ -10,7 +10,7 @@ from threading import Event, Lock, Thread
 
 from drivers.emulated.link import DriveReply, DropLink, HalfOpen, Kind
 
-_TARGET_SILENT = 0x0B
+TARGET_SILENT = 0x0B
 _HEADER = struct.Struct(">HHHB")  # transaction, protocol, length, unit
 _LONGEST_PDU = 253
 _UNIT_AT, _FUNCTION_AT = 6, 7
@@ -67,9 +67,9 @@ class ModbusTcpGateway:
                 except HalfOpen:
                     dead = True
                     continue
-                answer = bytes((pdu[0] | 0x80, _TARGET_SILENT)) if reply.pdu is None else reply.pdu
+                answer = bytes((pdu[0] | 0x80, TARGET_SILENT)) if reply.pdu is None else reply.pdu
                 whole = _HEADER.pack(transaction, 0, len(answer) + 1, unit) + answer
-                connection.sendall(_SPOIL[reply.spoil](whole) if reply.spoil else whole)
+                connection.sendall(SPOIL[reply.spoil](whole) if reply.spoil else whole)
 
     def _ask(self, unit: int, pdu: bytes) -> DriveReply:
         drive = self._units.get(unit)
@@ -111,7 +111,7 @@ def _changed(frame: bytes, at: int, by: int) -> bytes:
     return frame[:at] + bytes((frame[at] ^ by,)) + frame[at + 1 :]
 
 
-_SPOIL: dict[Kind, Callable[[bytes], bytes]] = {
+SPOIL: dict[Kind, Callable[[bytes], bytes]] = {
     "wrong_id": lambda frame: _changed(frame, _UNIT_AT, 0x10),
     "wrong_function": lambda frame: _changed(frame, _FUNCTION_AT, 0x07),
     "short": lambda frame: frame[:-1],

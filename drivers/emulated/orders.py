@@ -143,6 +143,8 @@ class Orders:
 
     def due(self, kind: Kind, *devices: Device) -> FaultOrder | None:
         """An occasion for `kind` has come: the order that spoils it, one occasion of it used up."""
+        if not self._given:
+            return None
         with self._lock:
             passed_s = self._clock() - self._since_s
             for number, order in enumerate(self._given):

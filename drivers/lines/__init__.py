@@ -6,6 +6,7 @@ from drivers.lines.modbus import ModbusBus, UnansweredWrite
 from drivers.lines.modbus_words import ModbusWords
 from drivers.lines.on_line import OnLine, line_of
 from drivers.lines.playback import Departed, Playback
+from drivers.lines.ports import Port, open_port
 from drivers.lines.retrying import within
 from drivers.lines.serial import XON, Happening, SerialLine
 from drivers.lines.traffic import Traffic
@@ -21,6 +22,7 @@ __all__ = [
     "NetAddress",
     "OnLine",
     "Playback",
+    "Port",
     "SerialAddress",
     "SerialLine",
     "Traffic",
@@ -28,6 +30,7 @@ __all__ = [
     "WireEvent",
     "WireLog",
     "line_of",
+    "open_port",
     "wire_events",
     "within",
 ]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
 
 
 class Traffic:
@@ -12,8 +11,7 @@ class Traffic:
     A round trip is the time from the end of sending to the first byte that comes.
     """
 
-    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
-        self._clock = clock
+    def __init__(self) -> None:
         self._sent_at_s: float | None = None
         self.requests = 0
         self.replies = 0
@@ -27,7 +25,7 @@ class Traffic:
 
     def note_stop(self, unit: int) -> None:
         """The first frame of a stop has been sent."""
-        self.stop_sent_at_s[unit] = self._clock()
+        self.stop_sent_at_s[unit] = time.monotonic()
 
     def note(self, what: str) -> None:
         """Something happened on the line.
@@ -37,9 +35,9 @@ class Traffic:
         match what:
             case "tx":
                 self.requests += 1
-                self._sent_at_s = self._clock()
+                self._sent_at_s = time.monotonic()
             case "rx" if self._sent_at_s is not None:
-                took_s, self._sent_at_s = self._clock() - self._sent_at_s, None
+                took_s, self._sent_at_s = time.monotonic() - self._sent_at_s, None
                 self.replies += 1
                 self.round_trips_s += took_s
                 self.last_round_trip_s = took_s

@@ -50,14 +50,14 @@ class WireEvent:
 class WireLog:
     """Listens on lines until it is closed; one thread carries out the run, others may use the lines too."""
 
-    def __init__(self, lines: Mapping[int, SerialLine], clock: Callable[[], float] = time.monotonic) -> None:
+    def __init__(self, lines: Mapping[int, SerialLine], clock: Callable[[], float] | None = None) -> None:
         """:param lines: by the number that the log gives them; recording begins, for the calling thread"""
         self._lines = lines
-        self._clock = clock
+        self._clock = clock or time.monotonic
         self._owner = get_ident()
         self._lock = Lock()
         self._last_tick = 0
-        self._began_s = clock()
+        self._began_s = self._clock()
         self._glances: Counter[int] = Counter()
         self._written: list[str] = []
         for number, line in lines.items():

@@ -9,7 +9,7 @@ from typing import Any
 import click
 
 from station import __version__
-from station.errors import InputRefused, NotFound, StoreUnavailable
+from station.errors import InputRefused, NotApplicable, NotFound, StoreUnavailable
 from station.home import station_home
 
 _COMMANDS = {
@@ -42,6 +42,7 @@ _COMMANDS = {
     "runs": ("history", "The runs, newest first."),
     "serve": ("serve", "The service with the operator's page."),
     "show": ("history", "One run."),
+    "simulate": ("simulate", "Years of a station in virtual time, with everything that can go wrong."),
     "solve": ("diagnosis", "Joint commands for target positions under the identified model."),
     "user": ("people", "People who sign in at the page."),
     "verify-certificate": ("certificate", "Whether a certificate says what was certified."),
@@ -90,7 +91,7 @@ class StationGroup(click.Group):
     def invoke(self, ctx: click.Context) -> Any:
         try:
             return super().invoke(ctx)
-        except (click.UsageError, InputRefused, NotFound, StoreUnavailable) as error:
+        except (click.UsageError, InputRefused, NotApplicable, NotFound, StoreUnavailable) as error:
             raise _refusal(error) from error
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import click
@@ -12,22 +13,22 @@ from station.cli.files import content_of
 from station.records import proposed_map, read_foreign
 
 FIRST_ROWS = 3
-WIDEST = 12
-"""Columns shown; a wider table cannot be read in a terminal."""
 
 
 @click.command("columns")
 @click.argument("data", type=click.Path(path_type=Path))
-@click.option("--no-header", is_flag=True, help="The first row is a row of numbers already.")
-def columns_command(data: Path, no_header: bool) -> None:
+@click.option("--no-header", is_flag=True, help="No row names the columns.")
+@click.option("--sheet", default="", help="Of a spreadsheet; by default the one with most numbers.")
+def columns_command(data: Path, no_header: bool, sheet: str) -> None:
     """Propose a column map for a file of measurements made elsewhere.
 
     The map is printed to be kept: `station columns DATA > map.toml`, then `--columns map.toml`.
     """
-    table = read_foreign(content_of(data), data.name, header=not no_header)
-    proposal = proposed_map(table)
-    click.echo(("header = false\n" if no_header else "") + proposal, nl=False)
-    shown = Table(*table.header[:WIDEST], title=f"{data.name}: {len(table.rows)} rows, first as understood")
-    for row in table.rows[:FIRST_ROWS]:
-        shown.add_row(*row[:WIDEST])
+    table = read_foreign(content_of(data), data.name, header=False if no_header else None, sheet=sheet)
+    click.echo((f"sheet = {json.dumps(sheet)}\n" if sheet else "") + proposed_map(table), nl=False)
+    first = table.rows[:FIRST_ROWS]
+    lines = [f"row {line}" for line in table.lines[:FIRST_ROWS]]
+    shown = Table("column", *lines, title=f"{data.name}: {len(table.rows)} rows, first as understood")
+    for i, name in enumerate(table.header):
+        shown.add_row(name, *(row[i] for row in first))
     Console(stderr=True, highlight=False).print(shown)

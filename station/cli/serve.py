@@ -43,7 +43,8 @@ def serve_command(
     logs = logging_to(home, terminal=logging.WARNING)
     host = host or settings.service.host
     emulated = emulate is not None or settings.scale is None
-    check_entrance(database_path(settings, home), host, emulated=emulated)
+    if settings.openid is None:  # with a provider somebody can always sign in
+        check_entrance(database_path(settings, home), host, emulated=emulated)
     listener = _listen(host, settings.service.port if port is None else port)
     with logs, listener, Runtime.open(settings, home, emulate) as runtime:
         if new:

@@ -9,7 +9,7 @@ import numpy as np
 from station.diagnosis.tests_of_fit import FEWEST
 from station.errors import InputRefused
 from station.mechanism import Mechanism
-from station.records import Measurements
+from station.records import Index, Measurements
 
 FEWEST_READINGS = 30
 """Thirteen unknowns and an effect leave too little of fewer readings to judge a residual by."""
@@ -40,18 +40,28 @@ def check_enough(mechanism: Mechanism, *, labelled: bool = True) -> None:
 
 
 def checked_fresh(mechanism: Mechanism, fresh: Measurements) -> Measurements:
-    """Fresh readings that can judge those of `mechanism`, their mounts numbered alike.
+    """Fresh readings that can judge those of `mechanism`, mounts and set-ups numbered alike.
 
-    :raises InputRefused: poses that cannot be, too few readings, or a mount whose offset was not learned.
+    :raises InputRefused: poses that cannot be, too few readings, or a mount or set-up that was not learned.
     """
+    learned = mechanism.measurements
+    fresh = replace(
+        fresh,
+        mount=_renumbered(fresh.mount, fresh.mounts, learned.mounts, "mount"),
+        mounts=learned.mounts,
+        setup=_renumbered(fresh.setup_index, fresh.setups, learned.setups, "set-up"),
+        setups=learned.setups,
+    )
     mechanism.of(fresh).check()
     if len(fresh) < FEWEST:
         raise InputRefused(f"Only {len(fresh)} fresh readings; at least {FEWEST} are needed to confirm.")
-    learned = mechanism.measurements
-    unknown = [name for name in fresh.mounts if name not in learned.mounts]
+    return fresh
+
+
+def _renumbered(own: Index, labels: tuple[str, ...], learned: tuple[str, ...], what: str) -> Index:
+    unknown = [labels[k] for k in np.unique(own) if labels[k] not in learned]
     if unknown:
         raise InputRefused(
-            f"The fresh readings are of mount {unknown[0]!r}, which the measurement sequence never used."
+            f"The fresh readings are of {what} {unknown[0]!r}, which the measurement sequence never used."
         )
-    renumbered = np.array([learned.mounts.index(name) for name in fresh.mounts])
-    return replace(fresh, mount=renumbered[fresh.mount], mounts=learned.mounts)
+    return np.array([learned.index(name) if name in learned else 0 for name in labels])[own]

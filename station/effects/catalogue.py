@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 from station.effects.backlash import Backlash
 from station.effects.base import Effect
 from station.effects.compliance import Compliance
@@ -34,14 +36,20 @@ def five_bar_catalogue() -> tuple[Effect, ...]:
 
 
 def arm_catalogue(
-    joints: int, *, by_range: bool, timed: bool = True, warmed: bool = True
+    joints: int, *, by_range: bool, timed: bool = True, warmed: bool = True, sliding: Sequence[int] = ()
 ) -> tuple[Effect, ...]:
     """Every effect at every joint of a serial arm; with distances also those of the instrument.
 
     timed: the log says when each reading was taken; warmed: it says how warm it was.
+    sliding: joints that slide; all that is in degrees cannot be theirs.
     """
     effects = [e for e in (*PER_JOINT, GearCurve) if timed or e is not CountSlip]
-    at_joints = tuple(effect(joint) for effect in effects for joint in range(1, joints + 1))
+    at_joints = tuple(
+        effect(joint)
+        for effect in effects
+        for joint in range(1, joints + 1)
+        if joint not in sliding or effect is TransmissionGain
+    )
     growth = (ThermalLinks(), *((ThermalGrowth(),) if by_range else ())) if timed or warmed else ()
     drift = (Drift(),) if timed and by_range else ()
     return (*at_joints, *growth, *((ScaleGain(),) if by_range else ()), *drift)

@@ -7,6 +7,7 @@ was mounted anew) drop it.
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -86,6 +87,16 @@ class Memory:
             )
             p_value = min(p_value, float(2.0 * ndtr(-abs(off) / np.sqrt(variance))))
         return known, p_value
+
+    def about(self, names: Collection[str]) -> Memory:
+        """Only what is remembered of these: the rest is no unknown of the run at hand."""
+        kept = [k for k, name in enumerate(self.names) if name in names]
+        return replace(
+            self,
+            names=tuple(self.names[k] for k in kept),
+            mean=self.mean[kept],
+            covariance=self.covariance[np.ix_(kept, kept)],
+        )
 
     def prior(self, parameters: tuple[Parameter, ...]) -> Prior:
         """Prior of all parameters: remembered ones as remembered, the rest by their tolerance."""

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from station.outbox.alarms import Alarms
 from station.outbox.courier import Courier, couriers
+from station.outbox.folder import Folder
 from station.outbox.receiver import Receiver, Refused
 
 __all__ = [
     "Alarms",
     "Courier",
+    "Folder",
     "Receiver",
     "Refused",
     "couriers",

@@ -53,8 +53,9 @@ class Courier:
         if (found := self._store.next_delivery(name)) is None:
             return LOOK_S
         delivery, event = found
-        if delivery.next_at is not None and (wait := (delivery.next_at - now).total_seconds()) > 0:
-            return min(wait, LOOK_S)
+        wait_s = (delivery.next_at - now).total_seconds() if delivery.next_at is not None else 0.0
+        if 0.0 < wait_s <= LONGEST_WAIT_S:  # longer was never asked for: the clock was set back
+            return min(wait_s, LOOK_S)
         if dropped := self._drop(now):
             log.error("%s: %d events were given up, too old or too many", name, dropped)
             return 0.0

@@ -18,6 +18,7 @@ from station.store import Store
 
 KEY_PREFIX = "fbs_"
 """Lets whoever finds a key in a text see what it opens."""
+PROVIDER_SIGN_OUT = "/api/v1/session/openid/end"
 SIGN_IN = "Sign in, or send an API key in the header `Authorization: Bearer KEY`."
 BUSY_S = 2.0
 """Told to wait, where others are being signed in at this moment."""
@@ -153,14 +154,26 @@ class Access:
         self._store.add_session(secret_hash(cookie), user)
         return cookie
 
+    def sign_in_by_provider(self, user: User) -> str:
+        """A cookie for whom the plant's provider has signed in."""
+        return self._begin(user)
+
     def sign_out(self, cookie: str) -> None:
         """Again is harmless."""
         self._store.end_session(secret_hash(cookie))
 
     def session(self, actor: Actor) -> SignedIn:
         """What is told to somebody about themselves."""
-        after_s = self._idle_s if actor.via == "user" else None
-        return SignedIn(name=actor.name, role=actor.role, via=actor.via, signs_off_after_s=after_s)
+        if actor.via != "user":
+            return SignedIn(name=actor.name, role=actor.role, via=actor.via)
+        by_provider = self._store.user(actor.name).by_provider
+        return SignedIn(
+            name=actor.name,
+            role=actor.role,
+            via=actor.via,
+            signs_off_after_s=self._idle_s,
+            sign_out_at=PROVIDER_SIGN_OUT if by_provider else None,
+        )
 
     # The first administrator -------------------------------------------------------------------
 

@@ -12,7 +12,7 @@ from station.records.calibration import (
     CalibrationSummary,
     JointApplication,
 )
-from station.records.column_map import ColumnMap, translated
+from station.records.column_map import ColumnMap
 from station.records.column_proposal import proposed_map
 from station.records.csv_cells import harmless
 from station.records.device_detail import DeviceDetail
@@ -62,6 +62,7 @@ from station.records.identification_document import (
     ResidualSummary,
 )
 from station.records.kept import KeptRobot, StoredEvent
+from station.records.kept_log import ImportedLog, KeptLog, LogDocuments, LogPart, Measured
 from station.records.live import (
     CalibrationHolds,
     DeviceState,
@@ -168,6 +169,7 @@ from station.records.training import (
     Score,
     TrainingView,
 )
+from station.records.translation import Translated, translated
 from station.records.trend import TrendPoint
 from station.records.types import LARGEST_ID, Angles, Complex, Flags, Index, Real
 from station.records.uid import uid7
@@ -245,18 +247,23 @@ __all__ = [
     "FreshReading",
     "GateOfMemory",
     "IdentificationDocument",
+    "ImportedLog",
     "Index",
     "Interlock",
     "Iteration",
     "JointAngle",
     "JointApplication",
     "JointCurve",
+    "KeptLog",
     "KeptRobot",
     "LastingParameters",
     "LearnedRanges",
     "LearnedReadings",
+    "LogDocuments",
+    "LogPart",
     "MachineView",
     "MadeBy",
+    "Measured",
     "MeasurementSequence",
     "Measurements",
     "MemorySummary",
@@ -328,6 +335,7 @@ __all__ = [
     "TemperatureReference",
     "TermOfModel",
     "TrainingView",
+    "Translated",
     "TranslatedPosition",
     "TrendPoint",
     "Trip",

@@ -2,87 +2,191 @@
 
 from __future__ import annotations
 
+import json
 import math
-import re
 from collections.abc import Sequence
+from itertools import pairwise
 
+from station.errors import InputRefused
+from station.records.column_words import (
+    DISTANCE,
+    TEMPERATURE,
+    TIME,
+    is_commanded,
+    is_deviation,
+    is_measured,
+    joint_columns,
+    matrix_columns,
+    of_one_kind,
+    point_columns,
+)
+from station.records.foreign_numbers import has_value
 from station.records.foreign_table import ForeignTable
+from station.records.pose_matrix import position_columns
+from station.records.translation import seconds
+from station.records.units import TO_CONTRACT, unit_in_name
 
-JOINT = re.compile(r"(joint|theta|axis|^q|^j|^a)_?\d|joint$|_joint|^q\d|^j\d", re.IGNORECASE)
-AXIS = r"(^|[_ ]){axis}($|[_ ])"
-NOT_MEASURED = re.compile(r"goal|target|command|nominal|std|dev|dif|err|sigma", re.IGNORECASE)
-TARGET = re.compile(r"_t($|_)|goal|target|nominal|command", re.IGNORECASE)
-DEVIATION = re.compile(r"dif|dev|err|delta", re.IGNORECASE)
-OTHERS = (("t_s", "^(t|time|t_s|seconds)$"), ("temperature_c", "temp"), ("payload_kg", "payload"))
 TURN = 2.0 * math.pi
 LONGEST_M = 15.0
 """A position of which no coordinate is larger is in metres: in millimetres machines stand further off."""
+_MATRICES = (16, 12)
 
 
 def proposed_map(table: ForeignTable) -> str:
     """MAP.toml as text; comments say what was not found."""
-    lines = []
+    lines = [] if table.named else ["header = false"]
     if table.decimal == ",":
         lines.append('decimal = ","')
+    if twice := sorted({name for name in table.header if table.header.count(name) > 1}):
+        lines.append(f"# appear twice: {', '.join(twice)}; with header = false columns go by number, from 1")
     lines.append("[columns]")
-    joints = [name for name in table.header if JOINT.search(name) and _numeric(table, name)]
-    if joints:
-        radians = max(_largest(table, name) for name in joints) < TURN
-        lines.append(_line("theta_deg", f"columns = {_quoted(joints)}", "rad" if radians else "deg"))
-    else:
+    numeric = [name for name in table.header if _numeric(table, name)]
+    joints, *others = (joint_columns(numeric) if table.named else [_unnamed_joints(table, numeric)]) or [[]]
+    if not joints:
         lines.append("# no joint angles were recognised: theta_deg = {columns = [...], unit = ...}")
-    lines.append(_position(table, joints))
-    for name, pattern in OTHERS:
-        found = [own for own in table.header if re.search(pattern, own, re.IGNORECASE)]
-        if len(found) == 1 and _numeric(table, found[0]):
-            lines.append(f'{name} = "{found[0]}"')
+    else:
+        lines.append(_group(table, "theta_deg", joints, _angle_unit(table, joints)))
+        lines += [f"# or joint angles: {_quoted(table, group)}" for group in others]
+    left = [name for name in numeric if not any(name in group for group in (joints, *others))]
+    lines += _position(table, left)
+    for name, pattern in (("range_mm", DISTANCE), ("temperature_c", TEMPERATURE)):
+        found = [
+            own for own in left if pattern.search(own) and not is_commanded(own) and not is_deviation(own)
+        ]
+        if len(found) == 1:
+            unit = _length_unit(table, found) if name == "range_mm" else ""
+            lines.append(_single(table, name, found[0], unit))
+    lines += _time(table)
     return "\n".join(lines) + "\n"
 
 
-def _position(table: ForeignTable, joints: Sequence[str]) -> str:
-    others = [name for name in table.header if name not in joints and _numeric(table, name)]
-    measured = _axes([name for name in others if not NOT_MEASURED.search(name) and not TARGET.search(name)])
+def _unnamed_joints(table: ForeignTable, numeric: Sequence[str]) -> list[str]:
+    """Of a file without names: what stands before three coordinates or a matrix."""
+    own = list(numeric)
+    if own and _counts(table, own[0]):
+        own = own[1:]
+    for size in (*_MATRICES, 3):
+        if len(own) > size + 1 and (size == 3 or _is_matrix(table, own[-size:])):
+            return own[:-size]
+    return []
+
+
+def _position(table: ForeignTable, names: Sequence[str]) -> list[str]:
+    if not table.named:
+        return _unnamed_position(table, names)
+    if (matrix := matrix_columns(names)) and _is_matrix(table, matrix):
+        return [_pose(table, matrix)]
+    points = point_columns(names)
+    measured = {s: p for s, p in points.items() if not is_deviation(s) and not is_commanded(s)}
+    if len(measured) > 1 and (sure := {s: p for s, p in measured.items() if is_measured(s)}):
+        measured = sure
+    if several := of_one_kind(measured):
+        nested = ", ".join(_quoted(table, measured[stem]) for stem in several)
+        unit = _length_unit(table, [name for stem in several for name in measured[stem]])
+        return [f'tracker_mm = {{columns = [{nested}], unit = "{unit}"}}']
     if measured:
-        return _line("tracker_mm", f"columns = {_quoted(measured)}", _length(table, measured))
-    target = _axes([name for name in others if TARGET.search(name)])
-    deviation = _axes([name for name in others if DEVIATION.search(name)])
-    if target and deviation:
-        both = f"difference = [{_quoted(target)}, {_quoted(deviation)}]"
-        return _line("tracker_mm", both, _length(table, target))
-    return "# no measured position was recognised: tracker_mm = {columns = [...], unit = ...}, or range_mm"
+        first, *others = measured.values()
+        lines = [_group(table, "tracker_mm", first, _length_unit(table, first))]
+        return lines + [f"# or position: {_quoted(table, other)}" for other in others]
+    target = next((p for s, p in points.items() if is_commanded(s)), None)
+    off = next((p for s, p in points.items() if is_deviation(s)), None)
+    if target and off:
+        both = f"difference = [{_quoted(table, target)}, {_quoted(table, off)}]"
+        return [f'tracker_mm = {{{both}, unit = "{_length_unit(table, target)}"}}']
+    if any(DISTANCE.search(name) for name in names):
+        return []
+    return ["# no measured position was recognised: tracker_mm = {columns = [...], unit = ...}, or range_mm"]
 
 
-def _axes(names: Sequence[str]) -> list[str]:
-    """x, y, z among names, empty where they are not clear."""
-    out = []
-    for axis in "xyz":
-        found = [name for name in names if re.search(AXIS.format(axis=axis), name, re.IGNORECASE)]
-        if len(found) != 1:
-            return []
-        out += found
-    return out
+def _unnamed_position(table: ForeignTable, names: Sequence[str]) -> list[str]:
+    own = [name for name in names if not (name == table.header[0] and _counts(table, name))]
+    if len(own) in _MATRICES and _is_matrix(table, own):
+        return [_pose(table, own)]
+    if len(own) == 3:
+        return [_group(table, "tracker_mm", own, _length_unit(table, own))]
+    return ["# no measured position was recognised: tracker_mm = {columns = [...], unit = ...}, or range_mm"]
 
 
-def _length(table: ForeignTable, names: Sequence[str]) -> str:
-    return "m" if max(_largest(table, name) for name in names) < LONGEST_M else "mm"
+def _is_matrix(table: ForeignTable, names: Sequence[str]) -> bool:
+    try:
+        position_columns([table.column(name) for name in names], "")
+    except InputRefused:
+        return False
+    return True
 
 
-def _line(name: str, what: str, unit: str) -> str:
-    return f'{name} = {{{what}, unit = "{unit}"}}'
+def _pose(table: ForeignTable, names: Sequence[str]) -> str:
+    at = position_columns([table.column(name) for name in names], "")
+    return _group(table, "pose", names, _length_unit(table, [names[i] for i in at]))
 
 
-def _quoted(names: Sequence[str]) -> str:
-    return "[" + ", ".join(f'"{name}"' for name in names) + "]"
+def _time(table: ForeignTable) -> list[str]:
+    """The first column that can be a time; one that a spreadsheet spoiled is none."""
+    for name in table.header:
+        if TIME.search(name) and table.header.count(name) == 1:
+            cells, unit = table.column(name), _unit(table, name, "s")
+            try:
+                times = [float(cell) for cell in seconds(table, cells, 1.0)]
+            except InputRefused:
+                continue
+            if all(map(math.isfinite, times)) and max(times) > min(times):
+                return [_single(table, "t_s", name, unit)]
+    return []
+
+
+def _single(table: ForeignTable, name: str, column: str, unit: str) -> str:
+    given = _quoted(table, [column])[1:-1]
+    plain = unit in ("", name.rpartition("_")[2])
+    return f"{name} = {given}" if plain else f'{name} = {{column = {given}, unit = "{unit}"}}'
+
+
+def _angle_unit(table: ForeignTable, names: Sequence[str]) -> str:
+    by_size = "rad" if max(_largest(table, name) for name in names) < TURN else "deg"
+    # a name of the contract says degrees, whatever the file holds
+    own = names[0].startswith("theta") and names[0].endswith("_deg")
+    return by_size if own else _unit(table, names[0], "deg") or by_size
+
+
+def _length_unit(table: ForeignTable, names: Sequence[str]) -> str:
+    by_size = "m" if max(_largest(table, name) for name in names) < LONGEST_M else "mm"
+    own = names[0].startswith(("tracker_", "range_")) and names[0].endswith("_mm")
+    return by_size if own else _unit(table, names[0], "mm") or by_size
+
+
+def _unit(table: ForeignTable, name: str, kind: str) -> str:
+    """As the file says it; empty where it does not."""
+    unit = table.unit(name) or unit_in_name(name)
+    return unit if unit in TO_CONTRACT[kind] else ""
+
+
+def _group(table: ForeignTable, name: str, columns: Sequence[str], unit: str) -> str:
+    return f'{name} = {{columns = {_quoted(table, columns)}, unit = "{unit}"}}'
+
+
+def _quoted(table: ForeignTable, names: Sequence[str]) -> str:
+    return json.dumps([name if table.named else int(name) for name in names], ensure_ascii=False)
+
+
+def _counts(table: ForeignTable, name: str) -> bool:
+    """Whether a column only numbers the rows."""
+    values = _values(table, name)
+    return all(b - a == 1.0 for a, b in pairwise(values))
 
 
 def _largest(table: ForeignTable, name: str) -> float:
-    return max(abs(float(cell)) for cell in table.column(name))
+    return max((abs(value) for value in _values(table, name)), default=0.0)
+
+
+def _values(table: ForeignTable, name: str) -> list[float]:
+    return [float(cell) for cell in table.column(name) if has_value(cell)]
 
 
 def _numeric(table: ForeignTable, name: str) -> bool:
+    """Whether a column holds numbers; some may be missing."""
     if table.header.count(name) != 1:
         return False
     try:
-        return all(math.isfinite(float(cell)) for cell in table.column(name))
+        values = _values(table, name)
     except ValueError:
         return False
+    return bool(values) and all(map(math.isfinite, values))

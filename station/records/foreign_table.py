@@ -1,29 +1,38 @@
-"""Tables as people have them: any separator, decimal comma, spreadsheets, with or without a header."""
+"""Tables as people have them: text or spreadsheet, with or without a header, units and lines before it."""
 
 from __future__ import annotations
 
-import csv
-import io
 from collections import Counter
 from dataclasses import dataclass
 
 from station.errors import InputRefused
+from station.records.foreign_numbers import is_number, signs_of
+from station.records.foreign_sheet import OLD_SPREADSHEET, SPREADSHEET, read_spreadsheet
+from station.records.foreign_text import read_text
+from station.records.units import unit_in
 
-SEPARATORS = ";\t|,"
-SPREADSHEET = b"PK\x03\x04"
-"""An .xlsx file is a zip archive."""
+_MOSTLY = 0.5
+"""Share of the cells of a row of readings that are numbers."""
+Numbered = tuple[int, list[str]]
+"""A row and where in the file it stands, from 1."""
 
 
 @dataclass(frozen=True)
 class ForeignTable:
-    """The cells of a file, decimal points put right."""
+    """The cells of a file, numbers with a decimal point."""
 
     source: str
     header: tuple[str, ...]
     """Names of the columns; "1", "2", ... where the file has none."""
     rows: tuple[tuple[str, ...], ...]
+    lines: tuple[int, ...]
+    """Where in the file each row stands, from 1."""
     separator: str
     decimal: str
+    named: bool = True
+    """Whether the file itself names the columns."""
+    units: tuple[str, ...] = ()
+    """Of the columns, where a row below the names has them."""
 
     def column(self, name: str) -> list[str]:
         """The cells of a column.  :raises InputRefused: there is no such column, or it is there twice."""
@@ -34,68 +43,91 @@ class ForeignTable:
             raise InputRefused(f"{self.source}: column {name!r} {what}; there are {there}.")
         return [row[places[0]] for row in self.rows]
 
+    def unit(self, name: str) -> str:
+        """Of a column, by the row of units; empty where there is none."""
+        return self.units[self.header.index(name)] if self.units else ""
+
 
 def read_foreign(
-    content: bytes, source: str, *, header: bool = True, separator: str = "", decimal: str = ""
+    content: bytes,
+    source: str,
+    *,
+    header: bool | None = None,
+    separator: str = "",
+    decimal: str = "",
+    sheet: str = "",
 ) -> ForeignTable:
-    """Rows of a text file or spreadsheet; separator and decimal sign are found where they are not given.
+    """Rows of a text file or spreadsheet; what is not given is found.
 
+    :param header: whether a row names the columns; None: if there is one that is not all numbers
     :raises InputRefused: not a table, or rows of different lengths.
     """
+    if content.startswith(OLD_SPREADSHEET):
+        raise InputRefused(
+            f"{source} is an .xls file or has a password; save it as .xlsx without one, or as .csv."
+        )
     if content.startswith(SPREADSHEET):
-        cells, separator, decimal = _spreadsheet(content, source), "", "."
+        every, separator = list(enumerate(read_spreadsheet(content, source, sheet), start=1)), ""
+        rows = [(line, [cell.strip() for cell in row]) for line, row in every if any(row)]
     else:
-        text = _text(content, source)
-        separator = separator or _separator(text)
-        cells = list(csv.reader(io.StringIO(text), delimiter=separator))
-    rows = [tuple(cell.strip() for cell in row) for row in cells if any(cell.strip() for cell in row)]
-    if len(rows) < 2:
+        rows, separator = read_text(content, source, separator)
+    above, body = _parted(rows, source)
+    if not above and (header or (header is None and _counts_columns(body[0][1]))):
+        above, body = [body[0]], body[1:]
+    width = len(body[0][1]) if body else 0
+    names, units = _names(above, width) if header is not False else ((), ())
+    empty = {i for i in range(width) if not any(row[i] for _, row in body) and not (names and names[i])}
+    kept = [i for i in range(width) if i not in empty]
+    signs = signs_of((cell for _, row in body for cell in row), decimal)
+    return ForeignTable(
+        source,
+        tuple(names[i] for i in kept) if names else tuple(str(i + 1) for i in kept),
+        tuple(tuple(signs.plain(row[i]) for i in kept) for _, row in body),
+        tuple(line for line, _ in body),
+        separator,
+        signs.decimal,
+        bool(names),
+        tuple(units[i] for i in kept) if units else (),
+    )
+
+
+def _parted(rows: list[Numbered], source: str) -> tuple[list[Numbered], list[Numbered]]:
+    """What stands above the readings, and the readings.  :raises InputRefused: no table of numbers."""
+    numeric = [len(row) for _, row in rows if _of_numbers(row)]
+    if not numeric:
         raise InputRefused(f"{source}: no rows of numbers were found.")
-    names = rows[0] if header else tuple(str(i + 1) for i in range(len(rows[0])))
-    body = rows[1:] if header else rows
-    for k, row in enumerate(body):
-        if len(row) != len(names):
+    width = Counter(numeric).most_common(1)[0][0]
+    first = next(k for k, (_, row) in enumerate(rows) if len(row) == width and _of_numbers(row))
+    for line, row in rows[first:]:
+        if len(row) != width:
             raise InputRefused(
-                f"{source}: row {k + 1 + header} has {len(row)} fields where the first has {len(names)}; "
+                f"{source}: row {line} has {len(row)} fields where the others have {width}; "
                 "the file is truncated or the separator is wrong."
             )
-    decimal = decimal or _decimal(body, separator)
-    if decimal == ",":
-        body = [tuple(cell.replace(",", ".") for cell in row) for row in body]
-    return ForeignTable(source, tuple(names), tuple(body), separator, decimal)
+    return rows[:first], rows[first:]
 
 
-def _text(content: bytes, source: str) -> str:
-    if b"\0" in content:
-        raise InputRefused(f"{source} is neither a text file nor an .xlsx file.")
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError:
-        return content.decode("cp1252", errors="replace")  # what spreadsheets wrote before UTF-8
+def _of_numbers(row: list[str]) -> bool:
+    filled = [cell for cell in row if cell]
+    return sum(map(is_number, filled)) > _MOSTLY * len(filled)
 
 
-def _separator(text: str) -> str:
-    """The sign that most lines have equally often."""
-    lines = [line for line in text.splitlines() if line.strip()][:50]
-    counts = {sign: Counter(line.count(sign) for line in lines).most_common(1)[0] for sign in SEPARATORS}
-    likely = [sign for sign, (often, lines_so) in counts.items() if often and lines_so > 0.8 * len(lines)]
-    return likely[0] if likely else ","
+def _counts_columns(row: list[str]) -> bool:
+    """Whether a row only numbers the columns."""
+    return any(row == [str(k + first) for k in range(len(row))] for first in (0, 1))
 
 
-def _decimal(rows: list[tuple[str, ...]], separator: str) -> str:
-    some = [cell for row in rows[:50] for cell in row]
-    commas = sum("," in cell for cell in some)
-    return "," if separator != "," and commas > sum("." in cell for cell in some) else "."
+def _names(above: list[Numbered], width: int) -> tuple[tuple[str, ...], tuple[str, ...]]:
+    """Names and units of the columns, from the lines right above the readings; empty where they have none."""
+    fitting = [cells for _, row in above[-3:] if len(cells := _fitted(row, width)) == width]
+    units: tuple[str, ...] = ()
+    if len(fitting) > 1 and all(unit_in(cell) or not cell.strip("[]()- ") for cell in fitting[-1]):
+        units = tuple(unit_in(cell) for cell in fitting.pop())
+    return (tuple(fitting[-1]) if fitting else ()), units
 
 
-def _spreadsheet(content: bytes, source: str) -> list[list[str]]:
-    """The first sheet."""
-    from openpyxl import load_workbook  # here, because few files need it
-    from openpyxl.utils.exceptions import InvalidFileException
-
-    try:
-        book = load_workbook(io.BytesIO(content), read_only=True, data_only=True)
-        sheet = book.worksheets[0]
-        return [["" if v is None else str(v) for v in row] for row in sheet.iter_rows(values_only=True)]
-    except (InvalidFileException, KeyError, ValueError, IndexError, OSError) as error:
-        raise InputRefused(f"{source} is not a spreadsheet that can be read: {error}.") from error
+def _fitted(row: list[str], width: int) -> list[str]:
+    """As long as a row of readings: the first column may go without a name, the last may be empty."""
+    if len(row) == width + 1 and not row[-1]:
+        return row[:-1]
+    return ["", *row] if len(row) == width - 1 else row

@@ -43,10 +43,21 @@ class Columns:
     """Whether the position columns may stand in for the distance."""
     time_ordered: bool = True
     """The station writes rows as it measures: one out of order is a fault.  Other machines' logs may jump."""
+    sliding: tuple[int, ...] = ()
+    """Joints that slide, from 1."""
+    more: tuple[str, ...] = ()
+    """Further columns that may be there."""
 
     @property
     def theta(self) -> tuple[str, ...]:
-        return tuple(f"theta{i + 1}_deg" for i in range(self.joints))
+        joints = range(1, self.joints + 1)
+        return tuple(f"travel{i}_mm" if i in self.sliding else f"theta{i}_deg" for i in joints)
+
+    @property
+    def to_internal(self) -> Real:
+        """(n,) of the joint columns: to rad, and to m of joints that slide."""
+        joints = range(1, self.joints + 1)
+        return np.array([1e-3 if i in self.sliding else np.radians(1.0) for i in joints])
 
     @property
     def approach(self) -> tuple[str, ...]:
@@ -58,7 +69,15 @@ class Columns:
 
     @property
     def optional(self) -> tuple[str, ...]:
-        often = (*self.approach, "position", "temperature_c", "payload_kg", "mount", *self.tracker)
+        often = (
+            *self.approach,
+            "position",
+            "temperature_c",
+            "payload_kg",
+            "mount",
+            *self.tracker,
+            *self.more,
+        )
         return (*often, self.distance) if self.either else often
 
 
@@ -180,21 +199,25 @@ def _measurements(table: Table, columns: Columns) -> Measurements:
         )
     if backwards.size:
         log.warning("%s: time runs backwards at row %d.", table.source, table.lines[int(backwards[0]) + 1])
-    theta_deg = np.column_stack([table.numbers(name) for name in columns.theta])
+    joints = np.column_stack([table.numbers(name) for name in columns.theta])
     mount, mounts = number(table.text("mount") if table.has("mount") else [""] * len(ids))
+    setup, setups = number(table.text("setup") if table.has("setup") else [""] * len(ids))
     place = table.text("position") if table.has("position") else [""] * len(ids)
     # a reading without a place label is a place of its own
     position = number([label or f"\0{k}" for k, label in enumerate(place)])[0]
     measurements = Measurements(
         ids=ids,
         t_s=t_s,
-        theta=np.radians(theta_deg),
+        theta=joints * columns.to_internal,
         approach=np.column_stack([approaches(table, name) for name in columns.approach]).astype(np.int8),
         distance=_distance(table, columns),
         position=position,
         mount=mount,
         samples=np.ones(len(ids), dtype=np.intp),
         mounts=tuple(str(m) for m in mounts),
+        setup=setup if len(setups) > 1 else None,
+        setups=tuple(str(s) for s in setups),
+        sliding=columns.sliding,
         temperature_c=table.optional_numbers("temperature_c"),
         payload_kg=table.optional_numbers("payload_kg"),
         tracker=_tracker(table, columns),
@@ -226,10 +249,12 @@ def read_table(content: bytes, required: Sequence[str], optional: Sequence[str],
     lines: list[int] = []
     try:
         for row in reader:
+            if not any(cell.strip() for cell in row):
+                continue
             if not header:
                 header = [name.strip() for name in row]
                 _check_header(header, required, optional, source)
-            elif any(cell.strip() for cell in row):
+            else:
                 if len(row) != len(header):
                     raise InputRefused(
                         f"{source}: row {reader.line_num} has {len(row)} fields where the header has "

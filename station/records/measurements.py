@@ -37,6 +37,11 @@ class Measurements:
     samples: Index
     """(K,) how many samples of the head each distance is the mean of."""
     mounts: tuple[str, ...] = ("",)
+    setup: Index | None = None
+    """(K,) index into `setups`; None where machine and instrument stood still throughout."""
+    setups: tuple[str, ...] = ("",)
+    sliding: tuple[int, ...] = ()
+    """Joints that slide, from 1; their `theta` is in metres: a metre and a radian move the end alike."""
     resolution_mm: float = 0.0
     """Step of the readout where it is coarser than the noise of a sample, else 0."""
     temperature_c: Real | None = None
@@ -73,9 +78,14 @@ class Measurements:
         return replace(self, ids=tuple(self.ids[k] for k in index), **taken)
 
     @property
+    def setup_index(self) -> Index:
+        """(K,) index into `setups`."""
+        return np.zeros(len(self), dtype=np.intp) if self.setup is None else self.setup
+
+    @property
     def repeat_group(self) -> Index:
-        """(K,) index of readings alike in place, approach and mount: their scatter is pure error."""
-        keys = np.column_stack([self.position, self.approach, self.mount])
+        """(K,) index of readings alike in place, approach, mount and set-up: their scatter is pure error."""
+        keys = np.column_stack([self.position, self.approach, self.mount, self.setup_index])
         return np.unique(keys, axis=0, return_inverse=True)[1].reshape(-1)
 
 

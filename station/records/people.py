@@ -38,6 +38,8 @@ class User(Record):
     name: str
     role: Role
     has_badge: bool
+    by_provider: bool = False
+    """Signs in with the plant's provider, which also decides the role."""
     disabled: bool
     """Kept, but may not sign in."""
     created_at: datetime | None
@@ -79,6 +81,8 @@ class SignedIn(Record):
     via: Via
     signs_off_after_s: float | None = None
     """Without activity, while nothing runs; null for those who are not signed in with a password."""
+    sign_out_at: str | None = None
+    """Where a page goes next, so that the provider signs out as well; null for the station's own users."""
 
 
 class AuditEntry(Record):

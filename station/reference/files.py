@@ -37,6 +37,7 @@ MEANING = {
     "temperature_c": ("°C", "temperature of the machine"),
     "payload_kg": ("kg", "mass at the end of the machine"),
     "mount": ("", "id of the mounting point of the mechanism; each has an offset of its own"),
+    "setup": ("", "id of the set-up of base and instrument; each has a base frame of its own"),
     "tracker": ("mm", "independent measurement of the position"),
 }
 """Unit and meaning of each column, without the number of a joint or the letter of an axis."""
@@ -78,6 +79,7 @@ def measurement_file_page() -> str:
     arm = Columns(
         distance="range_mm",
         tracker=("tracker_x_mm", "tracker_y_mm", "tracker_z_mm"),
+        more=("setup",),
         either=True,
         time_ordered=False,
     )

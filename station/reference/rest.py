@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from station.reference.markdown import code, page, section, table
-from web.openapi import FILE
+from web.application import FILE
 
 OF_EVERY_CALL = ("422", "500")
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from station.people import ALLOWED, ROLES, Permission
 from station.reference.markdown import code, page, section, table
-from web.app import API, LIVE_ROUTES, ROUTES, TOP_ROUTES
+from web.app import API, LIVE_ROUTES, PROVIDER_ROUTES, ROUTES, TOP_ROUTES
 from web.guarded import guard_of
 
 
@@ -22,7 +22,9 @@ class RouteNeed:
 
 def route_needs() -> Iterator[RouteNeed]:
     """Every route of the interface.  :raises LookupError: one that declares nothing, or twice."""
-    prefixed = [(module, API) for module in (*ROUTES, *LIVE_ROUTES)] + [(module, "") for module in TOP_ROUTES]
+    prefixed = [(module, API) for module in (*ROUTES, *PROVIDER_ROUTES, *LIVE_ROUTES)] + [
+        (module, "") for module in TOP_ROUTES
+    ]
     for module, prefix in prefixed:
         for route in module.router.routes:
             guard = guard_of(route.dependant)

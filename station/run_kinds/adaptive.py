@@ -224,10 +224,10 @@ class Situation:
     @cached_property
     def _test(self) -> tuple[Contradiction, Real]:
         """Of the memory, and the changes (D, M) that a full run would see."""
-        memory = self.known.memory
-        assert memory is not None
+        assert self.known.memory is not None
         parameters = self.known.parameters
         names = [p.name for p in parameters]
+        memory = self.known.memory.about(names)
         lasting = np.array([names.index(name) for name in memory.names])
         passing = np.array([k for k in range(len(names)) if k not in lasting])
         sd = np.array([parameters[k].prior_sd for k in passing])

@@ -140,7 +140,8 @@ def _measured(fit: Identification[FiveBar], title: str, number: int, count: int 
     """Fresh readings and what they say about a model."""
     stops = fresh_stops(fit, seed=number) if count is None else fresh_stops(fit, count, number, "C")
     readings: list[Reading] = yield MeasurementSequence(title, number, stops, last=True)
-    return readings, verify(fit, from_readings(readings), offset_known=False)
+    fresh = from_readings(readings, fit.measurements.mounts)
+    return readings, verify(fit, fresh, offset_known=False)
 
 
 def _way_back(source: Source, cause: str) -> _Steps:

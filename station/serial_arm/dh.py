@@ -1,5 +1,8 @@
 """Kinematics of a serial arm: a chain of elementary turns and shifts, with every derivative in closed form.
 
+A joint turns about z or slides along z; the variable of a joint that slides is in metres, so that one unit
+of any joint moves the end about equally.
+
 Standard Denavit-Hartenberg form turns and shifts about z by theta and d, then about x by alpha and a; in the
 modified form (Craig) the pair about x comes first.  Between the two each link has one more shift along y and
 one more turn about y (Hayati and Mirmirani, 1985), so that six errors a link say all that a rigid link can
@@ -19,6 +22,8 @@ Convention = Literal["standard", "modified"]
 
 LINK_ERRORS = ("dtheta", "d", "a", "alpha", "b", "beta")
 """Of one link: about z, along z, along x, about x, along y, about y."""
+MM = 1000.0
+"""Of a metre."""
 _X, _Y, _Z = 0, 1, 2
 _STANDARD = (
     ("turn", _Z, "dtheta"), ("shift", _Z, "d"), ("shift", _X, "a"), ("turn", _X, "alpha"),
@@ -32,7 +37,7 @@ _MODIFIED = (
 
 @dataclass(frozen=True)
 class Links:
-    """Nominal links of an arm with n joints that turn."""
+    """Nominal links of an arm with n joints."""
 
     a: Real
     """(n,) mm"""
@@ -43,6 +48,8 @@ class Links:
     offset: Real
     """(n,) rad, added to the joint angle."""
     convention: Convention = "standard"
+    sliding: tuple[int, ...] = ()
+    """Joints that slide, from 0."""
 
     def __len__(self) -> int:
         return len(self.a)
@@ -57,6 +64,8 @@ class Reach(NamedTuple):
     """(K, 3, n, 6) d end / d the six errors of each link, in the order of `LINK_ERRORS`, mm and rad."""
     by_tool: Real
     """(K, 3, 3) d end / d the tool point in the frame of the last link: that frame's axes."""
+    by_joint: Real
+    """(K, 3, n) mm for one unit of each joint's variable."""
     origins: Real
     """(K, n + 1, 3) mm, the origin of the base and of each link."""
     axes: Real
@@ -68,7 +77,8 @@ class Reach(NamedTuple):
 def reach(links: Links, errors: Real, tool: Real, theta: Real) -> Reach:
     """Forward kinematics and its derivatives.
 
-    errors (n, 6) in the order of `LINK_ERRORS`; tool (3,) mm in the frame of the last link; theta (K, n) rad.
+    errors (n, 6) in the order of `LINK_ERRORS`; tool (3,) or (K, 3) mm in the frame of the last link;
+    theta (K, n) rad, m of joints that slide.
     """
     count, n = theta.shape
     frame: Real = np.tile(np.eye(3), (count, 1, 1))
@@ -78,9 +88,10 @@ def reach(links: Links, errors: Real, tool: Real, theta: Real) -> Reach:
     origins, axes, pivots = [origin], [], []
     for i in range(n):
         e = dict(zip(LINK_ERRORS, errors[i], strict=True))
+        turned, slid = (0.0, MM * theta[:, [i]]) if i in links.sliding else (theta[:, i], 0.0)
         amounts = {
-            "dtheta": theta[:, i] + links.offset[i] + e["dtheta"],
-            "d": links.d[i] + e["d"],
+            "dtheta": turned + links.offset[i] + e["dtheta"],
+            "d": slid + links.d[i] + e["d"],
             "a": links.a[i] + e["a"],
             "alpha": links.alpha[i] + e["alpha"],
             "b": e["b"],
@@ -97,12 +108,13 @@ def reach(links: Links, errors: Real, tool: Real, theta: Real) -> Reach:
             else:
                 frame = _turned(frame, axis, amounts[name])
         origins.append(origin)
-    end = origin + frame @ tool
+    end = origin + np.einsum("kij,kj->ki", frame, np.broadcast_to(tool, (count, 3)))
     by_link = np.empty((count, 3, n, len(LINK_ERRORS)))
     for kind, i, k, along, through in motions:
         by_link[:, :, i, k] = along if kind == "shift" else np.cross(along, end - through)
     along_path, about, through_point = (np.stack(part, axis=1) for part in (origins, axes, pivots))
-    return Reach(end, by_link, frame, along_path, about, through_point)
+    columns = [MM * by_link[:, :, i, 1] if i in links.sliding else by_link[:, :, i, 0] for i in range(n)]
+    return Reach(end, by_link, frame, np.stack(columns, axis=2), along_path, about, through_point)
 
 
 def _turned(frame: Real, axis: int, angle: float | Real) -> Real:

@@ -15,20 +15,22 @@ from station.errors import InputRefused
 from station.fitting import NotConvergedError, Prior, solve
 from station.mechanism import Conditions, Observation, Parameter, Reference, temperature_rise
 from station.records import Complex, Index, Measurements, Real
-from station.serial_arm.dh import LINK_ERRORS, Reach, reach
+from station.serial_arm.dh import LINK_ERRORS, MM, Reach, reach
+from station.serial_arm.placement import DEGREES, Placement
 from station.serial_arm.robot_file import ARM_MODEL, Arm
 
-DEGREES = 180.0 / np.pi
 METRES = 0.02
 """Of the length of an arm, within which no target of it can stay."""
 MISFIT = 0.03
 """Misfit over the arm's length beyond which angles and positions are not of one machine."""
 _OTHERS = LINK_ERRORS[1:]
-"""Errors of a link beside the zero offset of its joint."""
+"""Errors of a link beside the zero offset of its joint; a joint that slides has it along z,"""
+_OTHERS_SLIDING = ("theta", *LINK_ERRORS[2:])
+"""and the one about z beside it."""
 
 
 class SerialArm:
-    """Parameters: zero offsets of the n joints, five more errors a link, tool point, pose of the base.
+    """Parameters: zero offsets of the n joints, five more errors a link, tool points, poses of the base.
 
     With distances only, the pose of the base is the instrument's origin (three numbers): turning the whole
     arm about that origin changes no distance.
@@ -40,12 +42,13 @@ class SerialArm:
     """None is declared: an arm is judged at the poses that were measured."""
 
     def __init__(self, robot: Arm, measurements: Measurements, frame: Real | None = None) -> None:
-        """`frame` (3, 3): orientation of the base that its three turns count from; found when left out."""
+        """`frame` (S, 3, 3): orientations of the base that its turns count from; found when left out."""
         self.robot = robot
         self.measurements = measurements
         self.theta = measurements.theta
         self.by_range = measurements.tracker is None
         self._links = robot.links
+        self._placement = Placement(measurements, by_range=self.by_range)
         self._frame = frame
         if measurements.tracker is None:
             self.measured: Real = measurements.distance
@@ -60,20 +63,19 @@ class SerialArm:
         n, t = self.robot.joints, self.robot.tolerances
         angle = ("deg", 0.0, np.radians(t.angle_deg), DEGREES)
         length = ("mm", 0.0, t.length_mm)
-        zero_sd = np.radians(t.zero_offset_deg)
-        out = [Parameter(f"dtheta{i + 1}", "zero_offset", "deg", 0.0, zero_sd, DEGREES) for i in range(n)]
+        turning = ("deg", 0.0, np.radians(t.zero_offset_deg), DEGREES)
+        sliding = ("mm", 0.0, t.length_mm / MM, MM)
+        slides = self._links.sliding
+        out = [
+            Parameter(f"dtheta{i + 1}", "zero_offset", *(sliding if i in slides else turning))
+            for i in range(n)
+        ]
         for i in range(n):
             out += [
-                Parameter(f"{name}{i + 1}", "geometry", *(angle if name in ("alpha", "beta") else length))
-                for name in _OTHERS
+                Parameter(f"{name}{i + 1}", "geometry", *(length if name in ("d", "a", "b") else angle))
+                for name in (_OTHERS_SLIDING if i in slides else _OTHERS)
             ]
-        out += [Parameter(f"tool_{axis}", "placement", "mm", 0.0, self.robot.tool_sd_mm) for axis in "xyz"]
-        if self.by_range:
-            out += [Parameter(f"origin_{axis}", "placement", "mm", 0.0, np.inf) for axis in "xyz"]
-        else:
-            out += [Parameter(f"base_{axis}", "placement", "mm", 0.0, np.inf) for axis in "xyz"]
-            out += [Parameter(f"base_r{axis}", "placement", "deg", 0.0, np.inf, DEGREES) for axis in "xyz"]
-        return tuple(out)
+        return (*out, *self._placement.parameters(self.robot.tool_sd_mm))
 
     @cached_property
     def row_sd(self) -> Real:
@@ -88,10 +90,15 @@ class SerialArm:
         """
         p = np.array([q.prior_mean for q in self.parameters])
         at = self._reach(p, self.theta).end
-        if self.by_range:
-            p[-3:] = _trilaterated(at, self.measured)
-        else:
-            p[-6:-3] = self.measured.reshape(-1, 3).mean(axis=0) - self._base_frame @ at.mean(axis=0)
+        setups = self._placement.setups(p[self._links_size :])  # a view: what is set here is set in p
+        for s, rows in enumerate(self._placement.rows):
+            if not len(rows):
+                continue  # of fresh readings: the set-up was placed by those learned from
+            if self.by_range:
+                setups[s] = _trilaterated(at[rows], self.measured[rows])
+            else:
+                seen = self.measured.reshape(-1, 3)[rows].mean(axis=0)
+                setups[s, :3] = seen - self._base_frame[s] @ at[rows].mean(axis=0)
         return p
 
     @property
@@ -106,17 +113,21 @@ class SerialArm:
     def check(self) -> None:
         """:raises InputRefused: readings that cannot be of this arm."""
         m = self.measurements
-        if np.abs(np.degrees(m.theta)).max() < 2.0 * np.pi:
+        self._placement.check()
+        turning = [i for i in range(m.joints) if i not in self._links.sliding]
+        if np.abs(np.degrees(m.theta[:, turning])).max(initial=0.0) < 2.0 * np.pi and turning:
             raise InputRefused(
                 f"Reading {m.ids[0]}, columns theta1_deg to theta{m.joints}_deg: "
-                "the angles look like radians; give degrees, or a column map with their unit."
+                "the angles look like radians; give degrees, or their unit in a column map "
+                "(`station columns` proposes one, for `--columns`)."
             )
         off, size = self._nominal_misfit(), self._length
         furthest = float(np.abs(self.measured).max())
         if furthest < METRES * size:
             raise InputRefused(
                 f"No reading is further off than {furthest:.3g} mm, of an arm of {size:.0f} mm: positions "
-                "and distances look like metres; give millimetres, or a column map with their unit."
+                "and distances look like metres; give millimetres, or their unit in a column map "
+                "(`station columns` proposes one, for `--columns`)."
             )
         if not off < MISFIT * size:
             raise InputRefused(
@@ -145,28 +156,30 @@ class SerialArm:
     def observe(self, p: Real, theta: Real) -> Observation:
         """(R,) positions or distances with derivatives."""
         at = self._reach(p, theta)
-        n = self.robot.joints
+        n, place = self.robot.joints, self._placement
         count = len(theta)
-        joints = at.by_link[:, :, :, 0]
-        own = np.concatenate([joints, at.by_link[:, :, :, 1:].reshape(count, 3, -1), at.by_tool], axis=2)
+        others = at.by_link[:, :, :, 1:]
+        if self._links.sliding:
+            others = others.copy()
+            others[:, :, self._links.sliding, 0] = at.by_link[:, :, self._links.sliding, 0]
+        own = np.concatenate([at.by_joint, others.reshape(count, 3, -1), place.of_points(at.by_tool)], axis=2)
+        setups = place.setups(p[self._links_size :])
         if self.by_range:
-            lam = at.end - p[-3:]
+            lam = at.end - setups[place.setup]
             rho = np.linalg.norm(lam, axis=1)
             along = lam / rho[:, None]
-            by_parameter = np.hstack([np.einsum("ki,kip->kp", along, own), -along])
+            by_parameter = np.hstack([np.einsum("ki,kip->kp", along, own), place.of_setups(-along)])
             return Observation(rho, by_parameter, by_parameter[:, :n])
-        frame, axes = self._turned(p[-3:])
-        turned = np.einsum("ij,kjp->kip", frame, own)
-        arm = at.end @ frame.T
-        by_parameter = np.concatenate(
-            [
-                turned,
-                np.broadcast_to(np.eye(3), (count, 3, 3)),
-                np.stack([np.cross(axis, arm) for axis in axes], axis=2),
-            ],
-            axis=2,
-        ).reshape(3 * count, -1)
-        return Observation((p[-6:-3] + arm).ravel(), by_parameter, by_parameter[:, :n])
+        arm, by_setup = np.empty((count, 3)), np.empty((count, 3, 6))
+        by_setup[:, :, :3] = np.eye(3)
+        for s, rows in enumerate(place.rows):
+            frame, axes = self._turned(s, setups[s, 3:])
+            own[rows] = np.einsum("ij,kjp->kip", frame, own[rows])
+            arm[rows] = at.end[rows] @ frame.T
+            by_setup[rows, :, 3:] = np.stack([np.cross(axis, arm[rows]) for axis in axes], axis=2)
+        by_parameter = np.concatenate([own, place.of_setups(by_setup)], axis=2).reshape(3 * count, -1)
+        seen = setups[place.setup, :3] + arm
+        return Observation(seen.ravel(), by_parameter, by_parameter[:, :n])
 
     def conditions(self, p: Real, reference: Reference, *, first: bool) -> Conditions:
         """Under what the readings were taken; there is no slider, and `first` makes no difference."""
@@ -209,34 +222,48 @@ class SerialArm:
     def _length(self) -> float:
         return float(np.sum(np.abs(self._links.a)) + np.sum(np.abs(self._links.d)))
 
+    @property
+    def _links_size(self) -> int:
+        """Unknowns before those of the placement."""
+        return 6 * self.robot.joints
+
     def _reach(self, p: Real, theta: Real) -> Reach:
         n = self.robot.joints
         errors = np.column_stack([p[:n], p[n : 6 * n].reshape(n, 5)])
-        return reach(self._links, errors, np.array(self.robot.tool_mm) + p[6 * n : 6 * n + 3], theta)
+        for i in self._links.sliding:
+            errors[i, :2] = errors[i, 1], MM * errors[i, 0]
+        tool = np.array(self.robot.tool_mm) + self._placement.tool(p[self._links_size :])
+        return reach(self._links, errors, tool, theta)
+
+    @cached_property
+    def _nominal_reach(self) -> Reach:
+        return self._reach(np.zeros(len(self.parameters)), self.theta)
 
     @cached_property
     def _base_frame(self) -> Real:
-        """(3, 3) orientation of the base, within what the unknown tool point lets it be seen."""
+        """(S, 3, 3) orientations of the base, within what the unknown tool point lets them be seen."""
         if self._frame is not None:
             return self._frame
-        nominal = np.zeros(6 * self.robot.joints + 3)
-        at = self._reach(nominal, self.theta).end
-        seen = self.measured.reshape(-1, 3)
-        from scipy.spatial.transform import Rotation
-
-        turn, _ = Rotation.align_vectors(seen - seen.mean(axis=0), at - at.mean(axis=0))
-        return np.asarray(turn.as_matrix())
-
-    def _turned(self, turns: Real) -> tuple[Real, list[Real]]:
-        """Base orientation Rx Ry Rz R_0 at turns (3,), rad, and the axis of each of the three."""
         from scipy.spatial.transform import Rotation  # here, because a five-bar never needs it
 
+        frames = np.tile(np.eye(3), (len(self._placement.rows), 1, 1))
+        for s, rows in enumerate(self._placement.rows):
+            if len(rows):
+                at, seen = self._nominal_reach.end[rows], self.measured.reshape(-1, 3)[rows]
+                turn, _ = Rotation.align_vectors(seen - seen.mean(axis=0), at - at.mean(axis=0))
+                frames[s] = turn.as_matrix()
+        return frames
+
+    def _turned(self, setup: int, turns: Real) -> tuple[Real, list[Real]]:
+        """Base orientation Rx Ry Rz R_0 at turns (3,), rad, and the axis of each of the three."""
+        from scipy.spatial.transform import Rotation
+
         x, y, z = (Rotation.from_euler(axis, turns[k]).as_matrix() for k, axis in enumerate("xyz"))
-        return x @ y @ z @ self._base_frame, [np.eye(3)[0], x[:, 1], (x @ y)[:, 2]]
+        return x @ y @ z @ self._base_frame[setup], [np.eye(3)[0], x[:, 1], (x @ y)[:, 2]]
 
     def _load(self, theta: Real) -> tuple[Real, ...]:
         """(K, q) a joint: moment of a unit weight at each origin beyond it, 1 at the arm's full length."""
-        at = self._reach(np.zeros(6 * self.robot.joints + 3), theta)
+        at = self._reach(np.zeros(len(self.parameters)), theta)
         down = np.array(self.robot.gravity) / np.linalg.norm(self.robot.gravity)
         out = []
         for i in range(self.robot.joints):

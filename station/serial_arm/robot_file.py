@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sized
 from dataclasses import dataclass, field
 from typing import Annotated, ClassVar, Literal
 
@@ -12,6 +13,7 @@ from station.errors import InputRefused
 from station.records import Columns, Finite, Positive, Section, Sections, refusal
 from station.serial_arm.dh import Convention, Links
 
+JointKind = Literal["revolute", "prismatic"]
 Triple = tuple[float, float, float]
 ARM_MODEL = "serial-dh"
 
@@ -41,6 +43,8 @@ class Arm:
     tool_sd_mm: float = 300.0
     reading_sd_mm: float = 0.05
     """Of one coordinate or distance: instrument and repeatability of the arm together."""
+    joint_kinds: tuple[JointKind, ...] = ()
+    """One a joint; by default all turn."""
     gravity: Triple = (0.0, 0.0, -1.0)
     """Its direction in the frame of the base."""
 
@@ -64,6 +68,7 @@ class Arm:
                 "d_mm": self.d,
                 "alpha_deg": self.alpha_deg,
                 "offset_deg": self.offset_deg,
+                **({"joints": self.joint_kinds} if self.sliding else {}),
                 "gravity": self.gravity,
                 "tolerance": {
                     "zero_offset_deg": t.zero_offset_deg,
@@ -80,6 +85,11 @@ class Arm:
         return len(self.a)
 
     @property
+    def sliding(self) -> tuple[int, ...]:
+        """Joints that slide, from 1."""
+        return tuple(i + 1 for i, kind in enumerate(self.joint_kinds) if kind == "prismatic")
+
+    @property
     def links(self) -> Links:
         """Nominal links, mm and rad."""
         return Links(
@@ -88,6 +98,7 @@ class Arm:
             np.radians(self.alpha_deg),
             np.radians(self.offset_deg),
             self.convention,
+            tuple(i - 1 for i in self.sliding),
         )
 
     @property
@@ -99,6 +110,8 @@ class Arm:
             tracker=("tracker_x_mm", "tracker_y_mm", "tracker_z_mm"),
             either=True,
             time_ordered=False,
+            sliding=self.sliding,
+            more=("setup",),
         )
 
 
@@ -126,6 +139,8 @@ class _RobotSection(Section):
     """Link twists, one per joint."""
     offset_deg: list[Finite] | None = None
     """Joint angles at the zeros of the drives; by default 0."""
+    joints: list[JointKind] | None = None
+    """Whether each joint turns (`revolute`, the default) or slides along z (`prismatic`)."""
     gravity: tuple[Finite, Finite, Finite] = Arm.gravity
     """Direction of gravity in the frame of the base."""
     tolerance: _ToleranceSection = _ToleranceSection()
@@ -155,7 +170,14 @@ class ArmFile(Section):
         robot = self.robot
         joints = len(robot.a_mm)
         offset = robot.offset_deg if robot.offset_deg is not None else [0.0] * joints
-        for name, values in (("d_mm", robot.d_mm), ("alpha_deg", robot.alpha_deg), ("offset_deg", offset)):
+        kinds = robot.joints or ["revolute"] * joints
+        lists: tuple[tuple[str, Sized], ...] = (
+            ("d_mm", robot.d_mm),
+            ("alpha_deg", robot.alpha_deg),
+            ("offset_deg", offset),
+            ("joints", kinds),
+        )
+        for name, values in lists:
             if len(values) != joints:
                 raise InputRefused(
                     f"{source}: [robot.{name}] has {len(values)} values where a_mm has {joints}; "
@@ -172,5 +194,6 @@ class ArmFile(Section):
             tool_mm=self.tool.position_mm,
             tool_sd_mm=self.tool.sd_mm,
             reading_sd_mm=self.instrument.sd_mm,
+            joint_kinds=tuple(kinds),
             gravity=robot.gravity,
         )

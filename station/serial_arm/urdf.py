@@ -16,14 +16,19 @@ import numpy as np
 
 from station.errors import InputRefused
 from station.records import Real
-from station.serial_arm.robot_file import Arm
+from station.serial_arm.robot_file import Arm, JointKind
 
 PARALLEL = 1e-6
 """Sine of the angle between two axes below which they count as parallel,"""
 SAME_MM = 1e-6
 """and distance below which they are one line."""
 MM = 1000.0
-TURNING = ("revolute", "continuous")
+KINDS: dict[str, JointKind] = {
+    "revolute": "revolute",
+    "continuous": "revolute",
+    "prismatic": "prismatic",
+}
+"""Of the joints that move, what a robot file calls them."""
 
 
 class _Line(NamedTuple):
@@ -31,7 +36,8 @@ class _Line(NamedTuple):
 
     point: Real
     along: Real
-    """(3,) unit vector; the joint turns about it."""
+    """(3,) unit vector; the joint turns about it or slides along it."""
+    kind: JointKind
 
 
 @dataclass(frozen=True)
@@ -52,7 +58,7 @@ def arm_from_urdf(content: bytes, source: str, base: str, tool: str, serial: str
     """The arm between two links; the target sits at the origin of the link `tool`.
 
     :raises InputRefused: not a robot description, no such link, links that are not joined, or a joint on the
-        way that does not turn.
+        way that neither turns nor slides.
     """
     joints = _joints(content, source)
     lines: list[_Line] = []
@@ -60,16 +66,16 @@ def arm_from_urdf(content: bytes, source: str, base: str, tool: str, serial: str
     for joint in _way(joints, source, base, tool):
         origin = origin + frame @ joint.shift
         frame = frame @ joint.turn
-        if joint.kind in TURNING:
-            lines.append(_Line(origin, frame @ joint.axis))
+        if joint.kind in KINDS:
+            lines.append(_Line(origin, frame @ joint.axis, KINDS[joint.kind]))
         elif joint.kind != "fixed":
             raise InputRefused(
-                f"{source}: joint {joint.name} is {joint.kind}; only joints that turn can be calibrated. "
-                "Choose `--base` and `--tool` so that it is not between them."
+                f"{source}: joint {joint.name} is {joint.kind}; only joints that turn or slide can be "
+                "calibrated. Choose `--base` and `--tool` so that it is not between them."
             )
     if len(lines) < 2:
         raise InputRefused(
-            f"{source}: between {base} and {tool} there are {len(lines)} joints that turn; two are needed."
+            f"{source}: between {base} and {tool} there are {len(lines)} joints that move; two are needed."
         )
     return _arm(lines, origin, serial)
 
@@ -79,7 +85,7 @@ def _joints(content: bytes, source: str) -> dict[str, _Joint]:
     if b"<!DOCTYPE" in content or b"<!ENTITY" in content:
         raise InputRefused(f"{source}: a robot description has no DOCTYPE; remove it.")
     try:
-        robot = ElementTree.fromstring(content)
+        robot = ElementTree.fromstring(content)  # noqa: S314 - no entities come this far
     except ElementTree.ParseError as error:
         hint = " Expand the xacro file first." if b"xacro" in content else ""
         raise InputRefused(f"{source} is not XML: {error}.{hint}") from error
@@ -177,6 +183,7 @@ def _arm(lines: list[_Line], tip: Real, serial: str) -> Arm:
         d=_rounded(d),
         alpha_deg=_rounded(np.degrees(alpha)),
         offset_deg=_rounded(np.degrees(offset)),
+        joint_kinds=tuple(line.kind for line in lines),
         tool_mm=(float(np.round(target[0], 6)), float(np.round(target[1], 6)), float(np.round(target[2], 6))),
         gravity=(float(np.round(down[0], 9)), float(np.round(down[1], 9)), float(np.round(down[2], 9))),
     )

@@ -58,11 +58,11 @@ from station.service.ending import Ending
 from station.service.idle_look import IdleLook, Looker
 from station.service.interlock_record import InterlockRecord
 from station.service.last_run import last_run
+from station.service.late_records import LateRecords
 from station.service.made_here import made_here
 from station.service.recording import Recording
 from station.service.robot_fits import check_fits
 from station.service.run import Run
-from station.service.stop_records import StopRecords
 from station.service.trips import Trips
 from station.settings import Settings
 from station.store import Store, request_hash, too_full
@@ -106,7 +106,7 @@ class Orchestrator:
             self._finished = last_run(store, self._last, self._machine.shown_place)
         self._holds = self._calibration_holds()
         self._closing = False
-        self._stop_records = StopRecords(store)
+        self.late_records = LateRecords(store)
         self._queue: Queue[Run | IdleLook[Any] | None] = Queue()
         self._worker = Thread(target=self._work, name="orchestrator", daemon=True)
         self._worker.start()
@@ -274,7 +274,7 @@ class Orchestrator:
         outcome = self._machine.quick_stop()
         trouble = {name: text for name, text in outcome.items() if text}
         log.warning("Stop by %s: %s", who, trouble or "both axes confirmed")
-        self._stop_records.begin(run.id if run else None, who, trouble)
+        self.late_records.stop(run.id if run else None, who, trouble)
         return outcome
 
     def wait(self, calibration_id: int, timeout_s: float | None = None) -> State:
@@ -295,7 +295,7 @@ class Orchestrator:
         self._worker.join(SHUTDOWN_LIMIT_S)
         if self._worker.is_alive():
             log.error("The worker hangs in a device; the run will be marked interrupted at the next start")
-        self._stop_records.join(SHUTDOWN_LIMIT_S)
+        self.late_records.close(SHUTDOWN_LIMIT_S)
         self._machine.close()
 
     # Watching ------------------------------------------------------------------------------------

@@ -63,14 +63,17 @@ class Answer:
 
 @dataclass
 class Run:
-    """Written by the worker, read by anybody; every view is a copy."""
+    """Written by the worker, read by anybody; every view is a copy.
+
+    What makes clocks and events is looked up when a run is made: a simulation gives others.
+    """
 
     id: int
     uid: str
     request: CalibrationRequest
     robot: Robot
-    cancel: Event = field(default_factory=Event)
-    ended: Event = field(default_factory=Event)
+    cancel: Event = field(default_factory=lambda: Event())
+    ended: Event = field(default_factory=lambda: Event())
     stopped_by: str | None = None
     state: State = State.QUEUED
     step: int = 0
@@ -80,16 +83,16 @@ class Run:
     iterations: tuple[Iteration, ...] = ()
     prompt: Prompt | None = None
     """What the run waits to be told."""
-    answered: Event = field(default_factory=Event)
+    answered: Event = field(default_factory=lambda: Event())
     _asked: Ask | None = None
     _answer: Answer | None = None
     _sequence: MeasurementSequence | None = None
     _progress: float = 0.0
     _stops: list[RunStop] = field(default_factory=list)
     _readings: list[RunReading] = field(default_factory=list)
-    _started: float = field(default_factory=time.monotonic)
+    _started: float = field(default_factory=lambda: time.monotonic())
     _started_at: datetime = field(default_factory=lambda: datetime.now(UTC))
-    _lock: Lock = field(default_factory=Lock)
+    _lock: Lock = field(default_factory=lambda: Lock())
 
     @property
     def has_moved(self) -> bool:

@@ -18,10 +18,16 @@ from pydantic import JsonValue
 
 from station.records import Actor, AuditChecked, AuditEntry
 from station.store.kept_file import KeptFile
-from station.store.rows import compact
+from station.store.rows import compact, millis
 from station.store.times import now_ms
 
 _HASHED = ("n", "at_ms", "who_sha256", "via", "role", "action", "subject", "before", "after")
+
+_TEXT = (
+    "coalesce(who, '') || ' ' || coalesce(role, '') || ' ' || via || ' ' || action || ' ' || subject"
+    " || ' ' || replace(replace(coalesce(before, '') || ' ' || coalesce(after, ''), '\"', ''), ':', ' ')"
+)
+"""Of an entry, as it is searched: `{value 20}` for `{"value":"20"}`."""
 
 
 class AuditTrail(KeptFile):
@@ -35,14 +41,18 @@ class AuditTrail(KeptFile):
         *,
         before: Mapping[str, JsonValue] | None = None,
         after: Mapping[str, JsonValue] | None = None,
+        at: datetime | None = None,
     ) -> None:
-        """One more entry; within a transaction it is part of that."""
+        """One more entry; within a transaction it is part of that.
+
+        :param at: when it was done, if that is not now
+        """
         with self._writing() as db:
             last = db.execute("SELECT n, hash FROM audit ORDER BY n DESC LIMIT 1").fetchone() or (0, "")
             salt = secrets.token_hex(16)
             row = {
                 "n": last[0] + 1,
-                "at_ms": now_ms(),
+                "at_ms": now_ms() if at is None else millis(at),
                 "who_sha256": _sha256(f"{salt} {by.name}".encode()),
                 "via": by.via,
                 "role": by.role,
@@ -57,10 +67,15 @@ class AuditTrail(KeptFile):
                 [*row.values(), by.name, salt, _link(last[1], row)],
             )
 
-    def audit(self, *, limit: int = 100, cursor: int | None = None) -> list[AuditEntry]:
-        """The newest first; only entries before number `cursor`."""
+    def audit(self, *, limit: int = 100, cursor: int | None = None, contains: str = "") -> list[AuditEntry]:
+        """The newest first; only entries before number `cursor`.
+
+        :param contains: only entries that have this in name, role, action, subject or values, in any case
+        """
         rows = self._readers.all(
-            "SELECT * FROM audit WHERE n < coalesce(?, n + 1) ORDER BY n DESC LIMIT ?", [cursor, limit]
+            "SELECT * FROM audit WHERE n < coalesce(?, n + 1)"
+            f" AND (? = '' OR instr(lower({_TEXT}), lower(?))) ORDER BY n DESC LIMIT ?",
+            [cursor, contains, contains, limit],
         )
         return [_entry(row) for row in rows]
 

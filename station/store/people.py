@@ -11,7 +11,7 @@ from station.store.audit import AuditTrail
 from station.store.rows import millis, moment
 from station.store.times import now_ms
 
-_USER = "users.id, users.name, users.role, badge_sha256, users.created_ms, users.disabled_ms"
+_USER = "users.id, users.name, users.role, badge_sha256, openid_sha256, users.created_ms, users.disabled_ms"
 
 
 class People(AuditTrail):
@@ -26,6 +26,7 @@ class People(AuditTrail):
         password_hash: str | None = None,
         badge_sha256: bytes | None = None,
         pin_hash: str | None = None,
+        openid_sha256: bytes | None = None,
     ) -> User:
         """:raises InputRefused: the name or the badge is taken."""
         with self._writing() as db:
@@ -34,9 +35,10 @@ class People(AuditTrail):
             if db.execute("SELECT 1 FROM users WHERE badge_sha256 = ?", [badge_sha256]).fetchone():
                 raise InputRefused("Another user has this badge; remove that user first.")
             user_id = db.execute(
-                "INSERT INTO users (name, role, password_hash, badge_sha256, pin_hash, created_ms)"
-                " VALUES (?, ?, ?, ?, ?, ?)",
-                [name, role, password_hash, badge_sha256, pin_hash, now_ms()],
+                "INSERT INTO users"
+                " (name, role, password_hash, badge_sha256, pin_hash, openid_sha256, created_ms)"
+                " VALUES (?, ?, ?, ?, ?, ?, ?)",
+                [name, role, password_hash, badge_sha256, pin_hash, openid_sha256, now_ms()],
             ).lastrowid
             self.record(by, "user.added", f"user {user_id}", after={"role": role})
         return self.user(name)
@@ -100,6 +102,11 @@ class People(AuditTrail):
         if row is None:
             raise NotFound(f"There is no user {user_id}.")
         return _user(row)
+
+    def user_of_provider(self, openid_sha256: bytes) -> User | None:
+        """Whom an OpenID Connect provider knows by this; also the disabled."""
+        row = self._readers.one(f"SELECT {_USER} FROM users WHERE openid_sha256 = ?", [openid_sha256])
+        return None if row is None else _user(row)
 
     def users(self) -> list[User]:
         """By name."""
@@ -231,6 +238,7 @@ def _user(row: sqlite3.Row) -> User:
         name=row["name"],
         role=row["role"],
         has_badge=row["badge_sha256"] is not None,
+        by_provider=row["openid_sha256"] is not None,
         disabled=row["disabled_ms"] is not None,
         created_at=moment(row["created_ms"]),
     )

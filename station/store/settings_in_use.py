@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from station.records import Actor
 from station.store.audit import AuditTrail
 
-SECRET = "changed; its value is not shown"
+SECRET = "changed; its value is not shown"  # noqa: S105 - what stands in place of one
 
 
 class SettingsInUse(AuditTrail):

@@ -23,7 +23,7 @@ Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 FEW = 100
-"""Fewer items are done before processes have started."""
+"""Fewer short items are done before processes have started."""
 CHUNK = 8
 CONNECT_S = 10.0
 RETRIES = 3
@@ -42,9 +42,15 @@ class Engine:
     scheduler: str | None = None
     """Address of a Dask scheduler whose workers do it, `tcp://host:8786`; None: this computer."""
 
-    def each(self, work: Callable[[Item], Result], items: Sequence[Item], title: str) -> list[Result]:
-        """work(item) for each item, in order.  Items and results must be picklable."""
-        chunks = [items[k : k + CHUNK] for k in range(0, len(items), CHUNK)]
+    def each(
+        self, work: Callable[[Item], Result], items: Sequence[Item], title: str, *, long: bool = False
+    ) -> list[Result]:
+        """work(item) for each item, in order.  Items and results must be picklable.
+
+        :param long: each item takes so long that a process of its own is worth it
+        """
+        size = 1 if long else CHUNK
+        chunks = [items[k : k + size] for k in range(0, len(items), size)]
         done: dict[int, list[Result]] = {}
         for k, chunk in enumerate(chunks):
             if (kept := self._kept(title, chunk)) is not None:
@@ -52,19 +58,21 @@ class Engine:
         missing = [k for k in range(len(chunks)) if k not in done]
         with Progress(console=self.console, transient=True) as progress:
             bar = progress.add_task(title, total=len(items), completed=sum(len(v) for v in done.values()))
-            for k, results in zip(missing, self._computed(work, [chunks[k] for k in missing]), strict=True):
+            computed = self._computed(work, [chunks[k] for k in missing], 2 if long else FEW)
+            for k, results in zip(missing, computed, strict=True):
                 done[k] = results
                 self._keep(title, chunks[k], results)
                 progress.advance(bar, len(results))
         return [result for k in range(len(chunks)) for result in done[k]]
 
     def _computed(
-        self, work: Callable[[Item], Result], chunks: Sequence[Sequence[Item]]
+        self, work: Callable[[Item], Result], chunks: Sequence[Sequence[Item]], few: int
     ) -> Iterator[list[Result]]:
+        """:param few: fewer items than this are done here, before processes have started"""
         if self.scheduler is not None and chunks:
             yield from _on_cluster(self.scheduler, work, chunks)
             return
-        if sum(len(chunk) for chunk in chunks) < FEW or self.workers == 1:
+        if sum(len(chunk) for chunk in chunks) < few or self.workers == 1:
             yield from (_all(work, chunk) for chunk in chunks)
             return
         # matrices of a few hundred rows: threads within a process only stand in each other's way
@@ -76,7 +84,7 @@ class Engine:
         file = self._file(title, chunk)
         if file is None or not file.exists():
             return None
-        results: list[Any] = pickle.loads(file.read_bytes())
+        results: list[Any] = pickle.loads(file.read_bytes())  # noqa: S301 - written by this study
         return results
 
     def _keep(self, title: str, chunk: Sequence[Item], results: list[Result]) -> None:

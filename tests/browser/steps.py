@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from typing import Any
 
 from playwright.sync_api import Locator, Page, expect
@@ -59,7 +60,7 @@ def add_run(station: Station, serial: str = "FB-7") -> dict[str, Any]:
     body = {"robot_serial": serial, "plan": "paper", "operator": "mes"}
     run = station.api.post("/calibrations", json=body).raise_for_status().json()
     while station.get(f"/calibrations/{run['id']}")["state"] in ("queued", "running"):
-        pass
+        time.sleep(0.05)
     found: dict[str, Any] = station.get(f"/calibrations/{run['id']}")
     return found
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import time
 
 import pytest
 from playwright.sync_api import Page, expect
@@ -18,7 +19,7 @@ def calibrated(station: Station, **more: object) -> int:
     body = {"robot_serial": "FB-R", "plan": "rapid", "operator": "mes", **more}
     run = station.api.post("/calibrations", json=body).raise_for_status().json()["id"]
     while station.get(f"/calibrations/{run}")["state"] in ("queued", "running"):
-        pass
+        time.sleep(0.05)
     return int(run)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
@@ -19,6 +20,7 @@ def links(page: Path) -> list[str]:
     return LINK.findall(re.sub(r"`[^`\n]*`", "", without_code(page.read_text(encoding="utf-8"))))
 
 
+@cache
 def anchors(page: Path) -> set[str]:
     """As GitHub makes them from the headings."""
     found: dict[str, int] = {}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import socket
 import threading
 import time
 from collections.abc import Iterator
@@ -11,9 +12,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+import uvicorn
+from argon2 import PasswordHasher
+from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
-from station.people import new_secret, secret_hash
+from station.people import new_secret, passwords, secret_hash
 from station.records import Actor, Role
 from station.service.orchestrator import Orchestrator
 from station.service.runtime import Runtime
@@ -24,12 +28,20 @@ from tests.station.conftest import SETTINGS
 from tests.station.fakes import Rig, make_rig, two_sequences
 from web.app import create_app
 
+passwords._hasher = PasswordHasher(time_cost=1, memory_cost=8, parallelism=1)
+"""The real cost, 64 MB and a processor for a moment, is looked at in tests/station/people."""
 BODY = {"robot_serial": "FB-1", "plan": "paper", "operator": "ada"}
 LIMIT_S = 10.0
 
 
 @pytest.fixture(autouse=True)
 def no_thread_left() -> Iterator[None]:
+    with all_threads_end():
+        yield
+
+
+@contextmanager
+def all_threads_end() -> Iterator[None]:
     before = set(threading.enumerate())
     yield
     for thread in set(threading.enumerate()) - before:
@@ -105,6 +117,15 @@ def closed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Service]
 def a_service(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, settings: Settings = SETTINGS
 ) -> Iterator[Service]:
+    with a_runtime(tmp_path, settings) as (runtime, rig):
+        # a failure inside the service must come back as its answer, not as the test's exception
+        client = TestClient(create_app(runtime), base_url="http://station", raise_server_exceptions=False)
+        with client:
+            yield Service(client, runtime, rig, monkeypatch)
+
+
+@contextmanager
+def a_runtime(tmp_path: Path, settings: Settings = SETTINGS) -> Iterator[tuple[Runtime, Rig]]:
     rig = make_rig()
     with ExitStack() as opened:
         store = Store(tmp_path / "station.db")
@@ -112,7 +133,32 @@ def a_service(
         orchestrator = Orchestrator(rig.devices, store, settings, kinds_with(two_sequences))
         opened.callback(orchestrator.shutdown)
         opened.callback(rig.released.set)
-        runtime = Runtime(settings, tmp_path, store, orchestrator, ExitStack())
-        # a failure inside the service must come back as its answer, not as the test's exception
-        client = TestClient(create_app(runtime), base_url="http://station", raise_server_exceptions=False)
-        yield Service(opened.enter_context(client), runtime, rig, monkeypatch)
+        _wait_for_devices(orchestrator)
+        yield Runtime(settings, tmp_path, store, orchestrator, ExitStack()), rig
+
+
+def _wait_for_devices(orchestrator: Orchestrator) -> None:
+    """Until they are connected: a stop before that is confirmed by nobody."""
+    deadline = time.monotonic() + LIMIT_S
+    while [device for device in orchestrator.snapshot().devices if device.state == "unknown"]:
+        assert time.monotonic() < deadline
+        time.sleep(0.005)
+
+
+@contextmanager
+def listening(app: FastAPI) -> Iterator[int]:
+    """The application behind a real socket of this computer; its port."""
+    with socket.socket() as listener:
+        listener.bind(("127.0.0.1", 0))
+        config = uvicorn.Config(app, log_config=None, access_log=False, proxy_headers=False)
+        server = uvicorn.Server(config)
+        thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
+        thread.start()
+        try:
+            while not server.started:
+                assert thread.is_alive()
+                time.sleep(0.005)
+            yield int(listener.getsockname()[1])
+        finally:
+            server.should_exit = True
+            thread.join()

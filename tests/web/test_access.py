@@ -81,7 +81,9 @@ def test_signing_in_and_out(ada: Service) -> None:
     assert ada.client.get(SESSION).status_code == 401
     answer = sign_in(ada)
     assert answer.status_code == 201
-    assert answer.json() == {"name": "Ada", "role": "operator", "via": "user", "signs_off_after_s": 3600.0}
+    assert answer.json() == {
+        "name": "Ada", "role": "operator", "via": "user", "signs_off_after_s": 3600.0, "sign_out_at": None,
+    }  # fmt: skip
     cookie = answer.headers["set-cookie"].lower()
     assert "httponly" in cookie and "samesite=strict" in cookie and "path=/" in cookie
     assert ada.client.get(SESSION).json()["name"] == "Ada"

@@ -58,3 +58,24 @@ def test_the_audit_says_who_did_what(closed: Service) -> None:
     assert page["items"] + after["items"] == answer["items"][:4]
     table = list(csv.DictReader(io.StringIO(closed.client.get("/api/v1/audit.csv", headers=root).text)))
     assert len(table) == len(answer["items"]) and table[1]["who"] == "'=line 4"
+
+
+def test_the_audit_is_searched_over_all_pages(closed: Service) -> None:
+    root = closed.key("administrator", "root")
+    store = closed.runtime.store
+    store.record(
+        Actor(name="Ada", via="user", role="engineer"), "setting.changed", "limits", after={"value": "20"}
+    )
+    for number in range(30):
+        store.record(ROOT, "run.started", f"run {number}")
+
+    def found(text: str, **more: int) -> list[str]:
+        answer = closed.client.get("/api/v1/audit", params={"contains": text, **more}, headers=root)
+        return [entry["subject"] for entry in answer.json()["items"]]
+
+    assert found("ADA", limit=5) == found("value 20") == found("engineer") == ["limits"], "far behind"
+    assert found("run.started", limit=2) == ["run 29", "run 28"]
+    assert found("run 1", limit=500) == [f"run {n}" for n in (*range(19, 9, -1), 1)]
+    assert found("%") == found("nobody") == []
+    rows = closed.client.get("/api/v1/audit.csv", params={"contains": "limits"}, headers=root).text
+    assert len(rows.splitlines()) == 2

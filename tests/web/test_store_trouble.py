@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 import sqlite3
+import time
 from collections.abc import Iterator
 from contextlib import closing
+from datetime import UTC, datetime, timedelta
 
 import pytest
 
+from station.records import STATION
 from tests.web.conftest import Service
 
 RUNS = "/api/v1/calibrations"
@@ -57,3 +60,32 @@ def test_a_busy_rig_says_when_to_ask_again(service: Service) -> None:
     service.hold()
     refused = service.start()
     assert (refused.status_code, refused.headers["retry-after"]) == (409, "5")
+
+
+def test_a_stop_while_the_history_is_locked_is_in_the_audit_afterwards(
+    service: Service,
+    locked: sqlite3.Connection,
+    monkeypatch: pytest.MonkeyPatch,
+    caplog: pytest.LogCaptureFixture,
+) -> None:
+    """Locked for longer than a write waits: a hundredth of a second here, five seconds in the field."""
+    monkeypatch.setattr("station.service.late_records.PAUSE_S", 0.01)
+    monkeypatch.setattr("web.aside.RECORD_WAIT_S", 0.01)
+    before = datetime.now(UTC)
+    for name in ("ada", "bo"):
+        answer = service.client.post("/api/v1/stop", headers={"X-Operator": name})
+        assert answer.json()["confirmed"]
+    after = datetime.now(UTC)
+    while caplog.text.count("could not be recorded yet") < 3:
+        time.sleep(0.005)
+    assert service.runtime.store.audit() == []
+    locked.rollback()
+    late = service.runtime.orchestrator.late_records.deed(STATION, "clock.looked", "at")
+    assert late.wait(10.0), "in order: the stops are written by now"
+    deeds = service.runtime.store.audit()[::-1]
+    assert [(deed.action, deed.who) for deed in deeds[:2]] == [
+        ("station.stopped", "ada"),
+        ("station.stopped", "bo"),
+    ]
+    assert before - timedelta(milliseconds=1) <= deeds[0].at <= deeds[1].at <= after, "when it was done"
+    assert service.runtime.store.check_audit().broken is None

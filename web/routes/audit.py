@@ -16,6 +16,9 @@ from web.routes.parts import CsvResponse, TheRuntime
 router = Router(tags=["audit"])
 
 Cursor = Annotated[int | None, Query(ge=1, le=LARGEST_ID, description="`next` of the page before")]
+Contained = Annotated[
+    str, Query(max_length=64, description="text in name, role, action, subject or values, in any case")
+]
 _COLUMNS = ("n", "at", "who", "via", "role", "action", "subject", "before", "after", "hash")
 _ALL = 1_000_000
 
@@ -29,18 +32,22 @@ class AuditList(Record):
 
 @router.get("/audit", response_model=AuditList, dependencies=[needs(Permission.ADMINISTER)])
 def read_audit(
-    runtime: TheRuntime, limit: Annotated[int, Query(ge=1, le=500)] = 100, cursor: Cursor = None
+    runtime: TheRuntime,
+    limit: Annotated[int, Query(ge=1, le=500)] = 100,
+    cursor: Cursor = None,
+    contains: Contained = "",
 ) -> AuditList:
     """Who started, stopped, applied, changed and signed in.  `station audit` checks the chain too."""
-    entries = runtime.store.audit(limit=limit + 1, cursor=cursor)
+    entries = runtime.store.audit(limit=limit + 1, cursor=cursor, contains=contains.strip())
     items = entries[:limit]
     return AuditList(items=items, next=items[-1].n if len(entries) > limit else None)
 
 
 @router.get("/audit.csv", response_class=CsvResponse, dependencies=[needs(Permission.ADMINISTER)])
-def download_audit(runtime: TheRuntime) -> CsvResponse:
+def download_audit(runtime: TheRuntime, contains: Contained = "") -> CsvResponse:
     """All of it, the newest entry first."""
-    entries = (entry.model_dump(mode="json") for entry in runtime.store.audit(limit=_ALL))
+    found = runtime.store.audit(limit=_ALL, contains=contains.strip())
+    entries = (entry.model_dump(mode="json") for entry in found)
     rows = ([_cell(entry[column]) for column in _COLUMNS] for entry in entries)
     return CsvResponse(
         csv_text(_COLUMNS, rows), headers={"Content-Disposition": 'attachment; filename="audit.csv"'}

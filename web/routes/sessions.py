@@ -75,7 +75,7 @@ async def sign_in(
     if earlier := request.cookies.get(COOKIE):  # who signed in before at this page is not there any more
         await aside(lambda: access.sign_out(earlier))
     actor = _actor(user)
-    later.add_task(record_later, runtime.store, actor, "session.begun", f"user {user.id}")
+    later.add_task(record_later, runtime.orchestrator, actor, "session.begun", f"user {user.id}")
     return _signed_in(access, actor, cookie, request, response)
 
 
@@ -101,7 +101,12 @@ def _actor(user: User) -> Actor:
 
 
 def _signed_in(access: Access, actor: Actor, cookie: str, request: Request, response: Response) -> SignedIn:
+    set_session(response, cookie, request)
+    return access.session(actor)
+
+
+def set_session(response: Response, cookie: str, request: Request) -> None:
+    """Only this station's page can send it."""
     response.set_cookie(
         COOKIE, cookie, path="/", httponly=True, samesite="strict", secure=request.url.scheme == "https"
     )
-    return access.session(actor)

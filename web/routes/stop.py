@@ -47,7 +47,7 @@ async def stop(
         axes = dict.fromkeys(orchestrator.axes, f"the stop failed ({type(error).__name__})")
     stopped = Stopped.of(axes)
     told: dict[str, JsonValue] = {"axes": dict(axes), "confirmed": stopped.confirmed}
-    later.add_task(record_later, runtime.store, by, "station.stopped", "both axes", told)
+    later.add_task(record_later, runtime.orchestrator, by, "station.stopped", "both axes", told)
     request.app.state.metrics.stopped(confirmed=stopped.confirmed)
     if not stopped.confirmed:
         response.status_code = NOT_CONFIRMED

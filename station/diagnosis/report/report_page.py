@@ -214,13 +214,21 @@ def _residual(findings: Findings) -> Section:
     return Section("Residual", text, (), tuple(_charts(findings.measurements, findings.residual, added)))
 
 
+def _by_joint(m: Measurements, view: ResidualView) -> Iterator[tuple[str, Real]]:
+    for i in range(m.joints):
+        if i + 1 in m.sliding:
+            yield f"travel{i + 1} mm", view.theta[:, i] * 1e3
+        else:
+            yield f"theta{i + 1} deg", np.degrees(view.theta[:, i])
+
+
 def _charts(m: Measurements, view: ResidualView, added: bool) -> Iterator[Chart]:
     """Pairs against order, time, angles, travel, approach and place; single ones where nothing was added."""
     was, left = view.before_mm * MICROMETRES, view.after_mm * MICROMETRES
     by_number: list[tuple[str, Real]] = [
         ("order", np.arange(1.0, len(was) + 1.0)),
         ("time s", m.t_s),
-        *((f"theta{i + 1} deg", np.degrees(view.theta[:, i])) for i in range(m.joints)),
+        *_by_joint(m, view),
     ]
     if np.ptp(view.travel_mm) > 0:
         by_number.append(("travel mm", view.travel_mm))

@@ -108,7 +108,7 @@ def _tension_p(fit: Fit) -> float:
 def _repeat_groups(fit: Fit) -> np.ndarray:
     """(R,) rows alike in place, approach, mount, the slider's sense and coordinate."""
     m, reading = fit.model.mechanism.measurements, fit.model.mechanism.reading_of_row
-    keys = np.column_stack([m.position, m.approach, m.mount, fit.conditions.slider_net])[reading]
+    keys = np.column_stack([m.repeat_group, fit.conditions.slider_net])[reading]
     keys = np.column_stack([keys, axis_of_row(fit.model.mechanism)])
     return np.unique(keys, axis=0, return_inverse=True)[1].reshape(-1)
 

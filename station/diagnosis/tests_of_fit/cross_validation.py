@@ -31,10 +31,17 @@ def predicted_by_others(solution: Solution, mechanism: Mechanism) -> Real:
 
 
 def folds(m: Measurements) -> Index:
-    """(K,) fold of each reading: blocks of neighbours dealt out in turn, every place in one fold only."""
-    _, first, place = np.unique(m.position, return_index=True, return_inverse=True)
-    block = min(BLOCK, max(1, len(m) // (FOLDS * BLOCKS_A_FOLD)))
-    return np.asarray(first[place] // block % FOLDS)
+    """(K,) fold of each reading: blocks of neighbours dealt out in turn, every place in one fold only.
+
+    Every set-up is dealt out by itself, so that none is missing on one side.
+    """
+    out = np.zeros(len(m), dtype=np.intp)
+    for s in range(len(m.setups)):
+        own = np.flatnonzero(m.setup_index == s)
+        _, first, place = np.unique(m.position[own], return_index=True, return_inverse=True)
+        block = min(BLOCK, max(1, len(own) // (FOLDS * BLOCKS_A_FOLD)))
+        out[own] = first[place] // block % FOLDS
+    return out
 
 
 def without_a_quarter(m: Measurements) -> tuple[Measurements, Measurements]:

@@ -94,6 +94,16 @@ def test_a_day_of_failures_loses_nothing_and_changes_no_order(store: Store, cloc
     assert states(store) == {1: "delivered", 2: "delivered"}
 
 
+def test_a_clock_that_is_set_back_holds_nothing_up(store: Store, clock: Clock) -> None:
+    taker = Taker(OSError("answered 500 Internal Server Error"))
+    on_the_way = courier(store, taker, clock)
+    tell(store, "a")
+    on_the_way.step()
+    clock.wait(-3600.0)
+    on_the_way.step()
+    assert states(store) == {1: "delivered"}
+
+
 def test_another_process_goes_on_where_the_last_one_was(store: Store, clock: Clock) -> None:
     """Killed in the middle of an answer: the event comes again, with the same id."""
     first = Taker(KeyboardInterrupt())

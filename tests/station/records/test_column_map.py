@@ -31,9 +31,9 @@ def mapped(tmp_path: Path, text: str) -> ColumnMap:
 
 
 def test_semicolons_decimal_commas_radians_and_metres(tmp_path: Path) -> None:
-    content, lost = translated(GERMAN.encode(), mapped(tmp_path, MAP + METRES), ARM, "log.csv")
-    m = parse_measurements(content, ARM, source="log.csv")
-    assert (lost, len(m), m.ids) == (0, 6, (1, 2, 3, 4, 5, 6))
+    found = translated(GERMAN.encode(), mapped(tmp_path, MAP + METRES), ARM, "log.csv")
+    m = parse_measurements(found.content, ARM, source="log.csv")
+    assert (found.lost, len(m), m.ids) == (0, 6, (1, 2, 3, 4, 5, 6))
     assert m.theta[0] == pytest.approx([0.1, -1.1])
     assert m.tracker is not None
     assert m.tracker[0] == pytest.approx([1215.0, 500.0, -250.0])
@@ -43,7 +43,7 @@ def test_semicolons_decimal_commas_radians_and_metres(tmp_path: Path) -> None:
 def test_the_proposal_is_the_map_that_a_person_would_write(tmp_path: Path) -> None:
     proposal = proposed_map(read_foreign(GERMAN.encode(), "log.csv"))
     assert proposal == MAP + METRES
-    assert translated(GERMAN.encode(), mapped(tmp_path, proposal), ARM, "log.csv")[1] == 0
+    assert translated(GERMAN.encode(), mapped(tmp_path, proposal), ARM, "log.csv").lost == 0
 
 
 def test_target_minus_deviation_is_the_position(tmp_path: Path) -> None:
@@ -51,7 +51,7 @@ def test_target_minus_deviation_is_the_position(tmp_path: Path) -> None:
         f"{k},10.{k},20.{k},100,200,300,1,2,{k}\n" for k in range(1, 7)
     )
     proposal = proposed_map(read_foreign(text.encode(), "log.csv"))
-    content, _ = translated(text.encode(), mapped(tmp_path, proposal), ARM, "log.csv")
+    content = translated(text.encode(), mapped(tmp_path, proposal), ARM, "log.csv").content
     tracker = parse_measurements(content, ARM).tracker
     assert tracker is not None
     assert tracker[4] == pytest.approx([99.0, 198.0, 295.0])
@@ -64,9 +64,9 @@ def test_rows_of_a_lost_target_are_left_out_and_counted(tmp_path: Path, missing:
     header = "reading,theta1_deg,theta2_deg,tracker_x_mm,tracker_y_mm,tracker_z_mm"
     text = "\n".join([header, *rows])
     given = None if missing is None else mapped(tmp_path, f"missing = {missing}\n")
-    content, lost = translated(text.encode(), given, ARM, "log.csv")
-    assert lost == 1
-    assert parse_measurements(content, ARM).ids == (1, 2, 4, 5, 6, 7)
+    found = translated(text.encode(), given, ARM, "log.csv")
+    assert found.lost == 1
+    assert parse_measurements(found.content, ARM).ids == (1, 2, 4, 5, 6, 7)
 
 
 def test_a_spreadsheet_and_a_file_without_a_header(tmp_path: Path) -> None:
@@ -79,7 +79,7 @@ def test_a_spreadsheet_and_a_file_without_a_header(tmp_path: Path) -> None:
     book.save(file)
     text = 'header = false\n[columns]\ntheta_deg = {columns = [1, 2], unit = "rad"}\n'
     given = mapped(tmp_path, text + 'tracker_mm = {columns = [3, 4, 5], unit = "m"}\n')
-    content, _ = translated(file.getvalue(), given, ARM, "log.xlsx")
+    content = translated(file.getvalue(), given, ARM, "log.xlsx").content
     m = parse_measurements(content, ARM)
     assert m.tracker is not None
     assert m.tracker[5] == pytest.approx([500.0, 250.0, 60.0])

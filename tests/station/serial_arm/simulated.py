@@ -33,6 +33,18 @@ CRAIG_SEVEN = {
     },
     "instrument": {"sd_mm": 0.02},
 }
+LIFTED = {
+    "robot": {
+        "serial": "L7",
+        "model": "serial-dh",
+        "joints": ["prismatic", *["revolute"] * 6],
+        "a_mm": [0.0, 0.0, -600.0, -570.0, 0.0, 0.0, 0.0],
+        "d_mm": [400.0, 130.0, 0.0, 0.0, 160.0, 115.0, 90.0],
+        "alpha_deg": [0.0, 90.0, 0.0, 0.0, 90.0, -90.0, 0.0],
+    },
+    "instrument": {"sd_mm": 0.02},
+}
+"""On a lifting column."""
 Joint = Callable[[Real], Real]
 """Angles of one joint (K,), rad -> what is added to them."""
 
@@ -73,7 +85,8 @@ class SimulatedArm:
         r, at = self.robot, self.base
         for i in range(r.joints):
             dtheta, d, a, alpha, b, beta = self.errors[i]
-            about_z = turn("z", theta[i] + np.radians(r.offset_deg[i]) + dtheta) @ shift("z", r.d[i] + d)
+            turned, slid = (0.0, 1000.0 * theta[i]) if i + 1 in r.sliding else (theta[i], 0.0)
+            about_z = turn("z", turned + np.radians(r.offset_deg[i]) + dtheta) @ shift("z", slid + r.d[i] + d)
             about_x = shift("x", r.a[i] + a) @ turn("x", np.radians(r.alpha_deg[i]) + alpha)
             askew = shift("y", b) @ turn("y", beta)
             if r.convention == "standard":
@@ -103,6 +116,7 @@ class SimulatedArm:
                 mount=np.zeros(count, dtype=np.intp),
                 samples=np.ones(count, dtype=np.intp),
                 tracker=tracker,
+                sliding=self.robot.sliding,
             )
         )
 

@@ -11,9 +11,16 @@ import pytest
 from station.errors import InputRefused
 from station.serial_arm.dh import reach
 from station.serial_arm.mechanism import SerialArm
-from tests.station.serial_arm.simulated import CRAIG_SEVEN, UR_LIKE, SimulatedArm, random_arm, random_poses
+from tests.station.serial_arm.simulated import (
+    CRAIG_SEVEN,
+    LIFTED,
+    UR_LIKE,
+    SimulatedArm,
+    random_arm,
+    random_poses,
+)
 
-ARMS = pytest.mark.parametrize("data", [UR_LIKE, CRAIG_SEVEN], ids=["standard", "modified"])
+ARMS = pytest.mark.parametrize("data", [UR_LIKE, CRAIG_SEVEN, LIFTED], ids=["standard", "modified", "lifted"])
 
 
 def parameters_of(arm: SimulatedArm, mechanism: SerialArm) -> Any:
@@ -22,6 +29,9 @@ def parameters_of(arm: SimulatedArm, mechanism: SerialArm) -> Any:
     n = arm.robot.joints
     p[:n] = arm.errors[:, 0]
     p[n : 6 * n] = arm.errors[:, 1:].ravel()
+    for joint in arm.robot.sliding:
+        about, along = arm.errors[joint - 1, :2]
+        p[joint - 1], p[n + 5 * (joint - 1)] = along / 1000.0, about
     p[6 * n : 6 * n + 3] = arm.tool - np.array(arm.robot.tool_mm)
     return p
 

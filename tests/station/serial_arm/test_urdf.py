@@ -51,7 +51,10 @@ def distances(points: Real) -> Real:
 
 @pytest.mark.parametrize("seed", range(12))
 def test_any_chain_moves_its_tool_alike(seed: int) -> None:
-    """Axes askew, parallel, crossing or in one line: the tool moves as the description's own frames say."""
+    """Axes askew, parallel, crossing or in one line, joints that turn or slide: the tool moves as the
+
+    description's own frames say.
+    """
     rng = np.random.default_rng(seed)
     count = int(rng.integers(2, 8))
     chain = []
@@ -62,16 +65,21 @@ def test_any_chain_moves_its_tool_alike(seed: int) -> None:
             rng.normal(size=3) if rng.random() < 0.3 else rng.choice([-1.0, 1.0]) * np.eye(3)[rng.integers(3)]
         )
         chain.append((xyz, rpy, axis))
+    kinds = rng.choice(["revolute", "continuous", "prismatic"], count, p=[0.6, 0.2, 0.2])
     tip = rng.uniform(-0.2, 0.2, 3)
-    text = urdf(*(joint(k, "revolute", *each) for k, each in enumerate(chain)), joint(count, "fixed", tip))
+    text = urdf(*(joint(k, kinds[k], *each) for k, each in enumerate(chain)), joint(count, "fixed", tip))
     arm = arm_from_urdf(text, "r.urdf", "l0", f"l{count + 1}", "R")
     theta = rng.uniform(-3, 3, (20, count))
     at = []
     for pose in theta:
         origin, frame = np.zeros(3), np.eye(3)
-        for (xyz, rpy, axis), angle in zip(chain, pose, strict=True):
+        for (xyz, rpy, axis), kind, way in zip(chain, kinds, pose, strict=True):
             origin, frame = origin + 1000.0 * frame @ xyz, frame @ Rotation.from_euler("xyz", rpy).as_matrix()
-            frame = frame @ Rotation.from_rotvec(angle * axis / np.linalg.norm(axis)).as_matrix()
+            along = way * axis / np.linalg.norm(axis)
+            if kind == "prismatic":
+                origin = origin + 1000.0 * frame @ along
+            else:
+                frame = frame @ Rotation.from_rotvec(along).as_matrix()
         at.append(origin + 1000.0 * frame @ tip)
     assert distances(moved(arm, theta)) == pytest.approx(distances(np.array(at)), abs=1e-3)
 
@@ -109,8 +117,8 @@ def test_a_known_arm_has_the_links_of_its_maker(tmp_path: Path) -> None:
         (b"<sdf/>", ("a", "b"), "a URDF file has <robot>"),
         (urdf(joint(0), joint(1)), ("l0", "hand"), "no joined link 'hand'; it has l0, l1, l2"),
         (urdf(joint(0), joint(1)), ("l2", "l0"), "does not follow link l2"),
-        (urdf(joint(0), joint(1, "prismatic")), ("l0", "l2"), "joint j1 is prismatic"),
-        (urdf(joint(0), joint(1, "fixed")), ("l0", "l2"), "1 joints that turn; two are needed"),
+        (urdf(joint(0), joint(1, "floating")), ("l0", "l2"), "joint j1 is floating"),
+        (urdf(joint(0), joint(1, "fixed")), ("l0", "l2"), "1 joints that move; two are needed"),
         (urdf(joint(0), joint(1, axis=(0, 0, 0))), ("l0", "l2"), "has no direction"),
         (urdf(joint(0)).replace(b'xyz="0 0 0"', b'xyz="0 0"'), ("l0", "l1"), "three numbers are needed"),
         (urdf(joint(0)).replace(b'<parent link="l0"/>', b""), ("l0", "l1"), "lacks <parent> or <child>"),

@@ -15,6 +15,7 @@ import type {
   ScanCodes,
   Separating,
   SignedIn,
+  SignInWays,
   Solution,
   Stopped,
   Summary,
@@ -112,6 +113,7 @@ export const stop = () =>
     502,
   );
 
+export const signInWays = () => call<SignInWays>("GET", "/session/ways");
 export const session = () => call<SignedIn>("GET", "/session");
 
 export const signIn = (body: { name: string; password: string }) =>

@@ -45,7 +45,13 @@ export async function makeFirst(secret: string, name: string, password: string):
   begin(await api.firstAdministrator({ secret, name, password }));
 }
 
+/** Where the plant's provider signs people in, when it has a name. */
+export const PROVIDER = "/api/v1/session/openid";
+
+/** Whom the plant's provider has signed in is signed out there as well. */
 export async function signOut(): Promise<void> {
+  const next = session.peek()?.sign_out_at;
   await api.signOut();
   session.value = null;
+  if (next) location.assign(next);
 }

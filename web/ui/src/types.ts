@@ -15,6 +15,7 @@ export type Machine = Schemas["MachineView"];
 export type State = Schemas["State"];
 export type Verdict = NonNullable<Summary["verdict"]>;
 export type SignedIn = Schemas["SignedIn"];
+export type SignInWays = Schemas["SignInWays"];
 export type Summary = Schemas["CalibrationSummary"];
 export type Calibration = Schemas["Calibration"];
 export type CalibrationBody = Schemas["CalibrationBody"];

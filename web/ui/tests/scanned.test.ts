@@ -32,7 +32,13 @@ describe("a scan", () => {
     disarm();
     badge.value = null;
     serial.value = operator.value = "";
-    session.value = { name: "ada", role: "operator", via: "open", signs_off_after_s: null };
+    session.value = {
+      name: "ada",
+      role: "operator",
+      via: "open",
+      signs_off_after_s: null,
+      sign_out_at: null,
+    };
     now.value = performance.now();
     open(true);
     navigate("/");

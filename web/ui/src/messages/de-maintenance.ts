@@ -131,6 +131,9 @@ export const maintenance: typeof english = {
   badge: "Ausweis",
   created: "Angelegt",
   password: "Passwort, mindestens 8 Zeichen",
+  badgeText: "Text eines Ausweises, wie ihn ein Scanner liest",
+  badgePin: "PIN des Ausweises, mindestens 4 Ziffern",
+  byProvider: "meldet sich mit dem Anmeldedienst des Werks an",
   addUser: "Benutzer anlegen",
   disabled: "◆ gesperrt",
   enabled: "darf sich anmelden",
@@ -167,7 +170,7 @@ export const maintenance: typeof english = {
   erased: "(Name gelöscht)",
   from: (before, after) => `${before} → ${after}`,
   auditCsv: "Alle Einträge (CSV)",
-  auditOnPage: (shown, all) => `${shown} von ${all} Einträgen dieser Seite`,
+  auditOnPage: (shown) => `${shown} Einträge auf dieser Seite`,
 
   versions: "Versionen",
   program: "Programm",

@@ -141,6 +141,21 @@ export const de: Messages = {
     out: "Abmelden",
     open: "OFFEN: Jeder an diesem Rechner darf Läufe starten; niemand meldet sich an (emulierte Maschine)",
     stopWithout: "An diesem Rechner wirkt der Stopp ohne Anmeldung.",
+    withProvider: (label) => `Mit ${label} anmelden`,
+    refused: {
+      unreachable:
+        "Der Anmeldedienst antwortet nicht. Versuchen Sie es später, oder melden Sie sich mit einem Passwort dieser Station an.",
+      cancelled: "Die Anmeldung wurde beim Anmeldedienst abgebrochen.",
+      expired:
+        "Die Anmeldung hat zu lange gedauert oder wurde in einem anderen Browser begonnen. Beginnen Sie neu.",
+      not_valid:
+        "Die Antwort des Anmeldedienstes ist nicht verwendbar. Das Protokoll der Station nennt die Ursache.",
+      no_role:
+        "Der Anmeldedienst kennt Sie, aber keine Ihrer Gruppen hat an dieser Station eine Rolle. Fragen Sie den Administrator.",
+      name_taken:
+        "Diese Station hat einen Benutzer Ihres Namens, der sich mit einem Passwort anmeldet. Fragen Sie den Administrator.",
+      disabled: "Ihr Benutzer an dieser Station ist gesperrt. Fragen Sie den Administrator.",
+    },
   },
   header: {
     views: "Ansichten",

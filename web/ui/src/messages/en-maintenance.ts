@@ -134,6 +134,9 @@ export const maintenance = {
   badge: "Badge",
   created: "Created",
   password: "Password, 8 characters or more",
+  badgeText: "Text of a badge, as a scanner reads it",
+  badgePin: "PIN of the badge, 4 digits or more",
+  byProvider: "signs in with the plant's provider",
   addUser: "Add the user",
   disabled: "◆ disabled",
   enabled: "may sign in",
@@ -169,7 +172,7 @@ export const maintenance = {
   erased: "(name erased)",
   from: (before: string, after: string) => `${before} → ${after}`,
   auditCsv: "All entries (CSV)",
-  auditOnPage: (shown: number, all: number) => `${shown} of ${all} entries of this page`,
+  auditOnPage: (shown: number) => `${shown} entries on this page`,
 
   versions: "Versions",
   program: "Program",

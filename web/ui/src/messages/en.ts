@@ -169,6 +169,18 @@ export const en = {
     out: "Sign out",
     open: "OPEN: anybody at this computer may start runs; nobody signs in (emulated machine)",
     stopWithout: "At this computer the stop works without signing in.",
+    withProvider: (label: string) => `Sign in with ${label}`,
+    refused: {
+      unreachable:
+        "The provider does not answer. Try again later, or sign in with a password of this station.",
+      cancelled: "The sign-in was cancelled at the provider.",
+      expired: "The sign-in took too long, or was begun in another browser. Begin again.",
+      not_valid: "The answer of the provider cannot be used. The log of the station has the cause.",
+      no_role:
+        "The provider knows you, but none of your groups has a role at this station. Ask its administrator.",
+      name_taken: "This station has a user of your name who signs in with a password. Ask its administrator.",
+      disabled: "Your user at this station is disabled. Ask its administrator.",
+    },
   },
   header: {
     views: "Views",

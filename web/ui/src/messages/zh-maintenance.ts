@@ -127,6 +127,9 @@ export const maintenance: typeof english = {
   badge: "工卡",
   created: "创建时间",
   password: "密码，至少 8 个字符",
+  badgeText: "工卡文本（扫描器读出的内容）",
+  badgePin: "工卡 PIN，至少 4 位数字",
+  byProvider: "通过工厂的身份提供方登录",
   addUser: "添加用户",
   disabled: "◆ 已停用",
   enabled: "可以登录",
@@ -162,7 +165,7 @@ export const maintenance: typeof english = {
   erased: "（姓名已删除）",
   from: (before, after) => `${before} → ${after}`,
   auditCsv: "全部记录（CSV）",
-  auditOnPage: (shown, all) => `本页 ${all} 条中的 ${shown} 条`,
+  auditOnPage: (shown) => `本页 ${shown} 条`,
 
   versions: "版本",
   program: "程序",

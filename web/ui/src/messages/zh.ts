@@ -124,6 +124,16 @@ export const zh: Messages = {
     out: "退出",
     open: "开放：本机任何人都可启动运行；无人登录（仿真机器）",
     stopWithout: "在本机上，停止无需登录。",
+    withProvider: (label) => `使用 ${label} 登录`,
+    refused: {
+      unreachable: "身份提供方没有应答。请稍后重试，或使用本站的密码登录。",
+      cancelled: "登录已在身份提供方取消。",
+      expired: "登录耗时过长，或在另一个浏览器中开始。请重新开始。",
+      not_valid: "身份提供方的应答无法使用。原因见本站日志。",
+      no_role: "身份提供方认识您，但您的任何组在本站都没有角色。请联系管理员。",
+      name_taken: "本站已有同名用户使用密码登录。请联系管理员。",
+      disabled: "您在本站的用户已停用。请联系管理员。",
+    },
   },
   header: {
     views: "视图",

@@ -43,8 +43,15 @@ export const backUp = () => call<BackupMade>("POST", "/backups", patient());
 export const drill = () => call<BackupDrill>("POST", "/backups/drill", patient());
 
 export const users = () => call<Items<User>>("GET", "/users");
-export const addUser = (user: { name: string; role: Role; password: string }) =>
-  call<User>("POST", "/users", sent(user));
+/** With a password, with a badge and its PIN, or with all of them. */
+export interface NewUser {
+  name: string;
+  role: Role;
+  password: string | null;
+  badge: string | null;
+  pin: string | null;
+}
+export const addUser = (user: NewUser) => call<User>("POST", "/users", sent(user));
 export const changeUser = (id: number, change: { role?: Role; disabled?: boolean }) =>
   call<User>("PATCH", `/users/${id}`, sent(change));
 export const keys = () => call<Items<ApiKey>>("GET", "/keys");

@@ -71,7 +71,7 @@ function UserRow({ user, change }: RowProps) {
           choose={(role) => void change(user.id, { role: role as Role })}
         />
       </td>
-      <td class="text">{user.has_badge ? m.yes : m.no}</td>
+      <td class="text">{user.by_provider ? m.byProvider : user.has_badge ? m.yes : m.no}</td>
       <td class="text">{dateTime(user.created_at)}</td>
       <td class="text">
         <p>{user.disabled ? m.disabled : m.enabled}</p>
@@ -97,16 +97,27 @@ function AddUser({ added }: { added: () => void }) {
   const m = t.maintenance;
   const name = useSignal("");
   const password = useSignal("");
+  const badge = useSignal("");
+  const pin = useSignal("");
   const role = useSignal<Role>("operator");
   const act = async () => {
-    await addUser({ name: name.value.trim(), role: role.value, password: password.value });
-    name.value = password.value = "";
+    await addUser({
+      name: name.value.trim(),
+      role: role.value,
+      password: password.value || null,
+      badge: badge.value.trim() || null,
+      pin: pin.value || null,
+    });
+    name.value = password.value = badge.value = pin.value = "";
     added();
   };
+  const waysIn = password.value !== "" || (badge.value.trim() !== "" && pin.value !== "");
   return (
     <div class="fields">
       <TextField id="user-name" label={m.name} value={name} />
       <TextField id="user-password" label={m.password} value={password} type="password" />
+      <TextField id="user-badge" label={m.badgeText} value={badge} />
+      <TextField id="user-pin" label={m.badgePin} value={pin} type="password" />
       <ChoiceField
         id="user-role"
         label={m.role}
@@ -116,7 +127,7 @@ function AddUser({ added }: { added: () => void }) {
           role.value = wanted as Role;
         }}
       />
-      <ActionButton act={act} disabled={name.value.trim() === "" || password.value === ""}>
+      <ActionButton act={act} disabled={name.value.trim() === "" || !waysIn}>
         {m.addUser}
       </ActionButton>
     </div>

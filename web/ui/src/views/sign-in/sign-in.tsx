@@ -1,24 +1,36 @@
 /** Name and password, or badge and PIN; with the link of the first start it makes the first administrator. */
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
-import { Refused } from "../../api";
+import { Refused, signInWays } from "../../api";
 import { t } from "../../messages";
+import { useLoaded } from "../../parts/load";
 import { navigate } from "../../router";
-import { badge, makeFirst, session, signIn, signInByBadge } from "../../session";
+import { badge, makeFirst, PROVIDER, session, signIn, signInByBadge } from "../../session";
 
 const FIRST = "#first=";
+const REFUSED = "#refused=";
+
+/** Why the plant's provider has signed nobody in. */
+function refusedThere(): string {
+  const why = location.hash.startsWith(REFUSED) ? location.hash.slice(REFUSED.length) : "";
+  const known: Record<string, string> = t.signIn.refused;
+  return why && (known[why] ?? t.signIn.refused.not_valid);
+}
 
 export function SignInView() {
   const secret = location.hash.startsWith(FIRST) ? location.hash.slice(FIRST.length) : null;
   const name = useSignal("");
   const password = useSignal("");
-  const refused = useSignal("");
+  const refused = useSignal(refusedThere());
+  const ways = useLoaded("", signInWays).value.value;
   const secretField = useRef<HTMLInputElement>(null);
   const byBadge = badge.value !== null;
 
   useEffect(() => {
-    password.value = refused.value = "";
-    if (badge.value) secretField.current?.focus();
+    password.value = "";
+    if (!badge.value) return;
+    refused.value = "";
+    secretField.current?.focus();
   }, [badge.value]);
 
   async function submit(event: Event): Promise<void> {
@@ -76,6 +88,7 @@ export function SignInView() {
         <button
           type="button"
           onClick={() => {
+            refused.value = "";
             badge.value = null;
           }}
         >
@@ -85,6 +98,13 @@ export function SignInView() {
       <p class="alarm warn" role="alert" hidden={!refused.value}>
         {refused.value}
       </p>
+      {!byBadge && !secret && ways?.openid && (
+        <p>
+          <a class="act" href={PROVIDER}>
+            {t.signIn.withProvider(ways.openid)}
+          </a>
+        </p>
+      )}
       {!byBadge && !secret && <p>{t.signIn.scanBadge}</p>}
       <p>{t.signIn.stopWithout}</p>
     </form>

@@ -73,3 +73,29 @@ it("notices that nobody is signed in", async () => {
   vi.useRealTimers();
   await vi.waitFor(() => expect(session.value).toBeNull());
 });
+
+it("leads to the plant's provider, and says why that has signed nobody in", async () => {
+  answer = [{ openid: "Plant login" }, 200];
+  const place = drawn(<SignInView />);
+  await vi.waitFor(() => expect(place.querySelector("a")!.textContent).toContain("Plant login"));
+  expect(place.querySelector("a")!.getAttribute("href")).toBe("/api/v1/session/openid");
+  expect(place.querySelector("[role=alert]")!.textContent).toBe("");
+  for (const [why, said] of [
+    ["no_role", "none of your groups"],
+    ["what a later version says", "cannot be used"],
+  ]) {
+    location.hash = `#refused=${why}`;
+    expect(drawn(<SignInView />).querySelector("[role=alert]")!.textContent).toContain(said);
+  }
+  location.hash = "";
+});
+
+it("signs out at the provider as well", async () => {
+  const gone = vi.spyOn(location, "assign").mockImplementation(() => {});
+  session.value = { ...ADA, sign_out_at: "/api/v1/session/openid/end" } as typeof session.value;
+  const place = drawn(<Who />);
+  answer = [null, 204];
+  place.querySelector("button")!.click();
+  await vi.waitFor(() => expect(gone).toHaveBeenCalledWith("/api/v1/session/openid/end"));
+  expect(session.value).toBeNull();
+});

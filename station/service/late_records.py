@@ -1,0 +1,93 @@
+"""What was done already is recorded beside, and again and again until the database takes it.
+
+A database that is locked must keep the drives' answer from nobody, and a stop must be in the audit all the
+same.
+"""
+
+from __future__ import annotations
+
+import logging
+from collections import deque
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+from threading import Event, Lock, Thread
+
+from pydantic import JsonValue
+
+from station.errors import StoreUnavailable
+from station.records import Actor
+from station.store import Store
+
+log = logging.getLogger(__name__)
+
+PAUSE_S = 0.5
+"""Between two attempts; each waits for a lock of another program by itself."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Late:
+    what: str
+    write: Callable[[], None]
+    written: Event = field(default_factory=lambda: Event())
+
+
+class LateRecords:
+    """In order, on a thread that lives as long as something waits."""
+
+    def __init__(self, store: Store) -> None:
+        self._store = store
+        self._lock, self._closing = Lock(), Event()
+        self._waiting: deque[_Late] = deque()
+        self._thread: Thread | None = None
+
+    def stop(self, run_id: int | None, who: str, trouble: Mapping[str, str]) -> None:
+        """That a stop was carried out, as an event of the run or the station; returns at once."""
+        event: dict[str, JsonValue] = {"by": who, **trouble}
+        self._add(f"stop by {who}", lambda: self._store.add_event(run_id, "stop", event))
+
+    def deed(
+        self, by: Actor, action: str, subject: str, after: Mapping[str, JsonValue] | None = None
+    ) -> Event:
+        """An entry of the audit with the time of this call; returns at once what says when it is written."""
+        at = datetime.now(UTC)
+        return self._add(
+            f"{action} by {by.name}",
+            lambda: self._store.record(by, action, subject, after=after, at=at),
+        )
+
+    def close(self, limit_s: float) -> None:
+        """Wait so long for what waits; what then is not written stands in the log alone."""
+        thread = self._thread
+        if thread is not None:
+            thread.join(limit_s)
+        self._closing.set()
+
+    def _add(self, what: str, write: Callable[[], None]) -> Event:
+        late = _Late(what, write)
+        with self._lock:
+            self._waiting.append(late)
+            if self._thread is None:
+                self._thread = Thread(target=self._run, name="late records", daemon=True)
+                self._thread.start()
+        return late.written
+
+    def _next(self) -> _Late | None:
+        with self._lock:
+            if not self._waiting:
+                self._thread = None
+                return None
+            return self._waiting[0]
+
+    def _run(self) -> None:
+        while (late := self._next()) is not None:
+            try:
+                late.write()
+            except StoreUnavailable as error:
+                log.error("The %s could not be recorded yet: %s", late.what, error)
+                if self._closing.wait(PAUSE_S):
+                    log.critical("Not recorded: %s", ", ".join(one.what for one in self._waiting))
+                    return
+                continue
+            self._waiting.popleft()
+            late.written.set()

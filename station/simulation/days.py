@@ -1,0 +1,244 @@
+"""What happens at a station from morning to evening, drawn by a seed.
+
+A day begins with a start and ends with a shutdown, a kill or a power cut.  In between people and programs
+ask for runs, and things go wrong: people abort and stop, start twice, answer nothing; wires, devices, disk
+and clock have their faults; the process is killed.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from random import Random
+from typing import TypeVar
+
+from drivers.emulated.orders import KINDS, Device, FaultOrder
+from station.five_bar import Robot
+from station.records import Actor, CalibrationRequest, PlanName
+from station.service import Orchestrator
+from station.simulation.disk import DiskTrouble
+from station.simulation.keeper import RUN_LIMIT_S, Keeper, Stranded
+from station.simulation.plant import Plant
+from station.simulation.witness import Witness
+
+T = TypeVar("T")
+
+ROBOT = Robot.default()
+ABORT_LIMIT_S = 20.0
+"""Virtual time within which an aborted run has ended."""
+_NIGHT_S = 14 * 3600.0
+_KILLED_AT_NIGHT = 0.2
+_RUNS_A_DAY = (3, 8)
+_PLANS: dict[PlanName, float] = {
+    "paper": 40,
+    "rapid": 22,
+    "adaptive": 20,
+    "check": 10,
+    "reference": 4,
+    "two_mounts": 2,
+    "full": 2,
+}
+DEEDS = {"measure": 73.0, "apply": 20.0, "rollback": 4.0, "retract": 3.0}
+TROUBLES = {
+    "none": 42.0,
+    "device": 18.0,
+    "abort": 8.0,
+    "stop": 5.0,
+    "stop while a drive is silent": 3.0,
+    "kill": 6.0,
+    "kill at a write": 4.0,
+    "disk": 6.0,
+    "clock": 3.0,
+    "double start": 3.0,
+    "second start": 2.0,
+}
+"""How often each comes, as parts of their sum."""
+_CHANGE_THE_MACHINE = ("jump", "lost_counts", "reboot", "unit", "frozen", "contaminated", "overspeed")
+"""Faults after which the readings are not those of the machine, so that its truth is no measure of them."""
+_CLOCK_STEPS_S = (-3600.0, -60.0, 90.0, 3600.0, 315_360_000.0)
+
+
+@dataclass
+class Days:
+    """Lives at one plant."""
+
+    keeper: Keeper
+    random: Random
+    deeds: Mapping[str, float]
+    troubles: Mapping[str, float]
+    happened: Counter[str] = field(default_factory=Counter)
+    _key: int = 0
+
+    @property
+    def plant(self) -> Plant:
+        return self.keeper.plant
+
+    @property
+    def witness(self) -> Witness:
+        return self.keeper.witness
+
+    def day(self) -> None:
+        """From one morning to the next."""
+        plant, random = self.plant, self.random
+        if random.random() < 0.3:
+            plant.bring(random.randrange(len(plant.machines)))
+        plant.receiver.fails = random.choice((0.0, 0.0, 0.0, 0.3, 0.8))
+        self.keeper.start()
+        for _ in range(random.randint(*_RUNS_A_DAY)):
+            self._job(_drawn(random, self.deeds), _drawn(random, self.troubles))
+        if random.random() < _KILLED_AT_NIGHT:
+            self.happened["kill"] += 1
+            plant.kill()
+            self.keeper.restart(random.uniform(1.0, 20.0))
+        self.keeper.end()
+        plant.clocks.set_s += _NIGHT_S
+
+    # One job -------------------------------------------------------------------------------------------
+
+    def _job(self, deed: str, trouble: str) -> None:
+        """Somebody asks for a run; something happens meanwhile; it ends, and the station is looked at."""
+        self._key += 1
+        key = f"job {self._key}"
+        self.happened[deed] += 1
+        if trouble != "none":
+            self.happened[trouble] += 1
+        request = self._request(deed, key)
+        run = 0
+        with self.keeper.answered():
+            run = self.plant.ask(request)
+            self.witness.started(key, run)
+        if not run:
+            self._rest()
+            return
+        helpers = [
+            self.plant.scheduler.spawn(lambda: self._answer(run), "operator"),
+            self.plant.scheduler.spawn(lambda: self._trouble(trouble, run, request, key), "trouble"),
+        ]
+        world = self.plant.scheduler
+        ended = world.wait(lambda: self._is_over(run) and all(h.ended for h in helpers), RUN_LIMIT_S)
+        self.plant.orders.replace(())
+        self.plant.machine.remount(ROBOT.c)
+        world.wait(seconds=self.random.choice((0.0, 0.0, 3.0)))
+        self.plant.disk.mend()
+        if not self.plant.runs:
+            self._restart()
+            with self.keeper.answered():  # who did not hear how its start ended asks again
+                self.witness.started(key, self.plant.ask(request))
+        elif not ended:
+            self.witness.fails("idle", f"run {run} ({deed}, {trouble}) does not end")
+            raise Stranded
+        elif trouble == "none":
+            self.witness.undisturbed(run, self.keeper.store)
+        self._rest()
+
+    def _rest(self) -> None:
+        if not self.plant.runs:
+            self._restart()
+        self.keeper.come_to_rest()
+
+    def _restart(self) -> None:
+        self.keeper.restart(self.random.uniform(1.0, 20.0))
+
+    def _request(self, deed: str, key: str) -> Callable[[Orchestrator], int]:
+        serial = self.plant.serials[self.plant.robot]
+        program = Actor(name="mes", via="key")
+        passed = self._last_pass(serial)
+        if deed == "measure" or (deed != "retract" and passed is None):
+            plan: PlanName = _drawn(self.random, _PLANS)
+            asked = CalibrationRequest(
+                serial,
+                {"check": "check"}.get(plan, "calibrate"),
+                "ada",
+                plan,
+                until_mm=0.3 if plan == "adaptive" else None,
+            )
+            return lambda station: station.submit(asked, idempotency_key=key, by=program).id
+        if deed == "retract":
+            return lambda station: station.retract("ada", idempotency_key=key).id
+        return lambda station: station.follow(deed, passed or 0, "ada", idempotency_key=key, by=program).id
+
+    def _last_pass(self, serial: str) -> int | None:
+        runs = self.keeper.store.calibrations(limit=10, robot_serial=serial, verdict="pass").items
+        return next((run.id for run in runs if run.of is None and run.kind == "calibrate"), None)
+
+    def _is_over(self, run: int) -> bool:
+        runtime = self.plant.runtime
+        return not self.plant.runs or (runtime is not None and runtime.orchestrator.running != run)
+
+    # What people and things do meanwhile -------------------------------------------------------------------
+
+    def _answer(self, run: int) -> None:
+        """The operator answers what the run asks, or goes to lunch."""
+        world = self.plant.scheduler
+        while not self._is_over(run):
+            world.wait(seconds=self.random.uniform(1.0, 20.0))
+            with self.keeper.answered():
+                prompt = self.plant.ask(lambda station: station.prompt(run))
+                if prompt is None or self.random.random() < 0.1:
+                    continue
+                value = None
+                if prompt.kind == "number":
+                    axis = self.plant.machine.axes[0]
+                    value = axis.arm_deg(world.now_s) + self.random.gauss(0.0, 0.005)
+                else:
+                    self.plant.machine.remount(ROBOT.second_mount[1])
+                self.plant.ask(lambda station: station.answer(run, prompt.id, value, "ada"))  # noqa: B023
+
+    def _trouble(self, trouble: str, run: int, request: Callable[[Orchestrator], int], key: str) -> None:
+        world, random = self.plant.scheduler, self.random
+        world.wait(lambda: self._is_over(run), random.choice((0.0, 2.0, 15.0, 40.0)) * random.random())
+        with self.keeper.answered():
+            match trouble:
+                case "abort":
+                    over = self._is_over(run)
+                    self.plant.ask(lambda station: station.abort(run, "ada"))
+                    if not world.wait(lambda: over or self._is_over(run), ABORT_LIMIT_S):
+                        self.witness.fails("idle", f"run {run} was aborted and goes on")
+                case "stop":
+                    self._stop()
+                case "stop while a drive is silent":
+                    device: Device = random.choice(("axis1", "axis2"))
+                    self.plant.orders.replace([FaultOrder(device=device, kind="silent", for_s=3.0)])
+                    world.wait(seconds=random.random())
+                    self._stop()
+                case "double start":
+                    self.witness.started(key, self.plant.ask(request))
+                case "second start":
+                    self.witness.second_start(run, self.plant.ask(self._request("measure", f"{key} again")))
+                case "kill" if self.plant.runs:
+                    self.plant.kill()
+                case "kill at a write":
+                    at = self.plant.disk.writes + random.randrange(40)
+                    world.wait(lambda: self._is_over(run) or self.plant.disk.writes > at)
+                    if self.plant.runs:
+                        self.plant.kill()
+                case "disk":
+                    kind: DiskTrouble = random.choice(("full", "error", "locked"))
+                    self.plant.disk.fail(kind, after=random.randrange(30), times=random.choice((1, 3, 20)))
+                case "clock":
+                    self.plant.clocks.set_s += random.choice(_CLOCK_STEPS_S)
+                case "device":
+                    self._fault(run)
+                case _:
+                    pass
+
+    def _stop(self) -> None:
+        at_s = self.plant.scheduler.now_s
+        self.witness.stopped(at_s, self.plant.ask(lambda station: station.stop("ada")))
+
+    def _fault(self, run: int) -> None:
+        device: Device = self.random.choice(tuple(KINDS))
+        kind = self.random.choice(KINDS[device])
+        self.happened[f"{device} {kind}"] += 1
+        if kind in _CHANGE_THE_MACHINE:
+            self.witness.disturb(run)
+        if kind == "jump":
+            self.witness.jump(run)
+        count = self.random.choice((1, 1, 3, None))
+        for_s = self.random.choice((0.05, 0.5, 3.0)) if count is None else None
+        self.plant.orders.replace([FaultOrder(device=device, kind=kind, count=count, for_s=for_s, mm=0.2)])
+
+
+def _drawn(random: Random, weights: Mapping[T, float]) -> T:
+    return random.choices(list(weights), list(weights.values()))[0]

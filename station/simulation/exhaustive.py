@@ -1,0 +1,222 @@
+"""Everything that is small enough, without a draw: all orders of eight events, a failure at every write.
+
+Each case is a station of its own with one calibration that has passed, so that there is something to apply.
+"""
+
+from __future__ import annotations
+
+import shutil
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from dataclasses import dataclass
+from functools import cache
+from itertools import product
+from pathlib import Path
+from random import Random
+from tempfile import TemporaryDirectory, mkdtemp
+from typing import Literal, get_args
+
+from drivers.emulated.orders import FaultOrder
+from drivers.emulated.spec import MachineSpec
+from station.records import CalibrationRequest
+from station.simulation.disk import DiskTrouble
+from station.simulation.keeper import Keeper, Stranded
+from station.simulation.plant import Plant
+from station.simulation.witness import Violation, Witness
+from station.simulation.years import prepared
+
+Event = Literal["submit", "abort", "stop", "fault", "kill", "restart", "apply", "roll back"]
+EVENTS: tuple[Event, ...] = get_args(Event)
+Deed = Literal["measure", "apply"]
+_SPEC = MachineSpec(seed=7, zero_offsets_deg=(0.5, -0.4), drm_mm=(1.0, 0.5))
+_PAUSES_S = (0.0, 0.3, 2.0)
+_OFF_S = 1.0
+_FOR_GOOD = 1_000_000
+
+
+@dataclass(frozen=True, slots=True)
+class Order:
+    """Some events, one after the other."""
+
+    events: tuple[Event, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class WriteThatFails:
+    """During a deed, from the n-th write to the disk on."""
+
+    deed: Deed
+    trouble: DiskTrouble | Literal["kill"]
+    write: int
+    times: int = 1
+
+
+Case = Order | WriteThatFails
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """What came of a case."""
+
+    case: Case
+    reached: bool
+    """False where the deed has fewer writes than that."""
+    violations: tuple[Violation, ...]
+
+
+def orders(depth: int) -> list[Order]:
+    """Every order of `depth` of the eight events, repeats included."""
+    return [Order(events) for events in product(EVENTS, repeat=depth)]
+
+
+def writes_that_fail() -> list[WriteThatFails]:
+    """Every write of a measurement and an application: it fails, all from it on fail, a kill at it."""
+    kinds: tuple[tuple[DiskTrouble | Literal["kill"], int], ...] = (
+        ("error", 1),
+        ("full", _FOR_GOOD),
+        ("kill", 1),
+    )
+    deeds: tuple[Deed, ...] = ("measure", "apply")
+    return [
+        WriteThatFails(deed, trouble, write, times)
+        for deed in deeds
+        for trouble, times in kinds
+        for write in range(_writes_of(deed))
+    ]
+
+
+def _writes_of(deed: Deed) -> int:
+    """How many writes it has when nothing fails."""
+    with _station() as keeper:
+        keeper.start()
+        first = keeper.plant.disk.writes
+        _let_happen(keeper, "submit" if deed == "measure" else "apply", "the deed")
+        keeper.plant.scheduler.wait(lambda: keeper.orchestrator.running is None)
+        return keeper.plant.disk.writes - first
+
+
+def carried_out(case: Case) -> Outcome:
+    """One case on a station of its own."""
+    reached = True
+    with _station(repr(case)) as keeper:
+        with suppress(Stranded):
+            keeper.start()
+            if isinstance(case, Order):
+                _in_order(keeper, case)
+            else:
+                reached = _failing(keeper, case)
+            _settled(keeper)
+        return Outcome(case, reached, tuple(keeper.witness.violations))
+
+
+@contextmanager
+def _station(seed: str = "") -> Iterator[Keeper]:
+    """One that has a passed calibration; not started."""
+    with TemporaryDirectory() as folder, prepared():
+        home = Path(folder) / "home"
+        calibrated, taken = _calibrated()
+        shutil.copytree(calibrated, home)
+        plant = Plant(home, [_SPEC], Random(seed))
+        plant.receiver.taken = list(taken)
+        with plant.entered():
+            yield Keeper(plant, Witness(plant))
+            plant.scheduler.end()
+
+
+@cache
+def _calibrated() -> tuple[Path, tuple[tuple[int, str], ...]]:
+    """The data folder of a station with one passed calibration, and what its receiver has taken.
+
+    Made once in each process.
+    """
+    home = Path(mkdtemp(prefix="calibrated-")) / "home"
+    plant = Plant(home, [_SPEC], Random(1))
+    keeper = Keeper(plant, Witness(plant))
+    with plant.entered():
+        keeper.start()
+        _measure(keeper, "first")
+        keeper.come_to_rest()
+        keeper.end()
+        plant.scheduler.end()
+    return home, tuple(plant.receiver.taken)
+
+
+def _in_order(keeper: Keeper, case: Order) -> None:
+    plant, random = keeper.plant, Random(repr(case))
+    for number, event in enumerate(case.events):
+        with keeper.answered():
+            _let_happen(keeper, event, f"event {number}")
+        plant.scheduler.wait(seconds=random.choice(_PAUSES_S))
+
+
+def _let_happen(keeper: Keeper, event: Event, key: str) -> None:
+    plant = keeper.plant
+    match event:
+        case "submit":
+            _measure(keeper, key)
+        case "apply":
+            plant.ask(lambda station: station.follow("apply", 1, "ada", idempotency_key=key))
+        case "roll back":
+            plant.ask(lambda station: station.follow("rollback", 1, "ada", idempotency_key=key))
+        case "abort":
+            plant.ask(lambda station: station.abort(station.running or 1, "ada"))
+        case "stop":
+            at_s = plant.scheduler.now_s
+            keeper.witness.stopped(at_s, plant.ask(lambda station: station.stop("ada")))
+        case "fault":
+            plant.orders.replace([FaultOrder(device="axis1", kind="silent", for_s=1.5)])
+        case "kill" if plant.runs:
+            plant.kill()
+        case "restart":
+            if plant.runs and not plant.end():
+                keeper.witness.fails("idle", "the station does not end")
+                raise Stranded
+            keeper.restart(_OFF_S)
+        case _:
+            pass
+
+
+def _measure(keeper: Keeper, key: str) -> None:
+    request = CalibrationRequest(keeper.plant.serials[0], "calibrate", "ada", "paper")
+    keeper.witness.started(
+        key, keeper.plant.ask(lambda station: station.submit(request, idempotency_key=key).id)
+    )
+
+
+def _failing(keeper: Keeper, case: WriteThatFails) -> bool:
+    """Whether the deed came to the write that was to fail."""
+    plant = keeper.plant
+    first = plant.disk.writes
+    if case.trouble != "kill":
+        plant.disk.fail(case.trouble, after=case.write, times=case.times)
+    with keeper.answered():
+        _let_happen(keeper, "submit" if case.deed == "measure" else "apply", "the deed")
+    plant.scheduler.wait(
+        lambda: (
+            plant.runtime is None
+            or plant.runtime.orchestrator.running is None
+            or (case.trouble == "kill" and plant.disk.writes > first + case.write)
+        )
+    )
+    if case.trouble == "kill" and plant.disk.writes > first + case.write:
+        plant.kill()
+    plant.scheduler.wait(seconds=2.0)
+    plant.disk.mend()
+    return plant.disk.writes > first + case.write
+
+
+def _settled(keeper: Keeper) -> None:
+    """Back to rest whatever happened; then a run that nothing disturbs succeeds."""
+    plant = keeper.plant
+    if not plant.runs:
+        keeper.restart(_OFF_S)
+    keeper.come_to_rest()
+    plant.orders.replace(())
+    with keeper.answered():
+        _measure(keeper, "last")
+    if (run := keeper.orchestrator.running) is None:
+        keeper.witness.fails("idle", "at rest, and no run may start")
+        return
+    keeper.come_to_rest()
+    keeper.witness.undisturbed(run, keeper.store)
+    keeper.end()

@@ -1,0 +1,197 @@
+"""A plant in virtual time: machines and their wires, a disk, a clock on the wall, and the station there.
+
+The station is the production code from `Runtime.open` on.  The emulated machine and its devices are those
+of the emulated rig, on simulated wires instead of a pseudo-terminal and a socket.
+"""
+
+from __future__ import annotations
+
+import datetime as dates_of_python
+import queue
+import secrets
+import sqlite3
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from random import Random
+from typing import TypeVar
+
+from drivers.emulated.el7 import EL7, EL7Drive
+from drivers.emulated.faults import Faults
+from drivers.emulated.machine import Machine
+from drivers.emulated.nd280 import ND280
+from drivers.emulated.orders import Orders
+from drivers.emulated.spec import MachineSpec
+from drivers.emulated.spoiled import ReadoutOnLine, SpoiledDrive
+from drivers.lines import open_port
+from station.outbox import Folder
+from station.service import Orchestrator, Runtime
+from station.settings import Settings
+from station.simulation.clocks import Clocks, DrawnSecrets, dates
+from station.simulation.disk import CutOff, Disk
+from station.simulation.receiver import Receiver
+from station.simulation.scheduler import Process, Scheduler
+from station.simulation.substitution import substituted
+from station.simulation.threads import Threads
+from station.simulation.wires import Wires
+
+T = TypeVar("T")
+
+START_LIMIT_S = 60.0
+END_LIMIT_S = 60.0
+_STATION = {
+    "name": "Simulated station",
+    "scale": {"protocol": "heidenhain-nd", "url": "serial:///dev/scale?baud=9600&format=7E2"},
+    "servo": {"profile": "leadshine-el7", "url": "modbus+tcp://10.0.0.2:502"},
+}
+
+
+class NotRunning(Exception):
+    """The station does not run, or was killed before it answered."""
+
+
+class Plant:
+    """Everything that is outside the station's process; a context manager."""
+
+    def __init__(self, home: Path, specs: list[MachineSpec], random: Random) -> None:
+        """:param specs: the robots, of which one at a time is at the station"""
+        self.home = home
+        self.random = random
+        self.scheduler = Scheduler(Random(random.random()))
+        self.clocks = Clocks(self.scheduler)
+        self.disk = Disk(self.scheduler)
+        self.orders = Orders(clock=lambda: self.scheduler.now_s)
+        self.machines = [Machine(spec, lambda: self.scheduler.now_s) for spec in specs]
+        self.serials = [f"SIM-{number}" for number in range(1, len(specs) + 1)]
+        self.first_offsets_deg = [spec.zero_offsets_deg for spec in specs]
+        """True zero offsets before any zero was written."""
+        self.receiver = Receiver(self.scheduler, Random(random.random()))
+        self.settings = Settings.model_validate(
+            {**_STATION, "outbox": {"folder": [{"path": "told", "events": ["run.ended"]}]}}
+        )
+        self.runtime: Runtime | None = None
+        self.refusal: str | None = None
+        """Why the last start failed."""
+        self._process: Process | None = None
+        self._ending = False
+        self._mounted = 0
+        self._wires = self._wired(self.machines[0])
+
+    @contextmanager
+    def entered(self) -> Iterator[None]:
+        """Production code lives in this plant until the block ends."""
+        threads = Threads(self.scheduler)
+        replacements: dict[object, object] = {
+            time: self.clocks,
+            time.monotonic: self.clocks.monotonic,
+            dates_of_python.datetime: dates(self.clocks),
+            secrets: DrawnSecrets(Random(self.random.random())),
+            sqlite3: self.disk,
+            threading.Thread: threads.Thread,
+            threading.Event: threads.Event,
+            threading.Lock: threads.Lock,
+            threading.RLock: threads.RLock,
+            threading.Condition: threads.Condition,
+            threading.get_ident: threads.get_ident,
+            queue.Queue: threads.Queue,
+            Folder: self.receiver.connected,
+            open_port: lambda address, xonxoff: self._wires.open_port(address, xonxoff),
+        }
+        with substituted(replacements):
+            yield
+
+    # The machine -----------------------------------------------------------------------------------
+
+    @property
+    def machine(self) -> Machine:
+        """The robot at the station."""
+        return self.machines[self._mounted]
+
+    @property
+    def robot(self) -> int:
+        """Its number."""
+        return self._mounted
+
+    def bring(self, number: int) -> None:
+        """Put another robot at the station; only while the station is off."""
+        self._mounted = number
+        self._wires = self._wired(self.machine)
+
+    def _wired(self, machine: Machine) -> Wires:
+        faults = Faults()
+        display = ReadoutOnLine(ND280(machine.head_mm, faults), self.orders)
+        drives = {
+            joint: SpoiledDrive(EL7Drive(machine, joint, faults, EL7), joint, self.orders) for joint in (1, 2)
+        }
+        return Wires(
+            self.scheduler, display.receive, {joint: drive.answer for joint, drive in drives.items()}
+        )
+
+    # The station -----------------------------------------------------------------------------------
+
+    @property
+    def runs(self) -> bool:
+        """Whether the station's process lives and has opened."""
+        return self.runtime is not None and self._process is not None and not self._process.killed
+
+    def start(self) -> bool:
+        """Start the station; whether it came up.  Why not is in `refusal`."""
+        self._process = Process("station")
+        self._ending, self.refusal, self.runtime = False, None, None
+        task = self.scheduler.spawn(self._live, "station", self._process)
+        self.scheduler.wait(lambda: self.runtime is not None or task.ended, START_LIMIT_S)
+        return self.runs
+
+    def end(self) -> bool:
+        """End it in order, as SIGTERM does; whether it has ended in time."""
+        self._ending = True
+        process = self._process
+        ended = process is None or self.scheduler.wait(
+            lambda: not self.scheduler.tasks_of(process), END_LIMIT_S
+        )
+        self.runtime = None
+        return ended
+
+    def kill(self) -> None:
+        """End it at this very moment, as kill -9 or a power cut does."""
+        assert self._process is not None
+        left = CutOff(self.home, self.home.with_name("cut-off"), self.random)
+        self.scheduler.kill(self._process)
+        self.runtime = None
+        left.put_back()
+
+    def ask(self, request: Callable[[Orchestrator], T]) -> T:
+        """What the station answers a request, which a thread of its own process carries out.
+
+        :raises NotRunning: it was killed before it answered, or does not run.
+        :raises Exception: whatever the request raised.
+        """
+        runtime, process = self.runtime, self._process
+        if runtime is None or process is None or process.killed:
+            raise NotRunning
+        answers: list[T] = []
+        errors: list[Exception] = []
+
+        def carry_out() -> None:
+            try:
+                answers.append(request(runtime.orchestrator))
+            except Exception as error:  # noqa: BLE001 - handed to the one who asked
+                errors.append(error)
+
+        task = self.scheduler.spawn(carry_out, "request", process)
+        self.scheduler.wait(lambda: task.ended)
+        if errors:
+            raise errors[0]
+        if not answers:
+            raise NotRunning
+        return answers[0]
+
+    def _live(self) -> None:
+        try:
+            with Runtime.open(self.settings, self.home) as runtime:
+                self.runtime = runtime
+                self.scheduler.wait(lambda: self._ending)
+        except Exception as error:  # noqa: BLE001 - boundary of the process: what it says at its end
+            self.refusal = f"{type(error).__name__}: {error}"

@@ -1,0 +1,44 @@
+"""The plant's receiver of events: takes them, refuses them, dies in between."""
+
+from __future__ import annotations
+
+from random import Random
+from typing import Any
+
+from station.records import Event
+from station.simulation.scheduler import Scheduler
+
+
+class Receiver:
+    """Another computer: what it has taken stays, whatever becomes of the station."""
+
+    def __init__(self, scheduler: Scheduler, random: Random) -> None:
+        self._scheduler, self._random = scheduler, random
+        self.taken: list[tuple[int, str]] = []
+        """Number of each event and uid of its run, in the order they came."""
+        self.fails = 0.0
+        """Share of the deliveries that it spoils."""
+
+    def connected(self, _: Any) -> Receiver:
+        """Stands in for the class of a configured receiver."""
+        return self
+
+    name = "plant"
+    events: tuple[str, ...] = ("run.ended",)
+
+    def start(self) -> None:
+        """Nothing to say."""
+
+    def deliver(self, event: Event) -> str:
+        """As `station.outbox.Receiver.deliver`."""
+        self._scheduler.wait(seconds=self._random.uniform(0.001, 0.2))
+        spoiled = self._random.random() < self.fails
+        if spoiled and self._random.random() < 0.5:
+            raise ConnectionError("500 Internal Server Error")
+        self.taken.append((event.n, str(event.data.get("uid"))))
+        if spoiled:
+            raise TimeoutError("it took the event, and its answer was lost")
+        return "200"
+
+    def close(self) -> None:
+        """Nothing stays open."""

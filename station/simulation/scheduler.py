@@ -1,0 +1,165 @@
+"""Many threads of which one runs at a time, in virtual time: what happens next is drawn by the seed.
+
+Each task is a thread of the operating system that runs only while it holds the baton.  Where it would wait
+it hands the baton on, to a task drawn among those that can go on; where none can, time passes until the
+first that waits for a moment.  The same seed gives the same order of everything.
+"""
+
+from __future__ import annotations
+
+import threading
+from collections.abc import Callable
+from random import Random
+
+_STACK_BYTES = 4 * 2**20
+
+
+class Killed(BaseException):
+    """Raised in every task of a process that was killed, at the first thing that it does afterwards.
+
+    Not an `Exception`: nothing that handles errors may handle this.
+    """
+
+
+class Deadlock(RuntimeError):
+    """No task can go on, and none waits for a moment.  Raised in the first task."""
+
+
+class Process:
+    """What dies together: the tasks of one process of the operating system."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.killed = False
+
+
+class Task:
+    """One thread."""
+
+    def __init__(self, name: str, process: Process) -> None:
+        self.name, self.process = name, process
+        self.baton = threading.Semaphore(0)
+        self.ready: Callable[[], bool] | None = None
+        """What it waits for; None: for a moment only."""
+        self.until_s: float | None = None
+        """Virtual time at which it goes on in any case; None: never."""
+        self.ended = False
+
+
+class Scheduler:
+    """All tasks of one simulated world.  The thread that makes it is its first task."""
+
+    def __init__(self, random: Random) -> None:
+        self.now_s = 0.0
+        self._random = random
+        self._director = self._running = Task("director", Process("world"))
+        self._tasks = [self._director]
+        self.failures: list[str] = []
+        """Threads that ended by an error, and the error."""
+        self._dead_end: str | None = None
+        self._over = False
+
+    @property
+    def running(self) -> Task:
+        """The task that holds the baton: the caller."""
+        return self._running
+
+    def spawn(self, run: Callable[[], object], name: str, process: Process | None = None) -> Task:
+        """A new task; it begins when the scheduler comes to it.
+
+        :param process: that of the caller, unless another is named
+        """
+        task = Task(name, process or self._running.process)
+
+        def life() -> None:
+            task.baton.acquire()
+            try:
+                if not self._is_killed(task):
+                    run()
+            except BaseException as error:  # noqa: BLE001 - end of the thread
+                if not self._is_killed(task):
+                    self.failures.append(f"{name} ended by {type(error).__name__}: {error}")
+            finally:
+                task.ended = True
+                self._tasks.remove(task)
+                self._hand_over(self._next())
+
+        threading.stack_size(_STACK_BYTES)
+        threading.Thread(target=life, name=name, daemon=True).start()
+        task.ready = _at_once
+        self._tasks.append(task)
+        return task
+
+    def wait(self, ready: Callable[[], bool] | None = None, seconds: float | None = None) -> bool:
+        """Let others go on until something is so, or the time is over.  Whether it is so.
+
+        :param ready: looks and returns; it must not wait itself
+        :param seconds: None: however long it takes
+        :raises Killed: the caller's process was killed
+        :raises Deadlock: nobody can go on any more
+        """
+        return self.wait_until(None if seconds is None else self.now_s + max(0.0, seconds), ready)
+
+    def wait_until(self, at_s: float | None, ready: Callable[[], bool] | None = None) -> bool:
+        """The same with a moment instead of a duration."""
+        task = self._running
+        self._check_alive(task)
+        task.ready, task.until_s = ready, at_s
+        following = self._next()
+        if following is not task:
+            self._hand_over(following)
+            task.baton.acquire()
+        if self._dead_end is not None and task is self._director:
+            said, self._dead_end = self._dead_end, None
+            raise Deadlock(said)
+        self._check_alive(task)
+        return ready is not None and ready()
+
+    def give_way(self) -> None:
+        """Let others go first, if the draw says so: a place where threads may overtake each other."""
+        self.wait(_at_once)
+
+    def kill(self, process: Process) -> None:
+        """End a process as the operating system does; returns when none of its tasks is left."""
+        process.killed = True
+        self.wait(lambda: not self.tasks_of(process))
+
+    def end(self) -> None:
+        """End every task but the first, which is the caller's."""
+        self._over = True
+        self.wait(lambda: self._tasks == [self._director])
+
+    def tasks_of(self, process: Process) -> list[Task]:
+        """Those that have not ended."""
+        return [task for task in self._tasks if task.process is process]
+
+    def _check_alive(self, task: Task) -> None:
+        if self._is_killed(task):
+            raise Killed
+
+    def _is_killed(self, task: Task) -> bool:
+        return task.process.killed or (self._over and task is not self._director)
+
+    def _hand_over(self, task: Task) -> None:
+        self._running = task
+        task.baton.release()
+
+    def _next(self) -> Task:
+        able = [task for task in self._tasks if self._can_go_on(task)]
+        if not able:
+            waiting = [task for task in self._tasks if task.until_s is not None]
+            if not waiting:
+                names = ", ".join(task.name for task in self._tasks)
+                self._dead_end = f"Nothing can go on at {self.now_s:.3f} s: {names} wait for each other."
+                return self._director
+            first_s = min(task.until_s for task in waiting if task.until_s is not None)
+            self.now_s = max(self.now_s, first_s)
+            able = [task for task in waiting if task.until_s == first_s]
+        return able[0] if len(able) == 1 else self._random.choice(able)
+
+    def _can_go_on(self, task: Task) -> bool:
+        return self._is_killed(task) or (task.ready is not None and task.ready())
+
+
+def _at_once() -> bool:
+    return True

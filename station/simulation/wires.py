@@ -1,0 +1,145 @@
+"""Ports whose other end is an emulated device, in virtual time: the bytes are those of the real wires."""
+
+from __future__ import annotations
+
+import errno
+import struct
+from collections.abc import Callable
+
+from drivers.emulated.link import DriveReply, DropLink, HalfOpen
+from drivers.emulated.modbus_tcp import SPOIL, TARGET_SILENT
+from drivers.emulated.readout import Reply
+from drivers.errors import LinkLost
+from drivers.lines import NetAddress, Port, SerialAddress
+from station.simulation.scheduler import Killed, Process, Scheduler
+
+_HEADER = struct.Struct(">HHHB")
+_TRIP_S = 0.025
+"""Of a request and its reply through a gateway: a line at 9600 baud behind a network."""
+_CHARACTER_S = 10 / 9600
+_FLOW_CONTROL = bytes((0x11, 0x13))
+
+Drive = Callable[[bytes], DriveReply]
+
+
+class Wires:
+    """The lines of one machine; stands in for `open_port`."""
+
+    def __init__(
+        self, scheduler: Scheduler, readout: Callable[[bytes], list[Reply]], drives: dict[int, Drive]
+    ) -> None:
+        self._scheduler = scheduler
+        self._readout, self._drives = readout, drives
+        self.unplugged = False
+        """Whether nothing can be opened, and what is open is broken."""
+        self.gateway_free_s = 0.0
+        """The gateway asks one drive at a time."""
+
+    def open_port(self, address: SerialAddress | NetAddress, xonxoff: bool) -> Port:
+        """As `drivers.lines.ports.open_port`."""
+        self._scheduler.give_way()
+        if self.unplugged:
+            raise LinkLost(f"{address} cannot be reached: no route; check cable, power and address.")
+        if isinstance(address, NetAddress):
+            return _Connection(self, self._scheduler, self._drives)
+        return _Readout(self, self._scheduler, self._readout)
+
+
+class _End:
+    """The station's end of a line."""
+
+    def __init__(self, wires: Wires, scheduler: Scheduler) -> None:
+        self._wires, self._scheduler = wires, scheduler
+        self._process: Process = scheduler.running.process
+        self._coming: list[tuple[float, bytes]] = []
+        self._broken = False
+
+    def write(self, data: bytes) -> None:
+        self._scheduler.give_way()
+        if self._process.killed:
+            raise Killed
+        self._check()
+        self._heard(data)
+
+    def read_some(self, deadline_s: float) -> bytes:
+        scheduler = self._scheduler
+        self._check()
+        while not (self._coming and self._coming[0][0] <= scheduler.now_s):
+            first_s = min(deadline_s, self._coming[0][0]) if self._coming else deadline_s
+            if first_s <= scheduler.now_s:
+                return b""
+            known = len(self._coming)
+            scheduler.wait_until(first_s, lambda: self._gone or len(self._coming) != known)  # noqa: B023
+            self._check()
+        return self._coming.pop(0)[1]
+
+    def interrupt(self) -> None:
+        """On a serial line nothing is gained by it."""
+
+    def close(self) -> None:
+        self._broken = True
+
+    def _heard(self, data: bytes) -> None:
+        raise NotImplementedError
+
+    @property
+    def _gone(self) -> bool:
+        return self._broken or self._wires.unplugged
+
+    def _check(self) -> None:
+        if self._gone:
+            raise ConnectionResetError(errno.ECONNRESET, "the far end closed the connection")
+
+    def _send(self, data: bytes, after_s: float) -> None:
+        """Bytes keep their order: what is late holds up all after it."""
+        at_s = self._scheduler.now_s + after_s
+        self._coming.append((max(at_s, self._coming[-1][0] if self._coming else 0.0), data))
+
+
+class _Readout(_End):
+    def __init__(self, wires: Wires, scheduler: Scheduler, receive: Callable[[bytes], list[Reply]]) -> None:
+        super().__init__(wires, scheduler)
+        self._receive = receive
+
+    def _heard(self, data: bytes) -> None:
+        for reply in self._receive(data.translate(None, _FLOW_CONTROL)):
+            self._send(reply.data, reply.delay_s + (len(data) + len(reply.data)) * _CHARACTER_S)
+
+
+class _Connection(_End):
+    """To the gateway."""
+
+    def __init__(self, wires: Wires, scheduler: Scheduler, drives: dict[int, Drive]) -> None:
+        super().__init__(wires, scheduler)
+        self._drives = drives
+        self._request = bytearray()
+        self._half_open = False
+
+    def interrupt(self) -> None:
+        self._broken = True
+
+    def _heard(self, data: bytes) -> None:
+        self._request += data
+        while len(self._request) >= _HEADER.size:
+            transaction, _, length, unit = _HEADER.unpack_from(self._request)
+            if len(self._request) < 6 + length:
+                return
+            pdu = bytes(self._request[_HEADER.size : 6 + length])
+            del self._request[: 6 + length]
+            if not self._half_open:
+                self._ask(transaction, unit, pdu)
+
+    def _ask(self, transaction: int, unit: int, pdu: bytes) -> None:
+        try:
+            reply = self._drives[unit](pdu) if unit in self._drives else DriveReply(None)
+        except DropLink:
+            self._broken = True
+            return
+        except HalfOpen:
+            self._half_open = True
+            return
+        now_s = self._scheduler.now_s
+        free_s = self._wires.gateway_free_s = max(now_s, self._wires.gateway_free_s) + _TRIP_S + reply.delay_s
+        answer = bytes((pdu[0] | 0x80, TARGET_SILENT)) if reply.pdu is None else reply.pdu
+        whole = _HEADER.pack(transaction, 0, len(answer) + 1, unit) + answer
+        self._send(SPOIL[reply.spoil](whole) if reply.spoil else whole, free_s - now_s)

@@ -1,0 +1,251 @@
+"""What is seen from outside while a station works, and the sentences that must hold of it.
+
+The witness sees what the page shows, what the machine does, what the receiver was told and what lies on the
+disk; it knows nothing of the station's inside.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import math
+from dataclasses import dataclass, field
+
+from station.motion import LiveEvent
+from station.records import Calibration, CalibrationSummary, RunBrief, RunReading, State
+from station.simulation.plant import Plant
+from station.store import Store
+
+STANDSTILL_S = 0.5
+"""So long after the end of a run an axis may still brake."""
+STOP_S = 0.45
+"""So long after STOP was pressed an axis that answers may still move: the other one does not hold it up."""
+TRUE_WITHIN_SDS = 6.0
+SAME_FRAME_DEG = 0.01
+"""How far the journal's sum of shifts may be from what a drive holds: a few pulses for each write."""
+_UNFINISHED = (State.QUEUED, State.RUNNING, State.WAITING)
+_MANY = 1_000_000
+
+INVARIANTS = {
+    "readings": "No reading that was shown is lost or changed.",
+    "evidence": "No pass without evidence: fresh readings, finite numbers, true offsets, no jump on the way.",
+    "one": "One run at a time.",
+    "standstill": "The axes stand after every confirmed stop, soon, and after every end.",
+    "undisturbed": "A run that nothing disturbs succeeds.",
+    "motion": "Nothing moves that no living station commands.",
+    "idle": "Every state has a way to idle, and the next run may start.",
+    "journal": "The journal of zeros agrees with the drives, to a few pulses.",
+    "key": "The same key starts one run, over restarts too.",
+    "deliveries": "Every end reaches the receiver, in order.",
+    "chains": "The chains of records and of the audit are whole.",
+    "audit": "Every start of a run is in the audit.",
+    "times": "Created before started before ended, whatever the clock does.",
+    "ends": "An end is told once, and stays as it was told.",
+    "start": "The station starts whenever its disk is sound.",
+    "threads": "No thread of the station ends by an error.",
+    "answer": "A request is answered or refused in a sentence.",
+}
+"""By the name under which a violation is reported."""
+
+
+@dataclass(frozen=True, slots=True)
+class Violation:
+    """One sentence that did not hold."""
+
+    invariant: str
+    at_s: float
+    detail: str
+
+
+@dataclass
+class Witness:
+    """Collects what it sees, and judges it."""
+
+    plant: Plant
+    violations: list[Violation] = field(default_factory=list)
+    readings: int = 0
+    """Shown so far."""
+    runs: int = 0
+    """Kept so far."""
+    _trace: hashlib._Hash = field(default_factory=hashlib.sha256)
+    _shown: dict[str, dict[int, RunReading]] = field(default_factory=dict)
+    _told: dict[str, State] = field(default_factory=dict)
+    _keys: dict[str, int] = field(default_factory=dict)
+    _disturbed: set[int] = field(default_factory=set)
+    _jumped_after: dict[int, int] = field(default_factory=dict)
+    """How many readings a run had when the readout jumped."""
+    _seen: int = 0
+    """Number of the last run that was judged."""
+    _current: RunBrief | None = None
+
+    def fails(self, invariant: str, detail: str) -> None:
+        """A sentence does not hold."""
+        self.violations.append(Violation(invariant, self.plant.scheduler.now_s, detail))
+
+    @property
+    def digest(self) -> str:
+        """SHA-256 of everything that happened so far."""
+        return self._trace.hexdigest()
+
+    def _happens(self, what: str) -> None:
+        self._trace.update(f"{self.plant.scheduler.now_s:.6f} {what}\n".encode())
+
+    # What the page shows, and what requests are answered -----------------------------------------------
+
+    def heard(self, event: LiveEvent) -> None:
+        """Listener of the running station."""
+        data = event.data
+        self._happens(f"{event.type} {data}")
+        if isinstance(data, RunBrief):
+            self._current = data
+        elif isinstance(data, RunReading) and self._current is not None:
+            self.readings += 1
+            self._shown.setdefault(self._current.uid, {})[data.reading] = data
+        elif isinstance(data, CalibrationSummary):
+            self._ended(data)
+
+    def _ended(self, run: CalibrationSummary) -> None:
+        if run.uid in self._told or run.state in _UNFINISHED:
+            self.fails("ends", f"run {run.id} is told to have ended, {run.state}, at the wrong time")
+        self._told[run.uid] = run.state
+        unsure = run.reason is not None and "tandstill could not be confirmed" in run.reason
+        if self._moves_s() > STANDSTILL_S and not unsure:
+            self.fails("standstill", f"run {run.id} has ended; an axis moves {self._moves_s():.2f} s more")
+
+    def started(self, key: str, run: int) -> None:
+        """A start was answered."""
+        if self._keys.setdefault(key, run) != run:
+            self.fails("key", f"key {key} started run {self._keys[key]} and run {run}")
+
+    def second_start(self, holder: int, run: int) -> None:
+        """Another start was accepted while a run held the rig, unless that had just ended."""
+        runtime = self.plant.runtime
+        if runtime is not None and not runtime.store.summary(holder).state.ended:
+            self.fails("one", f"run {run} was started while run {holder} was under way")
+
+    def stopped(self, pressed_s: float, outcome: dict[str, str | None]) -> None:
+        """A stop was answered."""
+        for axis, (name, trouble) in zip(self.plant.machine.axes, sorted(outcome.items()), strict=True):
+            late_s = axis.rests_from_s - pressed_s
+            if trouble is None and late_s > STOP_S:
+                self.fails("standstill", f"{name} confirmed the stop and stood {late_s:.2f} s after it")
+
+    def undisturbed(self, run: int, store: Store) -> None:
+        """A run is over, and nothing had gone wrong."""
+        summary = store.summary(run)
+        if summary.state is not State.SUCCEEDED and summary.reason_code != "prompt_expired":
+            self.fails("undisturbed", f"run {run} is {summary.state}: {summary.reason}")
+
+    def jump(self, run: int) -> None:
+        """The readout jumps at its next value."""
+        self._jumped_after[run] = len(self._shown.get(self._current.uid, {})) if self._current else 0
+
+    def disturb(self, run: int) -> None:
+        """The machine or its readout is changed during a run: its truth is no measure of that run."""
+        self._disturbed.add(run)
+
+    def off(self, since_s: float) -> None:
+        """The station has been off since then."""
+        if self.plant.machine.commanded_s > since_s:
+            self.fails("motion", "a motion began while no station ran")
+
+    def _moves_s(self) -> float:
+        return max(0.0, self.plant.machine.rests_from_s - self.plant.scheduler.now_s)
+
+    # What lies on the disk -----------------------------------------------------------------------------
+
+    def look(self, store: Store) -> None:
+        """While no run is under way and the disk is sound."""
+        while self.plant.scheduler.failures:
+            self.fails("threads", self.plant.scheduler.failures.pop())
+        fresh = store.calibrations(limit=_MANY, order="oldest", cursor=self._seen or None).items
+        for run in fresh:
+            self._look_at_run(store, run)
+            self._happens(f"kept {run}")
+        self.runs += len(fresh)
+        self._shown.clear()
+        self._seen = max([self._seen, *(run.id for run in fresh)])
+
+    def look_at_all(self, store: Store) -> None:
+        """At the end of a day, when everything was delivered."""
+        self.look(store)
+        if (broken := store.verify().broken) is not None:
+            self.fails("chains", f"the chain of records breaks at run {broken.id}")
+        if (entry := store.check_audit().broken) is not None:
+            self.fails("chains", f"the audit breaks at entry {entry}")
+        for number, serial in enumerate(self.plant.serials):
+            self._look_at_journal(store, number, serial)
+        runs = store.calibrations(limit=_MANY, order="oldest").items
+        self._look_at_deliveries(runs)
+        audited = {entry.subject for entry in store.audit(limit=_MANY) if entry.action.startswith("run.")}
+        for run in runs:
+            if f"run {run.id}" not in audited:
+                self.fails("audit", f"the start of run {run.id} is not in it")
+            if (told := self._told.get(run.uid)) is not None and run.state != told:
+                self.fails("ends", f"run {run.id} was told to be {told} and is kept as {run.state}")
+
+    def _look_at_run(self, store: Store, run: CalibrationSummary) -> None:
+        kept = {reading.reading: reading for reading in store.readings(run.id)}
+        for number, row in self._shown.get(run.uid, {}).items():
+            reading = kept.get(number)
+            if reading is None:
+                self.fails("readings", f"reading {number} of run {run.id} was shown and is not kept")
+            elif (reading.scale_mm, *reading.theta_deg) != (row.scale_mm, row.theta1_deg, row.theta2_deg):
+                self.fails("readings", f"reading {number} of run {run.id} is kept otherwise than shown")
+        if run.state in _UNFINISHED:
+            self.fails("one", f"run {run.id} is kept as {run.state}, and no run is under way")
+        times = [time for time in (run.created_at, run.started_at, run.ended_at) if time is not None]
+        if times != sorted(times):
+            self.fails("times", f"the times of run {run.id} are in the wrong order")
+        if run.verdict == "pass":
+            self._look_at_pass(store.calibration(run.id))
+
+    def _look_at_pass(self, run: Calibration) -> None:
+        read_back_alone = run.kind == "rollback"  # zeros taken back before anything had verified them
+        if run.state is not State.SUCCEEDED or not (run.step or read_back_alone):
+            self.fails("evidence", f"run {run.id} passed as {run.state} with {run.step} readings")
+            return
+        if run.kind not in ("calibrate", "diagnose"):
+            return
+        if 0 < self._jumped_after.get(run.id, 0) < (run.step or 0) - 1:
+            self.fails("evidence", f"run {run.id} passed, and the readout jumped on the way")
+        fresh = run.after.fresh_reading_rms_mm if run.after else None
+        predicted = run.plan == "adaptive"  # each reading is predicted before it is used
+        if not predicted and (fresh is None or not math.isfinite(fresh)):
+            self.fails("evidence", f"run {run.id} passed without fresh readings")
+        offsets = [(zero.value_deg, zero.sd_deg) for zero in run.zero_offsets]
+        known = [(v, sd) for v, sd in offsets if v is not None and sd is not None and math.isfinite(v + sd)]
+        if len(known) != 2:
+            self.fails("evidence", f"run {run.id} passed with zero offsets {offsets}")
+        elif run.id not in self._disturbed:
+            # the run is the last that was at this machine: its drives hold what it measured
+            true_deg = [axis.zero_offset_deg for axis in self.plant.machine.axes]
+            for joint, ((value, sd), true) in enumerate(zip(known, true_deg, strict=True), start=1):
+                if abs(value - true) > TRUE_WITHIN_SDS * sd:
+                    self.fails(
+                        "evidence", f"run {run.id} passed with joint {joint} {(value - true) / sd:.1f} sd off"
+                    )
+
+    def _look_at_journal(self, store: Store, number: int, serial: str) -> None:
+        writes = store.zero_writes(serial)
+        if any(write.taken is None for write in writes):
+            return  # in doubt, and said so: the next run settles it
+        machine = self.plant.machines[number]
+        for joint, axis in enumerate(machine.axes, start=1):
+            shifts = [write.shift_deg or 0.0 for write in writes if write.joint == joint]
+            held_deg = axis.zero_offset_deg - self.plant.first_offsets_deg[number][joint - 1]
+            if abs(sum(shifts) - held_deg) > SAME_FRAME_DEG * max(1, len(shifts)):
+                self.fails(
+                    "journal",
+                    f"joint {joint} of {serial} holds {held_deg:.3f} deg, the journal says {sum(shifts):.3f}",
+                )
+
+    def _look_at_deliveries(self, runs: list[CalibrationSummary]) -> None:
+        told = self.plant.receiver.taken
+        numbers = [n for n, _ in told]
+        first_of_each = list(dict.fromkeys(numbers))
+        if first_of_each != sorted(first_of_each):
+            self.fails("deliveries", "events overtook each other")
+        reached = {uid for _, uid in told}
+        for run in runs:
+            if run.uid not in reached:
+                self.fails("deliveries", f"the end of run {run.id} did not reach the receiver")
