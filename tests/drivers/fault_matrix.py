@@ -45,7 +45,7 @@ SCALE_TIMEOUT_S, SERVO_TIMEOUT_S, STANDSTILL_LIMIT_S = 0.3, 0.1, 0.7
 WATCHDOG_MS = 5000
 TRUTH_DEG = (2.0, -1.0)
 OUTSIDE_DEG = (-45.0, 140.0)
-LIMIT_S = 60.0
+LIMIT_S = 180.0
 SETTINGS = Settings(emulated=EmulatedSettings(speed=500.0), limits=LimitSettings(samples=2))
 
 
