@@ -9,7 +9,7 @@ import logging
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Literal, Protocol, Self
+from typing import Any, Protocol, Self
 
 import numpy as np
 
@@ -23,16 +23,25 @@ from station.records import (
     TIME,
     ColumnMap,
     Columns,
+    Measured,
     Measurements,
     Real,
     Sections,
     WeakDirection,
     parse_measurements,
-    read_measurements,
     translated,
     with_guesses,
 )
 from station.serial_arm import ARM_MODEL, Arm, SerialArm
+
+
+class HasZeroTolerance(Protocol):
+    """Tolerances of any kind of machine."""
+
+    @property
+    def zero_offset_deg(self) -> float:
+        """Of each zero offset."""
+        ...
 
 
 class AnyRobot(Protocol):
@@ -48,6 +57,11 @@ class AnyRobot(Protocol):
         """Of the robot."""
         ...
 
+    @property
+    def tolerances(self) -> HasZeroTolerance:
+        """Standard deviations of what is not known better."""
+        ...
+
     @classmethod
     def from_dict(cls, data: Sections, *, source: str = "robot") -> Self:
         """From the sections of a robot file.  :raises InputRefused:"""
@@ -61,7 +75,6 @@ class AnyRobot(Protocol):
 log = logging.getLogger(__name__)
 
 AnyMechanism = Mechanism
-Measured = Literal["position", "range"]
 
 
 @dataclass(frozen=True)
@@ -165,36 +178,49 @@ def read_readings(
 
     :raises InputRefused: anything malformed, with row, column and what to do.
     """
+    try:
+        content = path.read_bytes()
+    except OSError as error:
+        raise InputRefused(f"{path} cannot be read: {error.strerror}.") from error
+    return read_log(robot, content, path.name, measured, in_order=in_order, mapping=mapping)
+
+
+def read_log(
+    robot: AnyRobot,
+    content: bytes,
+    source: str,
+    measured: Measured = "position",
+    *,
+    in_order: bool = True,
+    mapping: ColumnMap | None = None,
+) -> Measurements:
+    """The same from the file's bytes.  :raises InputRefused: as `read_readings`."""
     kind = kind_of(robot)
     columns = kind.columns(robot)
     if not in_order:
         columns = replace(columns, time_ordered=False)
     if mapping is None and not kind.infers_columns:
-        return read_measurements(path, columns)
-    readings = _foreign(path, columns, mapping)
+        return parse_measurements(content, columns, source=source)
+    readings = _foreign(content, source, columns, mapping)
     if not kind.infers_columns:
         return readings
     if measured == "range":
         if np.isnan(readings.distance).any():
-            raise InputRefused(f"{path.name}: row 1: column range_mm is missing; distances were asked for.")
+            raise InputRefused(f"{source}: row 1: column range_mm is missing; distances were asked for.")
         readings = replace(readings, tracker=None)
     return with_guesses(readings)
 
 
-def _foreign(path: Path, columns: Columns, mapping: ColumnMap | None) -> Measurements:
+def _foreign(content: bytes, source: str, columns: Columns, mapping: ColumnMap | None) -> Measurements:
     """By way of the contract's form; readings whose target was lost are left out and counted."""
-    try:
-        content = path.read_bytes()
-    except OSError as error:
-        raise InputRefused(f"{path} cannot be read: {error.strerror}.") from error
-    read = translated(content, mapping, columns, path.name)
+    read = translated(content, mapping, columns, source)
     if read.lost:
         log.warning(
-            "%s: %d readings are left out: the instrument had lost its target there.", path.name, read.lost
+            "%s: %d readings are left out: the instrument had lost its target there.", source, read.lost
         )
     if not set(columns.theta) & set(read.names):
         raise InputRefused(
-            f"{path.name}: none of the columns {', '.join(columns.theta)} is there; `station columns "
-            f"{path.name}` proposes a column map for files made elsewhere, to be given with --columns."
+            f"{source}: none of the columns {', '.join(columns.theta)} is there; `station columns "
+            f"{source}` proposes a column map for files made elsewhere, to be given with --columns."
         )
-    return parse_measurements(read.content, columns, source=path.name)
+    return parse_measurements(read.content, columns, source=source)

@@ -22,6 +22,7 @@ class _Unit(ABC):
 
     def __init__(self, own: Device, orders: Orders, *, behind_gateway: bool) -> None:
         self._behind_gateway = behind_gateway
+        self._on_the_way = tuple(k for k in _ON_THE_WAY if k != "bad_crc" or not behind_gateway)
         self._own: Final = own
         self._orders = orders
 
@@ -42,7 +43,7 @@ class _Unit(ABC):
         reply = DriveReply(self._answer(request))
         if self._due("late"):
             return DriveReply(reply.pdu, LATE_S)
-        for kind in _ON_THE_WAY:
+        for kind in self._on_the_way:
             if self._due(kind):
                 return DriveReply(reply.pdu, spoil=kind)
         return reply

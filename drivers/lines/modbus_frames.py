@@ -41,6 +41,11 @@ class Request:
         return self.pdu[0]
 
     @property
+    def is_answered_by_a_copy(self) -> bool:
+        """Whether a proper reply cannot be told from an echo, as with function 06."""
+        return self.reply_start == self.pdu
+
+    @property
     def is_read(self) -> bool:
         """Whether it changes nothing in the drive."""
         return self.function == READ

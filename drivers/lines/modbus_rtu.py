@@ -106,7 +106,8 @@ class RtuLink:
                 if self._lane.urgent_waiting and now_s > sent_s + on_wire_s + _PATIENCE_S:
                     break
                 received += self._line.read_some(now_s + _SLICE_S)
-                self._line.refuse_echo(frame, received)
+                if not request.is_answered_by_a_copy:
+                    self._line.refuse_echo(frame, received)
                 pdu = find_rtu_reply(received, request)
                 if pdu is not None:
                     self._free_from_s = time.monotonic() + self._gap_s

@@ -261,8 +261,15 @@ class HeidenhainND(Readout):
                     raise self._garbled(reply)
                 raise self._silent()
             reply += more
-            self._line.refuse_echo(self._sent, reply)
+            self._refuse_echo(reply)
         return reply
+
+    def _refuse_echo(self, reply: bytes) -> None:
+        """The late reply to a screen command begins with the very character that asks for a value."""
+        late = self._sent == _ASK_VALUE and reply[:1] == _STX and reply[1:2] not in (b"", b"+", b"-")
+        if late:
+            raise self._garbled(reply)
+        self._line.refuse_echo(self._sent, reply)
 
     def _refuse_trailing_bytes(self) -> None:
         """More bytes than one line means that some line is not the one asked for."""

@@ -137,6 +137,10 @@ def facts_of(
         raise NotApplicable(f"Run {run} has not ended; its certificate can be made after that.")
     if calibration.verdict is None:
         raise NotApplicable(f"Run {run} has no verdict on a robot, so there is nothing to certify.")
+    if store.logs_of(run):
+        raise NotApplicable(
+            f"Run {run} was made from the log of an arm, measured elsewhere; this station cannot certify it."
+        )
     readings = store.readings(run)
     made_by = store.made_by(run)
     chained = _as_it_ended(store, run)

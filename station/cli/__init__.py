@@ -9,7 +9,7 @@ from typing import Any
 import click
 
 from station import __version__
-from station.errors import InputRefused, NotFound, StoreUnavailable
+from station.errors import InputRefused, NotApplicable, NotFound, StoreUnavailable
 from station.home import station_home
 
 _COMMANDS = {
@@ -91,7 +91,7 @@ class StationGroup(click.Group):
     def invoke(self, ctx: click.Context) -> Any:
         try:
             return super().invoke(ctx)
-        except (click.UsageError, InputRefused, NotFound, StoreUnavailable) as error:
+        except (click.UsageError, InputRefused, NotApplicable, NotFound, StoreUnavailable) as error:
             raise _refusal(error) from error
 
 

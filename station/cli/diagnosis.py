@@ -28,8 +28,15 @@ from station.diagnosis import (
     without_a_quarter,
 )
 from station.five_bar import Robot
-from station.machines import AnyRobot, Measured, read_readings, read_robot, robot_of
-from station.records import ColumnMap, MistakeRecord, RefusedDiagnosis, guesses_in_words, recorded_columns
+from station.machines import AnyRobot, read_readings, read_robot, robot_of
+from station.records import (
+    ColumnMap,
+    Measured,
+    MistakeRecord,
+    RefusedDiagnosis,
+    guesses_in_words,
+    recorded_columns,
+)
 
 _file = click.Path(path_type=Path)
 

@@ -11,8 +11,7 @@ from typing import get_args
 import click
 
 from station.errors import InputRefused
-from station.machines import Measured
-from station.records import ColumnMap, DataSource, Record
+from station.records import ColumnMap, DataSource, Measured, Record
 
 existing = click.Path(path_type=Path)
 measured_option = click.option(

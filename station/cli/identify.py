@@ -13,8 +13,8 @@ from station.cli.files import columns_option, describe, existing, measured_optio
 from station.cli.references import reference_line, references_option
 from station.five_bar import Robot
 from station.identification import Identification, identification_document, identify
-from station.machines import AnyMechanism, Measured, read_readings, read_robot
-from station.records import AnyReference, ColumnMap, IdentificationDocument, Quantity
+from station.machines import AnyMechanism, read_readings, read_robot
+from station.records import AnyReference, ColumnMap, IdentificationDocument, Measured, Quantity
 
 
 @click.command("identify")

@@ -4,15 +4,29 @@ from __future__ import annotations
 
 import getpass
 from contextlib import closing
+from dataclasses import replace
 from pathlib import Path
 
 import click
 
-from station.cli.files import content_of
+from station.cli.files import columns_option, content_of, measured_option
 from station.cli.kept import new_history
+from station.errors import NotFound
 from station.five_bar import Robot
-from station.records import CalibrationRequest, checked_name, checked_serial
-from station.run_kinds import Upload, import_dataset
+from station.machines import AnyRobot, read_robot, robot_of
+from station.records import (
+    FIVE_BAR,
+    CalibrationRequest,
+    ColumnMap,
+    KeptLog,
+    LogPart,
+    Measured,
+    checked_name,
+    checked_serial,
+    translated,
+)
+from station.run_kinds import ArmLog, Upload, import_dataset, import_log
+from station.serial_arm import Arm
 from station.settings import database_path, load_settings
 from station.store import Store
 
@@ -22,7 +36,11 @@ _file = click.Path(path_type=Path)
 @click.command("import")
 @click.argument("data", type=_file)
 @click.option("--confirm", "fresh_file", type=_file, help="Fresh readings to confirm the cause with.")
-@click.option("--serial", default=Robot.default().serial, show_default=True, help="Robot that was measured.")
+@click.option("--robot", "robot_file", type=_file, help="Robot file; by default the one kept.")
+@click.option("--serial", help="Robot that was measured; by default that of the robot file.")
+@click.option("--hold-out", is_flag=True, help="Judge an arm's log by a quarter of it, held out.")
+@measured_option
+@columns_option
 @click.option("--operator", default=getpass.getuser, help="Who imports; default: who is logged in.")
 @click.option("--config", type=_file, help="Station file that names the database.")
 @click.pass_context
@@ -30,7 +48,11 @@ def import_command(
     context: click.Context,
     data: Path,
     fresh_file: Path | None,
-    serial: str,
+    robot_file: Path | None,
+    serial: str | None,
+    hold_out: bool,
+    measured: Measured,
+    mapping: ColumnMap | None,
     operator: str,
     config: Path | None,
 ) -> None:
@@ -38,18 +60,46 @@ def import_command(
 
     Exit status 0: fresh readings confirm the model; 1: they do not, or there are none.
     """
-    learned = _read(data)
-    fresh = _read(fresh_file) if fresh_file else None
-    request = CalibrationRequest(checked_serial(serial), "import", checked_name(operator))
+    given = None if robot_file is None else read_robot(robot_file)
+    serial = checked_serial(serial or (given or Robot.default()).serial)
+    request = CalibrationRequest(serial, "import", checked_name(operator))
+    file = _kept("file", data, mapping, measured)
+    fresh = None if fresh_file is None else _kept("fresh", fresh_file, mapping, measured)
     path = database_path(load_settings(config), context.obj)
     new = new_history(path)
     with closing(Store(path)) as store:
-        run = store.summary(import_dataset(store, request, learned, fresh).id)
+        robot = _robot(store, given, serial)
+        if isinstance(robot, Arm):
+            submitted = import_log(store, request, ArmLog(robot, file, fresh, hold_out))
+        else:
+            if hold_out:
+                raise click.UsageError("--hold-out is for logs of arms; a five-bar needs fresh readings.")
+            judging = None if fresh is None else _upload(fresh, mapping)
+            submitted = import_dataset(store, request, _upload(file, mapping), judging, robot=robot)
+        run = store.summary(submitted.id)
     if new:
         click.echo(new, err=True)
     click.echo(f"Run {run.id}: {run.verdict}. {run.reason}")
     context.exit(0 if run.verdict == "pass" else 1)
 
 
-def _read(file: Path) -> Upload:
-    return Upload(file.name, content_of(file))
+def _robot(store: Store, given: AnyRobot | None, serial: str) -> Arm | Robot:
+    """As given, else as kept, else the paper's five-bar; always of this serial."""
+    if given is None:
+        try:
+            given = robot_of(store.robot_file(serial), source=f"robot {serial}")
+        except NotFound:
+            given = Robot.default(serial)
+    assert isinstance(given, Arm | Robot)
+    return replace(given, serial=serial)
+
+
+def _kept(part: LogPart, file: Path, mapping: ColumnMap | None, measured: Measured) -> KeptLog:
+    columns = "" if mapping is None else mapping.model_dump_json(exclude_defaults=True)
+    return KeptLog(part, file.name, content_of(file), columns, measured)
+
+
+def _upload(file: KeptLog, mapping: ColumnMap | None) -> Upload:
+    if mapping is None:
+        return Upload(file.name, file.content)
+    return Upload(file.name, translated(file.content, mapping, FIVE_BAR, file.name).content)

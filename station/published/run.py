@@ -120,7 +120,7 @@ class PublishedRun:
         limit = LIMIT_SDS * reading_sd
         sd = np.sqrt(np.diag(covariance))
         misfit = self._misfit(residual, limit)
-        fault = self._fault(residual, sd)
+        fault = self._fault(residual, sd, mechanism)
         before, jacobian = mechanism.position_errors(p)
         compensated = p.copy()
         compensated[:2] = 0.0
@@ -180,16 +180,32 @@ class PublishedRun:
         left -= left.mean(axis=0)
         return spread, np.sqrt(np.sum(left**2, axis=1))
 
-    def _fault(self, residual: Real, sd: Real) -> Reason | None:
+    def _fault(self, residual: Real, sd: Real, mechanism: FiveBar) -> Reason | None:
         """Why the passes came to nothing; None when they converged to numbers that can be."""
         if not self.converged:
-            return because("mu_too_large", limit_deg=MU_0_DEG, passes=len(self._steps))
+            return self._not_settled(mechanism)
         if not (np.isfinite(sd[:2]).all() and np.isfinite(self.total).all() and np.isfinite(residual).all()):
             return because("not_finite")
         beyond = float(np.degrees(np.abs(self.total)).max())
         if beyond > MOST_ZERO_OFFSET * self.robot.tolerances.zero_offset_deg:
             return because("offset_impossible", offset_deg=beyond)
         return None
+
+    def _not_settled(self, mechanism: FiveBar) -> Reason:
+        """A step of the readout that alone moves mu (eq. 32) near its threshold is named as the cause."""
+        by_noise = self._steps[-1].gain[:2] * mechanism.row_sd
+        scatter_deg = float(np.degrees(np.sqrt(np.sum(by_noise**2))))  # of the difference of two passes, rms
+        step_mm = mechanism.measurements.resolution_mm
+        passes = len(self._steps)
+        if not step_mm or scatter_deg < MU_0_DEG / 2:
+            return because("mu_too_large", limit_deg=MU_0_DEG, passes=passes)
+        return because(
+            "readout_too_coarse",
+            limit_deg=MU_0_DEG,
+            passes=passes,
+            step_um=step_mm * 1e3,
+            scatter_deg=scatter_deg,
+        )
 
     def _misfit(self, residual: Real, limit: Real) -> Reason | None:
         """The reading that the model accounts for least, if it is beyond its limit."""

@@ -62,6 +62,7 @@ from station.records.identification_document import (
     ResidualSummary,
 )
 from station.records.kept import KeptRobot, StoredEvent
+from station.records.kept_log import ImportedLog, KeptLog, LogDocuments, LogPart, Measured
 from station.records.live import (
     CalibrationHolds,
     DeviceState,
@@ -246,18 +247,23 @@ __all__ = [
     "FreshReading",
     "GateOfMemory",
     "IdentificationDocument",
+    "ImportedLog",
     "Index",
     "Interlock",
     "Iteration",
     "JointAngle",
     "JointApplication",
     "JointCurve",
+    "KeptLog",
     "KeptRobot",
     "LastingParameters",
     "LearnedRanges",
     "LearnedReadings",
+    "LogDocuments",
+    "LogPart",
     "MachineView",
     "MadeBy",
+    "Measured",
     "MeasurementSequence",
     "Measurements",
     "MemorySummary",

@@ -91,6 +91,8 @@ class Calibration(CalibrationSummary, ResultParts):
 
     metadata: dict[str, JsonValue] = Field(default_factory=dict)
     zero_offset_tolerance_deg: float | None = None
+    machine: str = "five-bar"
+    """Model of its robot file."""
     prompt: Prompt | None = None
     """What the run asks, in state `waiting`."""
     application: Application | None = None

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import tomllib
+from codecs import BOM_UTF8
 from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import Field, ValidationError
 
 from station.errors import InputRefused
-from station.records.sections import Finite, Section, refusal
+from station.records.sections import Finite, Section, refusal, sections_of_toml
 from station.records.units import Unit
 
 ROW_NUMBER = "row number"
@@ -68,8 +68,6 @@ class ColumnMap(Section):
     def parse(cls, content: bytes, source: str = "Column map") -> ColumnMap:
         """:raises InputRefused: not TOML, or a key or value out of place."""
         try:
-            return cls.model_validate(tomllib.loads(content.decode("utf-8-sig")))
-        except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-            raise InputRefused(f"{source} is not valid TOML: {error}.") from error
+            return cls.model_validate(sections_of_toml(content.removeprefix(BOM_UTF8), source))
         except ValidationError as error:
             raise refusal(error, source) from error

@@ -15,6 +15,7 @@ from station.run_kinds.check import check_run
 from station.run_kinds.diagnose import diagnosed
 from station.run_kinds.error_maps import error_map
 from station.run_kinds.import_file import Upload, import_dataset
+from station.run_kinds.import_log import ArmLog, import_log, import_measured
 from station.run_kinds.kind import RUN_KINDS, Continued, RunKind, Start, kind_of_plan, request_of
 from station.run_kinds.lock import calibration_holds, check_not_locked, clear_failed_check
 from station.run_kinds.separate import planned
@@ -23,6 +24,7 @@ from station.run_kinds.zero_state import application
 
 __all__ = [
     "RUN_KINDS",
+    "ArmLog",
     "Continued",
     "RunKind",
     "Start",
@@ -38,6 +40,8 @@ __all__ = [
     "error_map",
     "fit_in_sequence",
     "import_dataset",
+    "import_log",
+    "import_measured",
     "kind_of_plan",
     "planned",
     "request_of",

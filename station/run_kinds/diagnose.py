@@ -100,8 +100,8 @@ def result_of(
         zero_offsets=findings.parameters[:2],
         parameters=findings.parameters[2:],
         weak_direction=findings.weak_direction,
-        before=_errors(document.before),
-        after=_errors(document.after),
+        before=stage_accuracy(document.before),
+        after=stage_accuracy(document.after),
         residuals=residual_rows(kept, residual.after_mm, residual.limit_mm),
         references=tuple(
             ReferenceUse(reference=r, residual=None, sd=None, unit=r.unit, p_value=None) for r in references
@@ -118,7 +118,8 @@ def _described(readings: list[Reading]) -> DataSource:
     return DataSource(file="measurement sequence 1", readings=len(readings), sha256=digest)
 
 
-def _errors(stage: StageAccuracy) -> Accuracy:
+def stage_accuracy(stage: StageAccuracy) -> Accuracy:
+    """As a result shows it."""
     return Accuracy(
         reading_rms_mm=stage.fit_rms_mm,
         fresh_reading_rms_mm=stage.confirm_rms_mm,

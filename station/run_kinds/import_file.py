@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 from station.diagnosis import Context
 from station.errors import InputRefused
+from station.five_bar import Robot
 from station.records import (
     STATION,
     Actor,
@@ -43,10 +44,13 @@ def import_dataset(
     learned: Upload,
     fresh: Upload | None = None,
     *,
+    robot: Robot | None = None,
     idempotency_key: str | None = None,
     by: Actor = STATION,
 ) -> Submitted:
     """Diagnose the readings of a file and keep both; `fresh` ones, taken afterwards, confirm.
+
+    :param robot: by default the one kept for the serial, else the nominal one
 
     Nothing is stored before everything is known, so that a refusal leaves nothing behind.
 
@@ -63,7 +67,7 @@ def import_dataset(
         known = store.find_key(idempotency_key, body_hash)
         if known is not None:
             return Submitted(known, created=False)
-    robot = store.robot_or_nominal(request.robot_serial)
+    robot = robot or store.robot_or_nominal(request.robot_serial)
     readings = parse_readings(learned.content, source=learned.name, in_order=False)
     later: list[Reading] = []
     if fresh is not None:

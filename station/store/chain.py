@@ -27,6 +27,7 @@ _READING = (
     "reading", "walk", "t_s", "theta1_deg", "theta2_deg", "approach1", "approach2", "scale_mm", "position",
     "temperature_c", "payload_kg", "mount",
 )  # fmt: skip
+_LOG = ("part", "name", "columns", "measured")
 _START = ""
 """What stands in for the hash before the first one."""
 
@@ -108,7 +109,8 @@ def verify(ask: Ask) -> Verified:
 def record_of(ask: Ask, run: int, samples_sha256: str, wire_sha256: str | None = None) -> dict[str, Any]:
     """Everything that is kept of a finished run.
 
-    Of version 3 where it is known what made it, of version 2 where it has only a wire log.
+    Of version 4 where it is a log made elsewhere, of version 3 where it is known what made it, of version 2
+    where it has only a wire log.
 
     :raises LookupError: there is no such run.
     """
@@ -127,6 +129,13 @@ def record_of(ask: Ask, run: int, samples_sha256: str, wire_sha256: str | None =
         version = {"version": 3, "wire_sha256": wire_sha256, "made_by": made_by[0][0]}
     elif wire_sha256 is not None:
         version = {"version": 2, "wire_sha256": wire_sha256}
+    logs = ask(f"SELECT {', '.join(_LOG)}, content FROM logs WHERE run_id = ? ORDER BY part", [run])
+    if logs:
+        kept = [
+            dict(zip((*_LOG, "content_sha256"), (*own, _sha256(content)), strict=True))
+            for *own, content in logs
+        ]
+        version = {"version": 4, "logs": kept}
     return {
         **version,
         **dict(zip(_RUN, values, strict=True)),

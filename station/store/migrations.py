@@ -285,5 +285,21 @@ def users_of_a_provider(db: Database) -> None:
     db.execute("CREATE UNIQUE INDEX users_openid ON users (openid_sha256)")
 
 
+@migrations()
+def logs(db: Database) -> None:
+    """Logs of other machines to the byte, and what was found in them."""
+    db.execute(
+        """CREATE TABLE logs (
+            run_id INTEGER NOT NULL REFERENCES calibrations (id), part TEXT NOT NULL, name TEXT NOT NULL,
+            columns TEXT NOT NULL, measured TEXT NOT NULL, content BLOB NOT NULL,
+            PRIMARY KEY (run_id, part)) WITHOUT ROWID"""
+    )
+    db.execute(
+        """CREATE TABLE log_documents (
+            run_id INTEGER PRIMARY KEY REFERENCES calibrations (id), residuals BLOB NOT NULL,
+            report BLOB NOT NULL)"""
+    )
+
+
 def _expand(blob: bytes) -> bytes:
     return zlib.decompressobj(zdict=_WORDS).decompress(blob)

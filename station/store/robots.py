@@ -6,20 +6,37 @@ import json
 import sqlite3
 from dataclasses import replace
 from datetime import UTC, datetime
+from typing import Protocol
 
-from station.errors import NotFound
-from station.five_bar import Robot
-from station.records import Actor, KeptRobot, LastingParameters, Remembered
+from station.errors import NotApplicable, NotFound
+from station.five_bar import FIVE_BAR_MODEL, Robot
+from station.records import Actor, KeptRobot, LastingParameters, Remembered, Sections
 from station.store.audit import AuditTrail
 from station.store.rows import compact, moment
 from station.store.times import now_ms
 
 
+class RobotFile(Protocol):
+    """Of any kind of machine."""
+
+    @property
+    def serial(self) -> str:
+        """Of the robot."""
+        ...
+
+    def to_json(self) -> Sections:
+        """The sections of its file."""
+        ...
+
+
 class RobotFiles(AuditTrail):
     """A changed robot file is a new version; a run keeps the version it was made with."""
 
-    def save_robot(self, robot: Robot) -> int:
-        """Keep a robot file; a changed one becomes a new version.  Returns the version's row id."""
+    def save_robot(self, robot: RobotFile) -> int:
+        """Keep a robot file; a changed one becomes a new version.  Returns the version's row id.
+
+        :raises NotApplicable: the serial is that of another kind of machine.
+        """
         file = compact(robot.to_json())
         with self._writing() as db:
             row = db.execute(
@@ -27,13 +44,18 @@ class RobotFiles(AuditTrail):
             ).fetchone()
             if row is not None and row[1] == file:
                 return int(row[0])
+            if row is not None and (own := _model(json.loads(row[1]))) != _model(robot.to_json()):
+                raise NotApplicable(
+                    f"Robot {robot.serial} is kept as a machine of model {own}; "
+                    "give another kind of machine another serial number."
+                )
             cursor = db.execute(
                 "INSERT INTO robots (serial, file, saved_ms) VALUES (?, ?, ?)",
                 [robot.serial, file, now_ms()],
             )
             return int(cursor.lastrowid or 0)
 
-    def change_robot(self, by: Actor, robot: Robot) -> None:
+    def change_robot(self, by: Actor, robot: RobotFile) -> None:
         """Keep a robot file that somebody gave."""
         before = self._readers.one(
             "SELECT file FROM robots WHERE serial = ? ORDER BY id DESC LIMIT 1", [robot.serial]
@@ -44,12 +66,16 @@ class RobotFiles(AuditTrail):
             after = json.loads(compact(robot.to_json()))
             self.record(by, "robot.changed", f"robot {robot.serial}", before=known, after=after)
 
-    def robot(self, serial: str) -> Robot:
-        """The latest version of a robot's file.  :raises NotFound:"""
+    def robot_file(self, serial: str) -> Sections:
+        """The latest version of the file of a robot of any kind.  :raises NotFound:"""
         row = self._readers.one("SELECT file FROM robots WHERE serial = ? ORDER BY id DESC LIMIT 1", [serial])
         if row is None:
             raise NotFound(f"Robot {serial} is not known here.")
-        return Robot.from_dict(json.loads(row["file"]), source=f"robot {serial}")
+        return _sections(row["file"])
+
+    def robot(self, serial: str) -> Robot:
+        """The latest version of a five-bar's file.  :raises NotFound: :raises NotApplicable:"""
+        return _five_bar(self.robot_file(serial), f"robot {serial}")
 
     def robot_or_nominal(self, serial: str) -> Robot:
         """The same, and the paper's Table 1 for a robot that no file is kept of."""
@@ -69,15 +95,19 @@ class RobotFiles(AuditTrail):
             for row in rows
         ]
 
-    def robot_of(self, calibration_id: int) -> Robot:
-        """The robot file as it was when the calibration was made.  :raises NotFound:"""
+    def robot_file_of(self, calibration_id: int) -> Sections:
+        """The robot file of any kind as it was when the calibration was made.  :raises NotFound:"""
         row = self._readers.one(
             "SELECT file FROM robots WHERE id = (SELECT robot_id FROM calibrations WHERE id = ?)",
             [calibration_id],
         )
         if row is None:
             raise NotFound(f"There is no calibration {calibration_id}.")
-        return Robot.from_dict(json.loads(row["file"]), source=f"robot of calibration {calibration_id}")
+        return _sections(row["file"])
+
+    def robot_of(self, calibration_id: int) -> Robot:
+        """The same of a five-bar.  :raises NotFound: :raises NotApplicable:"""
+        return _five_bar(self.robot_file_of(calibration_id), f"robot of calibration {calibration_id}")
 
 
 class Memories(RobotFiles):
@@ -121,6 +151,26 @@ class Memories(RobotFiles):
                 [now_ms(), by.name, serial],
             ).rowcount
             self.record(by, "memory.cleared", f"robot {serial}", before={"memories": cleared})
+
+
+def _sections(text: str) -> Sections:
+    sections: Sections = json.loads(text)
+    return sections
+
+
+def _model(file: Sections) -> str:
+    section = file.get("robot")
+    return str(section.get("model", FIVE_BAR_MODEL)) if isinstance(section, dict) else FIVE_BAR_MODEL
+
+
+def _five_bar(file: Sections, source: str) -> Robot:
+    model = _model(file)
+    if model != FIVE_BAR_MODEL:
+        raise NotApplicable(
+            f"The {source} is a machine of model {model}. Its logs can be imported and diagnosed; "
+            "measuring, applying and solving are for five-bars."
+        )
+    return Robot.from_dict(file, source=source)
 
 
 def _remembered(row: sqlite3.Row) -> Remembered:

@@ -35,6 +35,8 @@ LIST_COLUMNS = (
     " reason_code, reason_params, step, steps, created_ms, started_ms, ended_ms,"
     " zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg"
 )
+IN_LISTS = 2
+"""Zero offsets that lists show; an arm has more."""
 _SAMPLE_DIGITS = 5
 _SAMPLE_UNIT_MM = 10.0**-_SAMPLE_DIGITS
 """A tenth of the finest step of any supported readout."""
@@ -126,9 +128,10 @@ def summary_from_row(row: sqlite3.Row) -> CalibrationSummary:
 def calibration_from_row(row: sqlite3.Row) -> Calibration:
     """All that the store knows of it; what the drives hold of it is not in its row."""
     parts = json.loads(row["result"]) if row["result"] else {}
-    parts.pop("zero_offsets", None)
+    offsets = parts.pop("zero_offsets", [])
+    summary = _summary(row) | ({"zero_offsets": offsets} if len(offsets) > IN_LISTS else {})
     metadata = json.loads(row["metadata"]) if row["metadata"] else {}
-    return Calibration.model_validate({**parts, **_summary(row), "metadata": metadata})
+    return Calibration.model_validate({**parts, **summary, "metadata": metadata})
 
 
 def _summary(row: sqlite3.Row) -> dict[str, object]:

@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import TypeVar
 
 from station.errors import KeyReused, NotFound, StoreUnavailable
-from station.five_bar import Robot
 from station.records import (
     STATION,
     Actor,
@@ -22,6 +21,7 @@ from station.records import (
     CalibrationResult,
     CalibrationSummary,
     DiagnosisDocument,
+    ImportedLog,
     MadeBy,
     Reading,
     Reason,
@@ -32,10 +32,11 @@ from station.records import (
 from station.store.chain import Verified, append, verify
 from station.store.ends import End, UnstoredEnds, end_of
 from station.store.filters import FEW, Filters, Order, where
+from station.store.logs import Logs
 from station.store.outbox import Outbox
 from station.store.people import People
 from station.store.provenance import Provenance
-from station.store.robots import Memories
+from station.store.robots import Memories, RobotFile
 from station.store.rows import (
     LIST_COLUMNS,
     READING_COLUMNS,
@@ -70,7 +71,17 @@ _DEEDS = {"apply": "run.applied", "rollback": "run.rolled_back"}
 
 
 class Store(
-    StoredEvents, Memories, ZeroJournal, WireLogs, Provenance, Trends, Tables, People, SettingsInUse, Outbox
+    StoredEvents,
+    Memories,
+    ZeroJournal,
+    WireLogs,
+    Logs,
+    Provenance,
+    Trends,
+    Tables,
+    People,
+    SettingsInUse,
+    Outbox,
 ):
     """Thread safe.  Order is by number: the clock that gives the times may jump.
 
@@ -87,7 +98,7 @@ class Store(
     def create(
         self,
         request: CalibrationRequest,
-        robot: Robot,
+        robot: RobotFile,
         *,
         key: str | None = None,
         body_hash: bytes = b"",
@@ -143,19 +154,25 @@ class Store(
     def add_run(
         self,
         request: CalibrationRequest,
-        robot: Robot,
+        robot: RobotFile,
         readings: Sequence[Reading],
         result: CalibrationResult,
         *,
+        log: ImportedLog | None = None,
         key: str | None = None,
         body_hash: bytes = b"",
         by: Actor = STATION,
     ) -> int:
-        """A run that was measured elsewhere, whole or not at all.  :raises KeyReused: as `create`."""
+        """A run that was measured elsewhere, whole or not at all.  :raises KeyReused: as `create`.
+
+        :param log: in place of readings, of another kind of machine.
+        """
         with self._writing():
             calibration_id = self.create(request, robot, key=key, body_hash=body_hash, by=by)
             self.set_state(calibration_id, State.RUNNING, steps=len(readings))
             self.add_readings(calibration_id, readings)
+            if log is not None:
+                self.keep_log(calibration_id, log)
             self._end(calibration_id, end_of(State.SUCCEEDED, result, None, self._times.now(calibration_id)))
         return calibration_id
 

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import math
 import resource
 import time
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,16 +17,18 @@ from station.diagnosis import (
     Transfer,
     curve_chart,
     curves,
+    kept_fresh,
     model_document,
     shown,
     traced,
     transfer,
     without_a_quarter,
 )
-from station.machines import Measured, read_readings
-from station.records import Measurements, StageErrors
+from station.machines import read_readings
+from station.records import Measured, Measurements, StageErrors
 from station.report import standalone
 from station.serial_arm import Arm
+from station.studies.plain_pipelines import pipelines
 
 
 @dataclass(frozen=True)
@@ -45,6 +48,10 @@ class Found:
     tied: tuple[str, ...]
     hints: tuple[str, ...]
     left_out: tuple[int | str, ...]
+    plain: Mapping[str, float]
+    """RMS of the same readings by plain pipelines; empty where they are not installed."""
+    predicted_rms_mm: float
+    """Position error that the loop itself predicts for the poses."""
 
 
 @dataclass(frozen=True)
@@ -107,6 +114,8 @@ def _found(robot: Arm, path: Path, measured: Measured) -> Found:
         tied=tuple(findings.weak_direction.blind),
         hints=tuple(f"{h.text} ({100.0 * h.strength:.0f} %)" for h in d.hints),
         left_out=tuple(o.reading for o in d.outliers),
+        plain=pipelines(d, kept_fresh(d)),
+        predicted_rms_mm=findings.position_errors[1].rms,
     )
 
 
@@ -141,10 +150,37 @@ def _page(result: Study) -> Iterator[str]:
         yield f"| {f.log} | {f.measured} | {f.readings} | {figures} | {f.verdict} | {f.seconds:.0f} |"
     yield ""
     yield f"Peak memory {result.memory_mb:.0f} MB."
+    if any(f.plain for f in result.found):
+        yield from _comparison(result.found)
     if result.transfers:
         yield from _transfers(result.transfers)
     for f in result.found:
         yield from _causes(f)
+
+
+def _comparison(found: Sequence[Found]) -> Iterator[str]:
+    names = next(f.plain for f in found if f.plain)
+    yield ""
+    yield "## Beside plain pipelines"
+    yield ""
+    yield (
+        "The same readings to learn from, the same to be judged by, in one run. Each pipeline predicts what "
+        "the fit of six errors a link leaves. The last column is the position error that the loop predicts "
+        "for the poses, without having seen the readings that judge it."
+    )
+    yield ""
+    yield f"| log | measured | {' | '.join(names)} | the loop | predicted by the loop |"
+    yield f"|---|---|{'---|' * (len(names) + 2)}"
+    for f in found:
+        best = min((*f.plain.values(), f.stages[-1].confirm_rms_mm or math.inf))
+        shown = [_bold(value, best) for value in (*f.plain.values(), f.stages[-1].confirm_rms_mm)]
+        yield f"| {f.log} | {f.measured} | {' | '.join(shown)} | {f.predicted_rms_mm:.4f} |"
+
+
+def _bold(value: float | None, best: float) -> str:
+    if value is None:
+        return ""
+    return f"**{value:.4f}**" if value <= best else f"{value:.4f}"
 
 
 def _transfers(transfers: Sequence[tuple[str, str, Transfer]]) -> Iterator[str]:

@@ -5,11 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
 
 from station.records import parse_readings, readings_to_csv
 from station.run_kinds import import_file as dataset
 from tests.station.run_kinds.test_diagnose import BACKLASH, machine, run
+from tests.station.serial_arm.simulated import UR_LIKE, random_arm, random_poses
 from tests.web.conftest import Service
 from tests.web.test_problems import problem_of
 
@@ -266,3 +268,29 @@ def test_ids_that_are_no_rising_numbers_are_replaced_by_the_row() -> None:
     rows = b"a,0,0,180,1\nb,1,1,181,2\nc,2,2,182,3\nd,3,3,183,4\ne,4,4,184,5\n"
     assert [r.reading for r in parse_readings(HEADER + rows, after=7)] == [8, 9, 10, 11, 12]
     assert [r.position for r in parse_readings(HEADER + rows)][:2] == ["row 2", "row 3"]
+
+
+def test_the_log_of_an_arm_is_imported_once_its_robot_file_is_kept(service: Service) -> None:
+    arm = random_arm(UR_LIKE, 31)
+    m = arm.log(random_poses(6, 40, 31), 31)
+    assert m.tracker is not None
+    header = [f"theta{i}_deg" for i in range(1, 7)] + [f"tracker_{a}_mm" for a in "xyz"]
+    rows = np.column_stack([np.degrees(m.theta), m.tracker]).tolist()
+    content = "\n".join(",".join(map(str, row)) for row in (header, *rows)).encode()
+    unknown = send(service, content, robot_serial="A6", operator="ada")
+    assert unknown.status_code == 422
+    kept = service.client.put("/api/v1/robots/A6", json=arm.robot.to_json())
+    assert (kept.status_code, kept.json()["file"]["robot"]["model"]) == (200, "serial-dh")
+    answer = send(service, content, robot_serial="A6", operator="ada")
+    assert answer.status_code == 201
+    address = answer.headers["location"]
+    run = service.client.get(address).json()
+    assert (run["machine"], len(run["zero_offsets"]), run["step"]) == ("serial-dh", 6, 40)
+    assert len(service.client.get(f"{address}/residuals").json()["items"]) == 40
+    assert "<svg" in service.client.get(f"{address}/report.html").text
+    assert service.client.get(f"{address}/readings.csv").content == content
+    for what in ("readings", "error-map", "certificate.json"):
+        problem_of(service.client.get(f"{address}/{what}"), 409)
+    assert service.client.get(f"{address}/separating").json()["refused"]
+    # and the rig does not start a run of it
+    assert service.start(robot_serial="A6").status_code == 409

@@ -9,6 +9,7 @@ from fastapi import BackgroundTasks, Depends, Query, Response
 from starlette.exceptions import HTTPException
 
 from station.errors import Forbidden
+from station.machines import robot_of
 from station.people import Permission
 from station.records import (
     LARGEST_ID,
@@ -114,11 +115,13 @@ def count_calibrations(runtime: TheRuntime, filters: TheFilters) -> RunCount:
 def read_calibration(calibration_id: CalibrationId, runtime: TheRuntime) -> Calibration:
     """One run in full."""
     calibration = runtime.store.calibration(calibration_id)
+    robot = robot_of(runtime.store.robot_file_of(calibration_id))
     known = {
+        "machine": robot.model,
         "application": application(runtime.store, calibration),
         "prompt": runtime.orchestrator.prompt(calibration_id),
         "made_by": runtime.store.made_by(calibration_id),
-        "zero_offset_tolerance_deg": runtime.store.robot_of(calibration_id).tolerances.zero_offset_deg,
+        "zero_offset_tolerance_deg": robot.tolerances.zero_offset_deg,
     }
     return calibration.model_copy(update=known)
 

@@ -12,7 +12,7 @@ from pydantic import ValidationError
 
 from station.people import Permission
 from station.records import Actor, CalibrationRequest, CalibrationSummary
-from station.run_kinds import import_dataset
+from station.run_kinds import import_measured
 from web.aside import aside
 from web.bodies import DatasetFields
 from web.guarded import Router, needs
@@ -46,13 +46,14 @@ async def import_measurement_file(
 
     A CSV body, or a form with `file` and, to confirm the cause, `fresh`: readings taken afterwards at
     other places.  Only what fresh readings confirm is a pass.  A refused file leaves nothing behind.
+    The log of a serial arm needs the arm's robot file, kept with `PUT /robots/{serial}` before.
     """
     sent = await uploaded(request, *FILES)
     fields = _with(query, sent.fields)
 
     def work() -> CalibrationSummary:
         with _one_at_a_time:
-            submitted = import_dataset(
+            submitted = import_measured(
                 runtime.store,
                 CalibrationRequest(kind="import", **fields.model_dump()),
                 sent.files["file"],

@@ -54,6 +54,8 @@ def read_diagnosis(calibration_id: CalibrationId, runtime: TheRuntime) -> Diagno
 )
 def read_residuals(calibration_id: CalibrationId, runtime: TheRuntime) -> ResidualList:
     """The residual of every reading without and with the effects, computed again from the stored readings."""
+    if (kept := runtime.store.log_documents(calibration_id)) is not None:
+        return ResidualList.model_validate_json(kept.residuals)
     findings, readings = _again(runtime, calibration_id)
     found = residuals(findings, {r.reading: r.position for r in readings})
     return ResidualList(
@@ -90,10 +92,13 @@ def read_separating(calibration_id: CalibrationId, runtime: TheRuntime) -> Separ
 )
 def read_report(calibration_id: CalibrationId, runtime: TheRuntime) -> HTMLResponse:
     """The diagnosis as a page with drawings, computed again from the stored readings."""
+    headers = {"Content-Security-Policy": REPORT_POLICY}
+    if (kept := runtime.store.log_documents(calibration_id)) is not None:
+        return HTMLResponse(kept.report, headers=headers)
     findings, _ = _again(runtime, calibration_id)
     uid = runtime.store.summary(calibration_id).uid
     report = page(findings, f"run {calibration_id}, uid {uid}, robot {findings.robot.serial}")
-    return HTMLResponse(report.to_html(), headers={"Content-Security-Policy": REPORT_POLICY})
+    return HTMLResponse(report.to_html(), headers=headers)
 
 
 @router.post(

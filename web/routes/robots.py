@@ -9,7 +9,7 @@ from pydantic import JsonValue
 from starlette.exceptions import HTTPException
 
 from station.errors import FieldRefused, InputRefused
-from station.five_bar import Robot as RobotFile
+from station.machines import robot_of
 from station.people import Permission
 from station.records import Actor, CalibrationHolds, sections_of_toml
 from station.service import Runtime
@@ -77,7 +77,7 @@ async def put_robot(
         raise HTTPException(415, "Send the robot file as application/toml or application/json.")
     if not isinstance(sections, dict):
         raise InputRefused("A robot file has sections; the first is [robot].")
-    robot = RobotFile.from_dict(sections, source=f"robot {serial}")
+    robot = robot_of(sections, source=f"robot {serial}")
     if robot.serial != serial:
         raise FieldRefused("robot.serial", f"The file is of robot {robot.serial}, the address of {serial}.")
     await aside(lambda: runtime.store.change_robot(by, robot))
@@ -88,7 +88,7 @@ def _known(runtime: Runtime, serial: str) -> Robot:
     memory = runtime.store.memory(serial)
     return Robot(
         serial=serial,
-        file=runtime.store.robot(serial).to_json(),
+        file=robot_of(runtime.store.robot_file(serial)).to_json(),
         memory=memory.summary() if memory else None,
     )
 

@@ -181,7 +181,7 @@ class TracedFindings(Findings):
             before_mm=left[0],
             by_effect_mm=tuple(a - b for a, b in pairwise(left)),
             after_mm=left[-1],
-            limit_mm=LIMIT_SDS * d.last.row_sd,
+            limit_mm=LIMIT_SDS * _each_reading(d.last, d.last.row_sd),
             theta=c.theta,
             approach=c.approach,
             travel_mm=c.travel,
@@ -229,7 +229,9 @@ def _name(term: Term) -> EffectName:
 
 def _by_reading(fit: Fit) -> Real:
     """(K,) mm: the residual of each reading, of several coordinates its length."""
+    return _each_reading(fit, fit.residual_mm)
+
+
+def _each_reading(fit: Fit, rows: Real) -> Real:
     mechanism = fit.model.mechanism
-    if len(fit.residual_mm) == len(mechanism.measurements):
-        return fit.residual_mm
-    return by_reading(mechanism, fit.residual_mm)
+    return rows if len(rows) == len(mechanism.measurements) else by_reading(mechanism, rows)

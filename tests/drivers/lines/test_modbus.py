@@ -117,6 +117,13 @@ def test_another_drives_reply_is_no_reply() -> None:
         assert bus.read(1, 0x1000, 1) == [0x1111]
 
 
+def test_a_write_is_confirmed_by_its_copy() -> None:
+    frame = rtu("01 06 0401 0083")
+    with rtu_bus((frame, frame), (READ_1000, rtu("01 03 02 1111"))) as bus:
+        bus.write_one(1, 0x0401, 0x0083)
+        assert bus.read(1, 0x1000, 1) == [0x1111]
+
+
 def test_an_unanswered_write_is_not_sent_again() -> None:
     once = (rtu("01 06 0401 0083"), SILENCE)
     with rtu_bus(once) as bus, pytest.raises(UnansweredWrite, match="did not confirm"):

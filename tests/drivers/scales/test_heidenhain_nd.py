@@ -269,3 +269,12 @@ def test_no_other_line_becomes_a_number(line: bytes) -> None:
     except DeviceError:
         return
     assert len(line) == 17 and abs(value_mm) < 1e9
+
+
+def test_a_late_reply_to_another_question_is_no_echo() -> None:
+    """It begins with the very character that asks for a value."""
+    with (
+        connected((b"\x02", b"\x02ND281B    \r\n"), budget_s=0.0) as scale,
+        pytest.raises(GarbledReply, match="not a reply it may give"),
+    ):
+        scale.read_mm()

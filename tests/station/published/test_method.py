@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -18,6 +21,7 @@ from station.published.method import (
     tsvd,
 )
 from station.published.positions import conditioning, positions_per_edge
+from station.records import Procedure, Reading
 from tests.station.asking import start_procedure
 from tests.station.simulated import calibrated, group, value_and_sd
 
@@ -122,8 +126,6 @@ def test_a_published_run_with_a_wrong_reading_fails() -> None:
 
         def send(self, readings: list) -> object:  # type: ignore[type-arg]
             third = readings[2]
-            from dataclasses import replace
-
             wrong = replace(third, scale_mm=third.scale_mm + 0.06)
             return procedure.send([*readings[:2], wrong, *readings[3:]])
 
@@ -133,3 +135,45 @@ def test_a_published_run_with_a_wrong_reading_fails() -> None:
     result = calibrated(Disturbed(), ROBOT, group(4), seed=1)  # type: ignore[arg-type]
     assert result.verdict == "fail"
     assert result.reason.code in ("reading_beyond_limit", "mu_too_large")
+
+
+class Coarse:
+    """A procedure whose readout counts in steps."""
+
+    def __init__(self, procedure: Procedure, step_mm: float) -> None:
+        self._procedure, self._step_mm = procedure, step_mm
+
+    def send(self, readings: list[Reading]) -> object:
+        return self._procedure.send([self._rounded(reading) for reading in readings])
+
+    def __next__(self) -> object:
+        return next(self._procedure)
+
+    def _rounded(self, reading: Reading) -> Reading:
+        value_mm = round(reading.scale_mm / self._step_mm) * self._step_mm
+        return replace(reading, scale_mm=value_mm, samples_mm=(value_mm,) * 5)
+
+
+def test_a_readout_of_10_um_widens_what_is_claimed_or_is_named() -> None:
+    """What passes is right within what it claims; what does not settle says that the readout is the cause."""
+    ends = set()
+    for number in range(12):
+        truth = group(number % 6 + 1)
+        coarse: Any = Coarse(start_procedure("paper", ROBOT), 0.01)
+        result = calibrated(coarse, ROBOT, truth, seed=number)
+        value, sd = value_and_sd(result)
+        off = np.abs(np.array(value) - np.degrees(truth[:2]))
+        ends.add(result.reason.code)
+        if result.verdict == "pass":
+            assert min(sd) > 0.13  # 0.127 with a display of 0.1 um
+            assert (off < 3.0 * np.array(sd)).all()
+        else:
+            assert result.outcome == "failed", result.reason
+    assert ends <= {"converged", "readout_too_coarse"}
+
+
+def test_a_readout_too_coarse_for_the_passes_is_the_reason() -> None:
+    coarse: Any = Coarse(start_procedure("paper", ROBOT), 0.1)
+    result = calibrated(coarse, ROBOT, group(4), seed=1)
+    assert (result.verdict, result.reason.code) == ("fail", "readout_too_coarse")
+    assert "counts in steps of 100 \u00b5m" in result.reason.text

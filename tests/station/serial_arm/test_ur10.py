@@ -17,7 +17,8 @@ from station.diagnosis.report.joint_curves import curves
 from station.diagnosis.report.traced_findings import TracedFindings
 from station.diagnosis.tests_of_fit.cross_validation import without_a_quarter
 from station.diagnosis.traced_loop import traced
-from station.machines import AnyRobot, Measured, read_readings, read_robot
+from station.machines import AnyRobot, read_readings, read_robot
+from station.records import Measured
 from tests.station.simulated import DATA, needs_data
 
 LOGS = DATA / "ur10"

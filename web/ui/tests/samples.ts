@@ -197,6 +197,7 @@ export const calibration = (given: Partial<Calibration> = {}): Calibration => ({
   metadata: {},
   method: "published",
   zero_offset_tolerance_deg: 1,
+  machine: "five-bar",
   parameters: [],
   weak_direction: null,
   application: null,

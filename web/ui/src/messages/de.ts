@@ -336,6 +336,10 @@ export const de: Messages = {
         button: "Neu kalibrieren",
         text: "Die Antriebe haben diese Nullpunkte nicht. Kalibrieren Sie neu.",
       },
+      too_coarse: {
+        button: "Mit Plan full kalibrieren",
+        text: "Die Schritte der Anzeige sind für diesen Plan zu grob.",
+      },
       shifted: {
         button: "Neu kalibrieren",
         text: "Die Nullpunkte haben sich seit der letzten Kalibrierung verschoben.",

@@ -360,6 +360,10 @@ export const en = {
         button: "Calibrate again",
         text: "The drives do not hold these zero offsets. Calibrate again.",
       },
+      too_coarse: {
+        button: "Calibrate with plan full",
+        text: "The steps of the readout are too coarse for this plan.",
+      },
       shifted: { button: "Calibrate again", text: "The zeros have shifted since the last calibration." },
       calibrate: {
         button: "Calibrate",

@@ -294,6 +294,7 @@ export const zh: Messages = {
       inside: { button: "前往工作站", text: "请标定机器人。" },
       look: { text: "请阅读上面的原因。" },
       recalibrate: { button: "重新标定", text: "驱动器中不是这些零点。请重新标定。" },
+      too_coarse: { button: "用计划 full 标定", text: "读数步长对此计划过于粗糙。" },
       shifted: { button: "重新标定", text: "自上次标定以来零点已偏移。" },
       calibrate: {
         button: "标定",

@@ -45,7 +45,7 @@ export function DiagnosisView({ id }: { id: number }) {
       <Experiments found={found} />
       <SeparatingOffer id={id} serial={run.robot_serial} found={found} />
       <Hints found={found} />
-      <UseResult id={id} />
+      {run.machine === "five-bar" && <UseResult id={id} />}
       <Fold name="models" title={t.diagnosis.errorsTitle}>
         <Stages found={found} />
         <BeforeAfter result={run} />

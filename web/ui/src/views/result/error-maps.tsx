@@ -15,8 +15,8 @@ const DIGITS = 3;
 const mm = (value: number | null | undefined) => fixed(value, DIGITS);
 
 /** Whether a run leaves something to draw. */
-export const hasMap = ({ kind, verdict, zero_offsets }: Calibration) =>
-  verdict !== null && zero_offsets.length > 0 && kind !== "rollback";
+export const hasMap = ({ kind, machine, verdict, zero_offsets }: Calibration) =>
+  verdict !== null && zero_offsets.length > 0 && kind !== "rollback" && machine === "five-bar";
 
 export function ErrorMaps({ result }: { result: Calibration }) {
   const { id, application } = result;

@@ -49,7 +49,7 @@ export function RunFacts({ result }: { result: Calibration }) {
 
 /** From a result to everything else of its run and its robot. */
 export function Ways({
-  result: { id, of, method, robot_serial, verdict, ended_at },
+  result: { id, of, method, robot_serial, verdict, ended_at, machine },
 }: {
   result: Calibration;
 }) {
@@ -73,6 +73,7 @@ export function Ways({
       )}
       {verdict &&
         ended_at &&
+        machine === "five-bar" &&
         ["html", "pdf", "json"].map((form) => <CertificateLink key={form} id={id} form={form} />)}
       <a class="button" href={`/api/v1/calibrations/${id}/readings.csv`} download>
         {t.shared.readingsCsv}

@@ -91,6 +91,8 @@ function afterCheck(result: Calibration): Step {
 function afterCalibration(result: Calibration): Step {
   if (decisionOf(result).look.good) return afterPass(result);
   switch (result.reason_code) {
+    case "readout_too_coarse":
+      return start("too_coarse", THOROUGH);
     case "readout_jumped":
     case "reference_contradicted":
     case "mu_too_large":

@@ -1,0 +1,175 @@
+"""An arm's log made elsewhere becomes a finished run: the file kept as it is, its residual traced."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass, replace
+
+from station.diagnosis import Findings, diagnose, findings_of, page, residuals, without_a_quarter
+from station.errors import InputRefused, NotFound
+from station.machines import read_log, robot_of
+from station.records import (
+    STATION,
+    Actor,
+    CalibrationRequest,
+    CalibrationResult,
+    ColumnMap,
+    DataSource,
+    ImportedLog,
+    KeptLog,
+    LogDocuments,
+    Measurements,
+    Residual,
+    Submitted,
+)
+from station.run_kinds.diagnose import METHOD, stage_accuracy
+from station.run_kinds.import_file import MOST_READINGS, Upload, import_dataset
+from station.serial_arm import Arm
+from station.store import Store, request_hash
+
+
+@dataclass(frozen=True, slots=True)
+class ArmLog:
+    """What is given: the arm, the log, and what judges it."""
+
+    arm: Arm
+    file: KeptLog
+    fresh: KeptLog | None = None
+    hold_out: bool = False
+    """Whether a quarter of the file judges what was learned from the rest."""
+
+
+def import_log(
+    store: Store,
+    request: CalibrationRequest,
+    log: ArmLog,
+    *,
+    idempotency_key: str | None = None,
+    by: Actor = STATION,
+) -> Submitted:
+    """Diagnose a log and keep it; nothing is stored before everything is known.
+
+    :raises InputRefused: a malformed file, or readings that are not enough to judge.
+    :raises NotApplicable: the serial is that of another kind of machine.
+    :raises KeyReused: the key came with another request or other files.
+    """
+    files = [part for part in (log.file, log.fresh) if part is not None]
+    request = replace(
+        request, metadata={part.part: {"name": part.name, "sha256": part.sha256} for part in files}
+    )
+    body_hash = request_hash(request)
+    if idempotency_key is not None:
+        known = store.find_key(idempotency_key, body_hash)
+        if known is not None:
+            return Submitted(known, created=False)
+    readings, fresh = _readings(log)
+    count = len(readings) + (0 if fresh is None else len(fresh))
+    found = findings_of(diagnose(log.arm, readings, fresh))
+    described = DataSource(
+        file=log.file.name, readings=count, sha256=log.file.sha256, guessed=readings.guessed
+    )
+    documents = _documents(found, log.file.name)
+    result = _result(found, described)
+    kept = ImportedLog(tuple(files), documents, count)
+    created = store.add_run(
+        request, log.arm, (), result, log=kept, key=idempotency_key, body_hash=body_hash, by=by
+    )
+    return Submitted(created, created=True)
+
+
+def import_measured(
+    store: Store,
+    request: CalibrationRequest,
+    learned: Upload,
+    fresh: Upload | None,
+    *,
+    idempotency_key: str | None = None,
+    by: Actor = STATION,
+) -> Submitted:
+    """A file of the robot that is kept under its serial, five-bar or arm.
+
+    :raises InputRefused: a malformed file, too many readings, or not enough to judge.
+    :raises KeyReused: the key came with another request or other files.
+    """
+    arm = _kept_arm(store, request.robot_serial)
+    if arm is None:
+        return import_dataset(store, request, learned, fresh, idempotency_key=idempotency_key, by=by)
+    file = KeptLog("file", learned.name, learned.content)
+    judging = None if fresh is None else KeptLog("fresh", fresh.name, fresh.content)
+    rows = sum(log.content.count(b"\n") for log in (file, judging) if log is not None)
+    if rows > 2 * MOST_READINGS:
+        raise InputRefused(
+            f"{learned.name}: {rows} rows; over the network at most {2 * MOST_READINGS} of an arm are "
+            "diagnosed at once. Import larger logs with `station import`."
+        )
+    return import_log(store, request, ArmLog(arm, file, judging), idempotency_key=idempotency_key, by=by)
+
+
+def _kept_arm(store: Store, serial: str) -> Arm | None:
+    try:
+        robot = robot_of(store.robot_file(serial), source=f"robot {serial}")
+    except NotFound:
+        return None
+    return robot if isinstance(robot, Arm) else None
+
+
+def _readings(log: ArmLog) -> tuple[Measurements, Measurements | None]:
+    """:raises InputRefused: both ways to judge at once, or as reading a log does."""
+    readings = _read(log.arm, log.file)
+    if log.hold_out:
+        if log.fresh is not None:
+            raise InputRefused(
+                "Fresh readings and a held-out quarter exclude each other: judge by one of them."
+            )
+        return without_a_quarter(readings)
+    return readings, None if log.fresh is None else _read(log.arm, log.fresh)
+
+
+def _read(arm: Arm, log: KeptLog) -> Measurements:
+    mapping = ColumnMap.model_validate_json(log.columns) if log.columns else None
+    return read_log(arm, log.content, log.name, log.measured, mapping=mapping)
+
+
+def _result(found: Findings, data: DataSource) -> CalibrationResult:
+    document, view = found.document(data), found.residual
+    joints = found.measurements.joints
+    # a joint that slides has its zero in mm, and stands among the other parameters
+    zeros = tuple(q for q in found.parameters[:joints] if q.unit == "deg")
+    return CalibrationResult(
+        verdict="pass" if found.decision.outcome == "good" else "fail",
+        outcome=found.decision.outcome,
+        reason=found.reason,
+        method=METHOD,
+        zero_offsets=zeros,
+        parameters=tuple(q for q in found.parameters if q not in zeros),
+        weak_direction=found.weak_direction,
+        before=stage_accuracy(document.before),
+        after=stage_accuracy(document.after),
+        residuals=tuple(
+            Residual(reading=number, position=label, residual_mm=float(left), limit_mm=float(limit))
+            for (number, label), left, limit in zip(
+                _numbered(found.measurements.ids), view.after_mm, view.limit_mm, strict=True
+            )
+        ),
+        findings=document.findings,
+        diagnosis=document,
+    )
+
+
+def _documents(found: Findings, name: str) -> LogDocuments:
+    """The readings by number; where the log calls them otherwise, that is their position."""
+    numbers = _numbered(found.measurements.ids)
+    rows = residuals(
+        found, {own: label for own, (_, label) in zip(found.measurements.ids, numbers, strict=True)}
+    )
+    items = [asdict(replace(row, reading=n)) for row, (n, _) in zip(rows.rows, numbers, strict=True)]
+    content = {"effects": list(rows.effects), "items": items}
+    return LogDocuments(json.dumps(content, allow_nan=False), page(found, name).to_html())
+
+
+def _numbered(ids: Sequence[int | str]) -> list[tuple[int, str]]:
+    """A number for each reading, its own where all are numbered, and what the log calls it."""
+    own = [one for one in ids if isinstance(one, int)]
+    numbers = own if len(own) == len(ids) else range(1, len(ids) + 1)
+    return [(number, f"reading {name}") for number, name in zip(numbers, ids, strict=True)]
