@@ -11,11 +11,11 @@ from station.run_kinds import (  # noqa: F401 - they register themselves
     separate,
 )
 from station.run_kinds.adaptive import adaptive_run, fit_in_sequence
+from station.run_kinds.arm_log import ArmLog, import_log, import_measured
 from station.run_kinds.check import check_run
 from station.run_kinds.diagnose import diagnosed
 from station.run_kinds.error_maps import error_map
 from station.run_kinds.import_file import Upload, import_dataset
-from station.run_kinds.import_log import ArmLog, import_log, import_measured
 from station.run_kinds.kind import RUN_KINDS, Continued, RunKind, Start, kind_of_plan, request_of
 from station.run_kinds.lock import calibration_holds, check_not_locked, clear_failed_check
 from station.run_kinds.separate import planned
