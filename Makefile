@@ -56,7 +56,7 @@ mutate: $(VENV)/installed-for-tests  ## changes what decides, one place at a tim
 reference: $(VENV)/installed-for-tests  ## docs/reference, web/openapi.json and the client's models, made from the code
 	$(BIN)/python -m web.openapi
 	$(BIN)/python -m station.reference docs/reference
-	PATH="$(CURDIR)/$(BIN):$$PATH" $(BIN)/python web/client/make_models.py
+	$(BIN)/python web/client/make_models.py
 
 lock: $(VENV)/installed-for-tests  ## newest versions that fit, with hashes
 	deploy/lock $(BIN)

@@ -279,12 +279,13 @@ def search(db: Database) -> None:
 
 
 @migrations()
-<<<<<<< HEAD
 def users_of_a_provider(db: Database) -> None:
     """Users may be known by a hash of who they are at an OpenID Connect provider."""
     db.execute("ALTER TABLE users ADD COLUMN openid_sha256 BLOB")
     db.execute("CREATE UNIQUE INDEX users_openid ON users (openid_sha256)")
-=======
+
+
+@migrations()
 def logs(db: Database) -> None:
     """Logs of other machines to the byte, and what was found in them."""
     db.execute(
@@ -298,7 +299,6 @@ def logs(db: Database) -> None:
             run_id INTEGER PRIMARY KEY REFERENCES calibrations (id), residuals BLOB NOT NULL,
             report BLOB NOT NULL)"""
     )
->>>>>>> arms
 
 
 def _expand(blob: bytes) -> bytes:

@@ -11,6 +11,7 @@ residual of the kinematic fit is predicted by
 
 from __future__ import annotations
 
+import warnings
 from importlib.util import find_spec
 
 import numpy as np
@@ -64,13 +65,17 @@ def _residual(d: TracedDiagnosis, m: Measurements) -> tuple[Real, Real]:
 
 def _gaussian_process(theta: Real, left: Real, at: Real) -> Real:
     """(L c,)"""
+    from sklearn.exceptions import ConvergenceWarning
     from sklearn.gaussian_process import GaussianProcessRegressor
     from sklearn.gaussian_process.kernels import RBF, ConstantKernel, WhiteKernel
 
     scale = float(left.std()) or 1.0
     start = ConstantKernel(1.0) * RBF(np.ones(theta.shape[1]), (1e-2, 1e3)) + WhiteKernel(0.5)
     some = slice(None, None, -(-len(theta) // FOR_THE_COVARIANCE))
-    chosen = GaussianProcessRegressor(start, normalize_y=False).fit(theta[some], left[some] / scale).kernel_
+    with warnings.catch_warnings():
+        # the length of a joint that plays no part grows to its bound
+        warnings.simplefilter("ignore", ConvergenceWarning)
+        chosen = GaussianProcessRegressor(start).fit(theta[some], left[some] / scale).kernel_
     process = GaussianProcessRegressor(chosen, optimizer=None).fit(theta, left / scale)
     return np.asarray(process.predict(at)).reshape(-1) * scale
 

@@ -101,10 +101,12 @@ def main() -> None:
             "--enum-field-as-literal", "all", "--use-schema-description", "--use-field-description",
             "--use-inline-field-description", "--disable-timestamp", "--collapse-root-models",
             "--use-tuple-for-fixed-items",
-            "--custom-file-header", header(), "--formatters", "ruff-format", "ruff-check",
+            "--custom-file-header", header(), "--formatters", "builtin",
         ]  # fmt: skip
         subprocess.run(command, check=True)
         MODELS.write_text(target.read_text(encoding="utf-8"), encoding="utf-8")
+    for step in (("check", "--quiet", "--fix"), ("format", "--quiet")):
+        subprocess.run([sys.executable, "-m", "ruff", *step, str(MODELS)], check=True)
 
 
 if __name__ == "__main__":

@@ -1,6 +1,6 @@
 """What the station takes and answers.  Made by `make reference`; do not edit.
 
-From schemas with SHA-256 48361cf4d6695bb01460f6243f177327720c89d0ea158bf4801d11803afee455.
+From schemas with SHA-256 8743bcfd02ba99b20af4eb771ea9bbd3bda3a541a45236d509eaaf250d6f9587.
 """
 
 from __future__ import annotations
@@ -528,17 +528,25 @@ class DeviceView(BaseModel):
     text: str
 
 
-class Interlock(BaseModel):
+class Trip(BaseModel):
     """
-    One condition that must hold before and during motion.
+    An interlock that ended a motion.
     """
 
-    id: str
+    run: int
     text: str
-    ok: bool
-    detail: str
     """
-    What is wrong; empty when it holds.
+    What was noticed.
+    """
+
+    stop_frame_ms: float | None
+    """
+    From noticing it until the stop frames of both drives were sent; null where none was.
+    """
+
+    standstill_ms: float
+    """
+    From noticing it until both drives were seen to stand.
     """
 
 
@@ -662,22 +670,11 @@ class CalibrationBody(BaseModel):
     """
 
     robot_serial: str
-    plan: Literal[
-        "paper",
-        "rapid",
-        "full",
-        "diagnostic",
-        "adaptive",
-        "check",
-        "reference",
-        "two_mounts",
-    ]
+    plan: Literal["paper", "rapid", "full", "diagnostic", "adaptive", "check", "reference", "two_mounts"]
     operator: str
     work_order: str | None = None
     metadata: dict[str, Any] | None = None
-    references: (
-        list[Annotated[JointAngle | MountingError, Field(discriminator="kind")]] | None
-    ) = None
+    references: list[Annotated[JointAngle | MountingError, Field(discriminator="kind")]] | None = None
     """
     what other instruments measured; for this run
     """
@@ -872,6 +869,40 @@ class Problem(BaseModel):
 class ReadingList(BaseModel):
     items: list[ReadingAnswer]
     next: None
+
+
+class Interlock(BaseModel):
+    """
+    One condition that must hold before and during motion.
+    """
+
+    id: str
+    text: str
+    ok: bool
+    detail: str
+    """
+    What is wrong; empty when it holds.
+    """
+
+    own_text: bool
+    """
+    Whether `text` is the station file's, to be shown as it is in every language.
+    """
+
+    limits: dict[str, float]
+    """
+    As the station file declares them, by name with unit, or its defaults.
+    """
+
+    shows: str
+    """
+    The value that was looked at last, with its unit, where there is one.
+    """
+
+    last_trip: Trip | None
+    """
+    When it last ended a motion, since the station was started.
+    """
 
 
 class RunView(BaseModel):
