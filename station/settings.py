@@ -338,7 +338,8 @@ class OutboxSettings(_Section):
     """`[outbox]`: who is told of runs and alarms."""
 
     keep_days: Annotated[float, Field(gt=0, le=3650)] = 7.0
-    """An event that a receiver did not take for so many days is given up, and shown as `expired`."""
+    """An event that is older than so many days, while its receiver was tried for as long in vain, is given up
+    and shown as `expired`."""
     keep: Annotated[int, Field(ge=1, le=10_000_000)] = 100_000
     """So many events wait for one receiver at most; the oldest are given up first."""
     webhook: tuple[WebhookSettings, ...] = ()

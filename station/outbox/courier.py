@@ -24,6 +24,8 @@ from station.store import Store
 log = logging.getLogger(__name__)
 
 LONGEST_WAIT_S = 60.0
+_TRIES_A_DAY = 86_400 / LONGEST_WAIT_S
+_BEFORE_ALL = datetime.min.replace(tzinfo=UTC)
 LOOK_S = 0.5
 """How soon a new event is noticed."""
 
@@ -56,7 +58,7 @@ class Courier:
         wait_s = (delivery.next_at - now).total_seconds() if delivery.next_at is not None else 0.0
         if 0.0 < wait_s <= LONGEST_WAIT_S:  # longer was never asked for: the clock was set back
             return min(wait_s, LOOK_S)
-        if dropped := self._drop(now):
+        if dropped := self._drop(now, delivery.tries):
             log.error("%s: %d events were given up, too old or too many", name, dropped)
             return 0.0
         try:
@@ -73,8 +75,14 @@ class Courier:
             self._store.settle(delivery.id, "delivered", said[:300])
         return 0.0
 
-    def _drop(self, now: datetime) -> int:
-        oldest = now - timedelta(days=self._settings.keep_days)
+    def _drop(self, now: datetime, tries: int) -> int:
+        """Give up what is too much; and what is too old, once the first has been tried for so long.
+
+        The clock alone gives nothing up: it may have been set forward, or the station been off.
+        """
+        oldest = _BEFORE_ALL
+        if tries >= self._settings.keep_days * _TRIES_A_DAY:
+            oldest = now - timedelta(days=self._settings.keep_days)
         return self._store.expire(self.receiver.name, oldest, self._settings.keep)
 
     def _run(self) -> None:

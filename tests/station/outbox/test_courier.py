@@ -148,9 +148,20 @@ def test_what_is_too_old_or_too_much_is_given_up_and_said(store: Store, clock: C
     on_the_way.step()
     assert states(store) == {1: "expired", 2: "waiting", 3: "waiting"}
     clock.wait(2 * 86400)
+    with store._writing() as db:
+        db.execute("UPDATE deliveries SET tries = 1440 WHERE state = 'waiting' AND n = 2")
     on_the_way.step()
     assert set(states(store).values()) == {"expired"}
     assert "given up" in store.deliveries()[0].detail and not taker.seen
+
+
+def test_a_clock_that_is_set_forward_gives_nothing_up(store: Store, clock: Clock) -> None:
+    on_the_way = courier(store, Taker(OSError("answered 500")), clock, OutboxSettings(keep_days=1))
+    tell(store, "a", "b")
+    on_the_way.step()
+    clock.wait(10 * 365 * 86400)
+    on_the_way.step(), on_the_way.step()
+    assert states(store) == {1: "delivered", 2: "delivered"}
 
 
 def test_the_end_of_a_run_and_its_event_are_one_transaction(store: Store) -> None:
