@@ -58,6 +58,8 @@ class RtuLink:
         self._gap_s = max(_LEAST_GAP_S, _SILENCE_BYTES * self._byte_s)
         self._free_from_s = 0.0
         self._stale_until_s = 0.0
+        self._overdue = False
+        """Whether a reply that did not come in time may still come."""
 
     def exchange(self, request: Request, gate: Gate) -> bytes:
         """The PDU of the reply.
@@ -110,6 +112,7 @@ class RtuLink:
                     self._line.refuse_echo(frame, received)
                 pdu = find_rtu_reply(received, request)
                 if pdu is not None:
+                    self._let_overdue_replies_pass()
                     self._free_from_s = time.monotonic() + self._gap_s
                     return pdu
             raise self._no_reply(request, received)
@@ -139,7 +142,19 @@ class RtuLink:
             " check the line for noise and double addresses."
         )
 
+    def _let_overdue_replies_pass(self) -> None:
+        """What was taken for the reply to a repetition may have been the late one to the first request: then
+        the reply to the repetition follows, and would be taken for that to the next request."""
+        if not self._overdue:
+            return
+        silent_from_s = time.monotonic()
+        while (now_s := time.monotonic()) < silent_from_s + self._timeout_s and not self._lane.urgent_waiting:
+            if self._line.read_some(now_s + _SLICE_S):
+                silent_from_s = time.monotonic()
+        self._overdue = False
+
     def _expect_late_reply(self) -> None:
+        self._overdue = True
         longest_s = self._timeout_s + _LONGEST_FRAME_BYTES * self._byte_s
         self._stale_until_s = time.monotonic() + longest_s
         self._free_from_s = time.monotonic() + self._gap_s

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import threading
 import time
+import tty
 from collections.abc import Iterator
 from contextlib import contextmanager
 
@@ -122,6 +124,37 @@ def test_a_write_is_confirmed_by_its_copy() -> None:
     with rtu_bus((frame, frame), (READ_1000, rtu("01 03 02 1111"))) as bus:
         bus.write_one(1, 0x0401, 0x0083)
         assert bus.read(1, 0x1000, 1) == [0x1111]
+
+
+def test_a_late_reply_does_not_shift_those_after_it() -> None:
+    """The reply to the first request comes after its repetition; that to the repetition right behind it."""
+    device, station = os.openpty()
+    tty.setraw(station)
+    replies = {0x1000: rtu("01 03 02 1111"), 0x1001: rtu("01 03 02 2222")}
+
+    def play() -> None:
+        asked = 0
+        while asked < 3:
+            address = int.from_bytes(os.read(device, 8)[2:4], "big")
+            asked += 1
+            if asked == 1:
+                continue
+            os.write(device, replies[address])
+            if asked == 2:
+                time.sleep(0.02)
+                os.write(device, replies[address])
+
+    drive = threading.Thread(target=play)
+    drive.start()
+    bus = ModbusBus(f"modbus+rtu://{os.ttyname(station)}?baud=115200", timeout_s=0.05)
+    bus.open("test")
+    try:
+        assert [bus.read(1, address, 1) for address in (0x1000, 0x1001)] == [[0x1111], [0x2222]]
+    finally:
+        bus.release("test")
+        drive.join()
+        os.close(device)
+        os.close(station)
 
 
 def test_an_unanswered_write_is_not_sent_again() -> None:

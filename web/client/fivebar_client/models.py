@@ -1,6 +1,6 @@
 """What the station takes and answers.  Made by `make reference`; do not edit.
 
-From schemas with SHA-256 8743bcfd02ba99b20af4eb771ea9bbd3bda3a541a45236d509eaaf250d6f9587.
+From schemas with SHA-256 e2a1efd95722e0117cc2dc8bce0e8bce868dfc701aab795f1801837fc98c023b.
 """
 
 from __future__ import annotations
@@ -1061,6 +1061,11 @@ class Calibration(BaseModel):
     zero_offsets: list[ZeroOffset]
     metadata: dict[str, Any]
     zero_offset_tolerance_deg: float | None
+    machine: str
+    """
+    Model of its robot file.
+    """
+
     prompt: Prompt | None
     """
     What the run asks, in state `waiting`.

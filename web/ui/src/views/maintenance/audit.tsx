@@ -40,7 +40,7 @@ function Entries() {
             onInput={(event) => show("", event.currentTarget.value, true)}
           />
         </p>
-        <a class="button" href={`/api/v1/audit.csv?${new URLSearchParams(contained)}`}>
+        <a class="button" href="/api/v1/audit.csv">
           {m.auditCsv}
         </a>
       </div>

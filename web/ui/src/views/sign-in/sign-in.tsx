@@ -100,7 +100,7 @@ export function SignInView() {
       </p>
       {!byBadge && !secret && ways?.openid && (
         <p>
-          <a class="act" href={PROVIDER}>
+          <a class="button" href={PROVIDER}>
             {t.signIn.withProvider(ways.openid)}
           </a>
         </p>
