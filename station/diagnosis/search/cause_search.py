@@ -30,8 +30,12 @@ HOPEFUL = 0.02
 """Unless it takes all but this share: a large effect is not quite linear."""
 MOST_ALTERNATIVES = 6
 MOST_POLISHING = 8
+TRIED_TOGETHER = 2 * MOST_ALTERNATIVES
+"""Candidates of an effect to be added: so many are compared, and where none helps so many behind them."""
 HELPFUL = 0.995
 """Left-out error over that without the effect: below this, readings that it has not seen support it."""
+PLAINLY_HELPFUL = 0.97
+"""The same for what is tried behind the best: the more is tried, the more helps by chance."""
 ODD_SHARE = 0.03
 END_SHARE = 0.12
 """Share of the sequence in which readings that deviate to one side look like a step, not like slips."""
@@ -112,11 +116,19 @@ def next_effect(
     """
     scan = Scan(found)
     candidates = scan.candidates(_others(effects, found.model.terms))
-    if not candidates or not significant(candidates[0].p_value, len(effects), level):
+
+    def worthy(candidate: Candidate) -> bool:
+        return (
+            significant(candidate.p_value, len(effects), level) and candidate.reduction >= WORTH * found.cost
+        )
+
+    if not candidates or not worthy(candidates[0]):
         return None
-    if candidates[0].reduction < WORTH * found.cost:
-        return None
-    return _add(scan, refitted, candidates, hopeful)
+    if (added := _add(scan, refitted, candidates[:TRIED_TOGETHER], hopeful)) is not None:
+        return added
+    # the best may be narrow waves that readings left out do not support, and a curve behind them real
+    behind = [c for c in candidates[TRIED_TOGETHER:] if worthy(c)][:TRIED_TOGETHER]
+    return _add(scan, refitted, behind, hopeful, PLAINLY_HELPFUL)
 
 
 def _possible(found: Fit) -> bool:
@@ -126,10 +138,10 @@ def _possible(found: Fit) -> bool:
     return term.effect.possible(term.hidden, *found.amplitudes(k))
 
 
-def helps(before: Fit, after: Fit) -> bool:
+def helps(before: Fit, after: Fit, by: float = HELPFUL) -> bool:
     """Whether readings that a fit has not seen are predicted better, block by block."""
     errors = [left_out_rms(f.solution, f.model.mechanism, f.row_sd) for f in (before, after)]
-    return errors[1] < HELPFUL * errors[0]
+    return errors[1] < by * errors[0]
 
 
 def significant(p_value: float, tests: int, level: float) -> bool:
@@ -255,11 +267,11 @@ def _settled(model: Model, prior: Prior, specified_sd: Real, better: Fit | None)
 
 
 def _add(
-    scan: Scan, refitted: Refitted, candidates: list[Candidate], hopeful: float
+    scan: Scan, refitted: Refitted, candidates: list[Candidate], hopeful: float, helpful: float = HELPFUL
 ) -> tuple[Finding, Fit] | None:
     """Refit with the best candidates, keep the best, name those that do as well."""
     current = scan.fit
-    refined = [scan.refine(c) for c in candidates[: 2 * MOST_ALTERNATIVES] if c.visible]
+    refined = [scan.refine(c) for c in candidates[:TRIED_TOGETHER] if c.visible]
     if not refined:
         return None
     best = max(refined, key=lambda c: c.reduction)
@@ -275,7 +287,7 @@ def _add(
         fits.append((_score(refit, c), c, refit))
     if not fits:
         return None
-    fits = [item for item in fits if _possible(item[2]) and helps(current, item[2])]
+    fits = [item for item in fits if _possible(item[2]) and helps(current, item[2], helpful)]
     if not fits:
         return None
     fits.sort(key=lambda item: item[0])
