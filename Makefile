@@ -76,6 +76,7 @@ $(VENV)/installed: deploy/requirements.lock pyproject.toml $(PAGE) | $(VENV)/bin
 	$(PIP) install --require-hashes -r deploy/requirements.lock
 	@echo "Installing the station: 2 of 2, the station and its page (a minute; Node.js is fetched if there is none)"
 	$(PIP) install --no-deps --editable .
+	$(BIN)/python -m compileall -q station drivers web/*.py web/routes
 	touch $@
 
 $(VENV)/installed-for-tests: tests/requirements.lock $(VENV)/installed

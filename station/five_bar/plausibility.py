@@ -70,6 +70,8 @@ def check_distances(robot: Robot, measurements: Measurements) -> None:
                 continue  # where this mount is, is for the identification to find
             c = robot.c
         own = np.flatnonzero(measurements.mount == mount)
+        if not len(own):
+            continue  # fresh readings of one mount beside a fit to several
         foot = complex(*c) + complex(*robot.d)
         nominal = np.abs(forward(robot.geometry, measurements.theta[own]) - foot)
         apart = measurements.distance[own] - nominal

@@ -10,7 +10,6 @@ from collections.abc import Callable
 from typing import Literal
 
 import numpy as np
-from scipy.signal import lfilter
 
 from station.records import Flags, Real
 
@@ -32,6 +31,8 @@ def sd_of_moving_range(values: Real) -> float:
 
 def ewma(values: Real, centre: float, share: float = EWMA_SHARE) -> Real:
     """(N,) exponentially weighted moving average that starts at the centre."""
+    from scipy.signal import lfilter  # here, because few look at charts
+
     out, _ = lfilter([share], [1.0, share - 1.0], values, zi=[(1.0 - share) * centre])
     return np.asarray(out)
 

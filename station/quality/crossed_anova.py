@@ -12,7 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.stats import f as f_distribution
+from scipy.special import fdtrc
 
 from station.errors import InputRefused
 from station.records import Real, Record
@@ -188,7 +188,7 @@ def _p_value(squares: dict[str, float], dof: dict[str, int], source: str, agains
     ratio = _f(squares, dof, source, against)
     if ratio is None:
         return 1.0 if squares[source] == 0.0 else 0.0
-    return float(f_distribution.sf(ratio, dof[source], dof[against]))
+    return float(fdtrc(dof[source], dof[against], ratio))
 
 
 def _crossed(part: Sequence[str], operator: Sequence[str], value: Real) -> Real:

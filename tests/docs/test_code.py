@@ -54,7 +54,7 @@ def _copy_of_the_repository(folder: Path) -> None:
         shutil.copytree(
             ROOT / tree,
             folder / tree,
-            ignore=shutil.ignore_patterns("__pycache__", "node_modules", "static", "ui"),
+            ignore=shutil.ignore_patterns("node_modules", "static", "ui"),
         )
     shutil.copy(ROOT / "pyproject.toml", folder)
 

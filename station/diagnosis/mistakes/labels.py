@@ -5,7 +5,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy import stats
 
 from station.diagnosis.mistakes.defects import drift, plays, smooth
 from station.diagnosis.mistakes.fitting import Fitted, fit
@@ -105,7 +104,9 @@ def _time(what: str, rows: tuple[int | str, ...]) -> Mistake:
 def _correlation(a: Real, b: Real) -> float:
     if len(a) < FEWEST or np.ptp(a) == 0.0 or np.ptp(b) == 0.0:
         return 0.0
-    return float(np.corrcoef(stats.rankdata(a), stats.rankdata(b))[0, 1])
+    from scipy.stats import rankdata  # here, because it takes a second to load and few files need it
+
+    return float(np.corrcoef(rankdata(a), rankdata(b))[0, 1])
 
 
 def approach_columns(robot: Robot, m: Measurements) -> Mistake | None:

@@ -24,6 +24,7 @@ REAL = {
 GIVEN_OTHERWISE = {
     "drivers.emulated.machine.Machine",
     "drivers.emulated.orders.Orders",
+    "drivers.emulated.siko_head.SikoDevice",
     "station.outbox.webhook.Webhook",
     "station.people.openid.OpenId",
     "station.people.tries.Tries",
