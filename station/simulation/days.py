@@ -29,6 +29,7 @@ ABORT_LIMIT_S = 20.0
 """Virtual time within which an aborted run has ended."""
 _NIGHT_S = 14 * 3600.0
 _KILLED_AT_NIGHT = 0.2
+_FOR_GOOD = 1_000_000
 _RUNS_A_DAY = (3, 8)
 _PLANS: dict[PlanName, float] = {
     "paper": 40,
@@ -48,7 +49,8 @@ TROUBLES = {
     "stop while a drive is silent": 3.0,
     "kill": 6.0,
     "kill at a write": 4.0,
-    "disk": 6.0,
+    "disk": 5.0,
+    "disk, then kill": 1.0,
     "clock": 3.0,
     "double start": 3.0,
     "second start": 2.0,
@@ -216,6 +218,11 @@ class Days:
                 case "disk":
                     kind: DiskTrouble = random.choice(("full", "error", "locked"))
                     self.plant.disk.fail(kind, after=random.randrange(30), times=random.choice((1, 3, 20)))
+                case "disk, then kill":
+                    self.plant.disk.fail("full", after=random.randrange(30), times=_FOR_GOOD)
+                    world.wait(lambda: self._is_over(run), ABORT_LIMIT_S)
+                    if self.plant.runs:
+                        self.plant.kill()
                 case "clock":
                     self.plant.clocks.set_s += random.choice(_CLOCK_STEPS_S)
                 case "device":

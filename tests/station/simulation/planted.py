@@ -182,7 +182,7 @@ def _plant_no_jump(patch: Patch) -> None:
 
 
 KILLS = {"kill": 1.0, "kill at a write": 2.0, "none": 1.0}
-BAD_DISK = {"disk": 3.0, "none": 1.0, "kill": 1.0}
+BAD_DISK = {"disk": 2.0, "disk, then kill": 2.0, "none": 1.0}
 ZEROS = {"apply": 5.0, "rollback": 2.0, "measure": 3.0}
 STOPS = {"stop": 1.0, "stop while a drive is silent": 2.0, "abort": 2.0}
 
