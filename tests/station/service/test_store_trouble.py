@@ -134,7 +134,11 @@ def test_the_reason_that_a_run_failed_for_stays_its_reason(
         lock.hold()
         raise LinkLost("nothing answers")
 
-    rig.script.do("scale read", fault, at=3)
+    def moves() -> None:  # not before: an idle station looks at its scale too
+        rig.script.faults.clear()
+        rig.script.do("scale read", fault, at=rig.script.calls.count("scale read") + 1)
+
+    rig.script.do("axis 1 move_to", moves)
     orchestrator = start()
     run = orchestrator.submit(REQUEST).id
     assert orchestrator.wait(run, LIMIT_S) is State.FAILED
