@@ -10,8 +10,8 @@ from threading import Event, Lock, Thread
 
 from drivers.emulated.link import DriveReply, DropLink, HalfOpen, Kind
 
-TARGET_SILENT = 0x0B
-_HEADER = struct.Struct(">HHHB")  # transaction, protocol, length, unit
+_TARGET_SILENT = 0x0B
+HEADER = struct.Struct(">HHHB")  # transaction, protocol, length, unit
 _LONGEST_PDU = 253
 _UNIT_AT, _FUNCTION_AT = 6, 7
 _NOISE = bytes.fromhex("00ff55aa")
@@ -67,9 +67,7 @@ class ModbusTcpGateway:
                 except HalfOpen:
                     dead = True
                     continue
-                answer = bytes((pdu[0] | 0x80, TARGET_SILENT)) if reply.pdu is None else reply.pdu
-                whole = _HEADER.pack(transaction, 0, len(answer) + 1, unit) + answer
-                connection.sendall(SPOIL[reply.spoil](whole) if reply.spoil else whole)
+                connection.sendall(reply_frame(transaction, unit, pdu, reply))
 
     def _ask(self, unit: int, pdu: bytes) -> DriveReply:
         drive = self._units.get(unit)
@@ -78,12 +76,19 @@ class ModbusTcpGateway:
         return reply
 
 
+def reply_frame(transaction: int, unit: int, request: bytes, reply: DriveReply) -> bytes:
+    """What the gateway sends back for a request PDU; also if its drive is silent, spoiled if so ordered."""
+    answer = bytes((request[0] | 0x80, _TARGET_SILENT)) if reply.pdu is None else reply.pdu
+    whole = HEADER.pack(transaction, 0, len(answer) + 1, unit) + answer
+    return _SPOIL[reply.spoil](whole) if reply.spoil else whole
+
+
 def _read_frame(connection: socket.socket) -> tuple[int, int, bytes] | None:
     """Transaction, unit and PDU of the next request; None at the end or after nonsense."""
-    header = _read_exactly(connection, _HEADER.size)
+    header = _read_exactly(connection, HEADER.size)
     if header is None:
         return None
-    transaction, protocol, length, unit = _HEADER.unpack(header)
+    transaction, protocol, length, unit = HEADER.unpack(header)
     if protocol != 0 or not 2 <= length <= _LONGEST_PDU + 1:
         return None
     pdu = _read_exactly(connection, length - 1)
@@ -111,7 +116,7 @@ def _changed(frame: bytes, at: int, by: int) -> bytes:
     return frame[:at] + bytes((frame[at] ^ by,)) + frame[at + 1 :]
 
 
-SPOIL: dict[Kind, Callable[[bytes], bytes]] = {
+_SPOIL: dict[Kind, Callable[[bytes], bytes]] = {
     "wrong_id": lambda frame: _changed(frame, _UNIT_AT, 0x10),
     "wrong_function": lambda frame: _changed(frame, _FUNCTION_AT, 0x07),
     "short": lambda frame: frame[:-1],

@@ -17,7 +17,7 @@ from drivers.emulated.orders import KINDS, Device, FaultOrder
 from station.five_bar import Robot
 from station.records import Actor, CalibrationRequest, PlanName
 from station.service import Orchestrator
-from station.simulation.disk import DiskTrouble
+from station.simulation.disk import FOR_GOOD, DiskTrouble
 from station.simulation.keeper import RUN_LIMIT_S, Keeper, Stranded
 from station.simulation.plant import Plant
 from station.simulation.witness import Witness
@@ -29,7 +29,6 @@ ABORT_LIMIT_S = 20.0
 """Virtual time within which an aborted run has ended."""
 _NIGHT_S = 14 * 3600.0
 _KILLED_AT_NIGHT = 0.2
-_FOR_GOOD = 1_000_000
 _RUNS_A_DAY = (3, 8)
 _PLANS: dict[PlanName, float] = {
     "paper": 40,
@@ -219,7 +218,7 @@ class Days:
                     kind: DiskTrouble = random.choice(("full", "error", "locked"))
                     self.plant.disk.fail(kind, after=random.randrange(30), times=random.choice((1, 3, 20)))
                 case "disk, then kill":
-                    self.plant.disk.fail("full", after=random.randrange(30), times=_FOR_GOOD)
+                    self.plant.disk.fail("full", after=random.randrange(30), times=FOR_GOOD)
                     world.wait(lambda: self._is_over(run), ABORT_LIMIT_S)
                     if self.plant.runs:
                         self.plant.kill()

@@ -17,6 +17,8 @@ _TEXTS: dict[DiskTrouble, str] = {
     "error": "disk I/O error",
     "locked": "database is locked",
 }
+FOR_GOOD = 1_000_000
+"""More writes than any run has."""
 _WRITES = ("INSERT", "UPDATE", "DELETE", "BEGIN IMMEDIATE", "COMMIT", "REPLACE")
 _MOST_TORN_BYTES = 4000
 

@@ -19,7 +19,7 @@ from typing import Literal, get_args
 from drivers.emulated.orders import FaultOrder
 from drivers.emulated.spec import MachineSpec
 from station.records import CalibrationRequest
-from station.simulation.disk import DiskTrouble
+from station.simulation.disk import FOR_GOOD, DiskTrouble
 from station.simulation.keeper import Keeper, Stranded
 from station.simulation.plant import Plant
 from station.simulation.witness import Violation, Witness
@@ -31,7 +31,6 @@ Deed = Literal["measure", "apply"]
 _SPEC = MachineSpec(seed=7, zero_offsets_deg=(0.5, -0.4), drm_mm=(1.0, 0.5))
 _PAUSES_S = (0.0, 0.3, 2.0)
 _OFF_S = 1.0
-_FOR_GOOD = 1_000_000
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +72,7 @@ def writes_that_fail() -> list[WriteThatFails]:
     """Every write of a measurement and an application: it fails, all from it on fail, a kill at it."""
     kinds: tuple[tuple[DiskTrouble | Literal["kill"], int], ...] = (
         ("error", 1),
-        ("full", _FOR_GOOD),
+        ("full", FOR_GOOD),
         ("kill", 1),
     )
     deeds: tuple[Deed, ...] = ("measure", "apply")

@@ -3,17 +3,15 @@
 from __future__ import annotations
 
 import errno
-import struct
 from collections.abc import Callable
 
 from drivers.emulated.link import DriveReply, DropLink, HalfOpen
-from drivers.emulated.modbus_tcp import SPOIL, TARGET_SILENT
+from drivers.emulated.modbus_tcp import HEADER, reply_frame
 from drivers.emulated.readout import Reply
 from drivers.errors import LinkLost
 from drivers.lines import NetAddress, Port, SerialAddress
 from station.simulation.scheduler import Killed, Process, Scheduler
 
-_HEADER = struct.Struct(">HHHB")
 _TRIP_S = 0.025
 """Of a request and its reply through a gateway: a line at 9600 baud behind a network."""
 _CHARACTER_S = 10 / 9600
@@ -120,11 +118,11 @@ class _Connection(_End):
 
     def _heard(self, data: bytes) -> None:
         self._request += data
-        while len(self._request) >= _HEADER.size:
-            transaction, _, length, unit = _HEADER.unpack_from(self._request)
+        while len(self._request) >= HEADER.size:
+            transaction, _, length, unit = HEADER.unpack_from(self._request)
             if len(self._request) < 6 + length:
                 return
-            pdu = bytes(self._request[_HEADER.size : 6 + length])
+            pdu = bytes(self._request[HEADER.size : 6 + length])
             del self._request[: 6 + length]
             if not self._half_open:
                 self._ask(transaction, unit, pdu)
@@ -140,6 +138,4 @@ class _Connection(_End):
             return
         now_s = self._scheduler.now_s
         free_s = self._wires.gateway_free_s = max(now_s, self._wires.gateway_free_s) + _TRIP_S + reply.delay_s
-        answer = bytes((pdu[0] | 0x80, TARGET_SILENT)) if reply.pdu is None else reply.pdu
-        whole = _HEADER.pack(transaction, 0, len(answer) + 1, unit) + answer
-        self._send(SPOIL[reply.spoil](whole) if reply.spoil else whole, free_s - now_s)
+        self._send(reply_frame(transaction, unit, pdu, reply), free_s - now_s)
