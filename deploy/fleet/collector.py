@@ -28,7 +28,7 @@ from paho.mqtt.properties import Properties
 
 TOPIC = "stations/+/events/#"
 NAME = "fleet-collector"
-"""Of the session that the broker keeps while the collector is away."""
+"""Client id: the broker keeps this session while the collector is not connected."""
 WEEK_S = 7 * 86_400
 WRITE_EVERY_S = 10.0
 COLUMNS = {
@@ -77,7 +77,7 @@ class Collector:
 
 
 def row_of(message: mqtt.MQTTMessage) -> dict[str, Any] | None:
-    """A row of the table; None for what is no event of a station."""
+    """A row of the table; None if the message is not an event of a station."""
     try:
         event = json.loads(message.payload)
         data = event["data"]
