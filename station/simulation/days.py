@@ -197,12 +197,12 @@ class Days:
                     if not world.wait(lambda: over or self._is_over(run), ABORT_LIMIT_S):
                         self.witness.fails("idle", f"run {run} was aborted and goes on")
                 case "stop":
-                    self._stop()
+                    self.keeper.stop()
                 case "stop while a drive is silent":
                     device: Device = random.choice(("axis1", "axis2"))
                     self.plant.orders.replace([FaultOrder(device=device, kind="silent", for_s=3.0)])
                     world.wait(seconds=random.random())
-                    self._stop()
+                    self.keeper.stop()
                 case "double start":
                     self.witness.started(key, self.plant.ask(request))
                 case "second start":
@@ -228,10 +228,6 @@ class Days:
                     self._fault(run)
                 case _:
                     pass
-
-    def _stop(self) -> None:
-        at_s = self.plant.scheduler.now_s
-        self.witness.stopped(at_s, self.plant.ask(lambda station: station.stop("ada")))
 
     def _fault(self, run: int) -> None:
         device: Device = self.random.choice(tuple(KINDS))

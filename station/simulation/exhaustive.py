@@ -13,7 +13,7 @@ from functools import cache
 from itertools import product
 from pathlib import Path
 from random import Random
-from tempfile import TemporaryDirectory, mkdtemp
+from tempfile import TemporaryDirectory
 from typing import Literal, get_args
 
 from drivers.emulated.orders import FaultOrder
@@ -114,7 +114,7 @@ def _station(seed: str = "") -> Iterator[Keeper]:
     with TemporaryDirectory() as folder, prepared():
         home = Path(folder) / "home"
         calibrated, taken = _calibrated()
-        shutil.copytree(calibrated, home)
+        shutil.copytree(calibrated.name, home)
         plant = Plant(home, [_SPEC], Random(seed))
         plant.receiver.taken = list(taken)
         with plant.entered():
@@ -123,13 +123,13 @@ def _station(seed: str = "") -> Iterator[Keeper]:
 
 
 @cache
-def _calibrated() -> tuple[Path, tuple[tuple[int, str], ...]]:
+def _calibrated() -> tuple[TemporaryDirectory[str], tuple[tuple[int, str], ...]]:
     """The data folder of a station with one passed calibration, and what its receiver has taken.
 
-    Made once in each process.
+    Made once in each process; the folder is deleted at its end.
     """
-    home = Path(mkdtemp(prefix="calibrated-")) / "home"
-    plant = Plant(home, [_SPEC], Random(1))
+    folder = TemporaryDirectory(prefix="calibrated-")
+    plant = Plant(Path(folder.name), [_SPEC], Random(1))
     keeper = Keeper(plant, Witness(plant))
     with plant.entered():
         keeper.start()
@@ -137,7 +137,7 @@ def _calibrated() -> tuple[Path, tuple[tuple[int, str], ...]]:
         keeper.come_to_rest()
         keeper.end()
         plant.scheduler.end()
-    return home, tuple(plant.receiver.taken)
+    return folder, tuple(plant.receiver.taken)
 
 
 def _in_order(keeper: Keeper, case: Order) -> None:
@@ -160,16 +160,14 @@ def _let_happen(keeper: Keeper, event: Event, key: str) -> None:
         case "abort":
             plant.ask(lambda station: station.abort(station.running or 1, "ada"))
         case "stop":
-            at_s = plant.scheduler.now_s
-            keeper.witness.stopped(at_s, plant.ask(lambda station: station.stop("ada")))
+            keeper.stop()
         case "fault":
             plant.orders.replace([FaultOrder(device="axis1", kind="silent", for_s=1.5)])
         case "kill" if plant.runs:
             plant.kill()
         case "restart":
-            if plant.runs and not plant.end():
-                keeper.witness.fails("idle", "the station does not end")
-                raise Stranded
+            if plant.runs:
+                keeper.shut_down()
             keeper.restart(_OFF_S)
         case _:
             pass
@@ -190,18 +188,17 @@ def _failing(keeper: Keeper, case: WriteThatFails) -> bool:
         plant.disk.fail(case.trouble, after=case.write, times=case.times)
     with keeper.answered():
         _let_happen(keeper, "submit" if case.deed == "measure" else "apply", "the deed")
-    plant.scheduler.wait(
-        lambda: (
-            plant.runtime is None
-            or plant.runtime.orchestrator.running is None
-            or (case.trouble == "kill" and plant.disk.writes > first + case.write)
-        )
-    )
-    if case.trouble == "kill" and plant.disk.writes > first + case.write:
+
+    def reached() -> bool:
+        return plant.disk.writes > first + case.write
+
+    kills = case.trouble == "kill"
+    plant.scheduler.wait(lambda: keeper.orchestrator.running is None or (kills and reached()))
+    if kills and reached():
         plant.kill()
     plant.scheduler.wait(seconds=2.0)
     plant.disk.mend()
-    return plant.disk.writes > first + case.write
+    return reached()
 
 
 def _settled(keeper: Keeper) -> None:

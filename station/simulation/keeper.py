@@ -88,6 +88,15 @@ class Keeper:
         """In order, when everything was delivered.  :raises Stranded: it does not end."""
         self.deliver_all()
         self.witness.look_at_all(self.store)
+        self.shut_down()
+
+    def stop(self) -> None:
+        """Somebody presses STOP.  :raises: as `Plant.ask`"""
+        pressed_s = self.plant.scheduler.now_s
+        self.witness.stopped(pressed_s, self.plant.ask(lambda station: station.stop("ada")))
+
+    def shut_down(self) -> None:
+        """At once, whatever runs.  :raises Stranded: it does not end."""
         if not self.plant.end():
             self.witness.fails("idle", "the station does not end")
             raise Stranded
