@@ -92,3 +92,9 @@ def test_what_is_explained_is_not_searched_for_small_entries() -> None:
 def test_few_readings_are_not_judged() -> None:
     files = machine(False).files
     assert find_mistake(files.robot, files.sequence.take(np.arange(6))) is None
+
+
+@pytest.mark.parametrize("seed", [9000027140, 9000027191])
+def test_readings_before_a_slip_are_no_glitches(seed: int) -> None:
+    slipped = draw(Robot.default(), ("count_slip",), seed)
+    assert find_mistake(Robot.default(), slipped.sequence, slipped.fresh, explained=True) is None
