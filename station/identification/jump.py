@@ -1,13 +1,14 @@
 """Whether something jumped during a calibration, and at which reading: the readout, or a joint's zero.
 
-Lost counts of the readout shift every later reading by the same amount, a slipped joint every later angle.
-The smooth model takes up part of that, and repeats before and after it make the noise look large, so a run
-may look well; a jump at one reading, beside the model, then explains what is left over far better.
+Lost counts of the readout shift every later reading by the same amount, a slipped joint every later angle; a
+collision may do it to both joints, or twice.  The smooth model takes up part of that, and repeats before and
+after it make the noise look large, so a run may look well; jumps at one or few readings, beside the model,
+then explain what is left over far better.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
@@ -22,15 +23,19 @@ LEAST_MM = 0.03
 """What a jump shifts the readings by, root mean square; less may be creep or warming."""
 READOUT = 0
 """Beside joints 1 and 2."""
+THINGS = (READOUT, 1, 2)
 JOINTS: dict[int, Literal["joint 1", "joint 2"]] = {1: "joint 1", 2: "joint 2"}
+MOST_MOMENTS = 3
+_SIZE_SD = np.array([10.0, np.radians(10.0), np.radians(10.0)])
+"""Of what jumps, mm and rad: keeps those in bounds of which the readings say nothing."""
 _ITERATIONS = 8
 _DOUBT_P = 1e-3
 _LEAST_GAIN = 30.0
-"""Of chi-square, by the jump."""
+"""Of chi-square, by a jump."""
 _FITS = 4.0
-"""Largest chi-square per degree of freedom that the jump may leave."""
-_TRIED = 3
-"""Best moments of each that are fitted in full: those beside the right one do nearly as well."""
+"""Largest chi-square per degree of freedom that jumps may leave."""
+_FEW = 40
+"""Readings; of fewer, several jumps at once explain almost anything."""
 _AS_WELL = 20.0
 """Of chi-square: another thing that jumped explains it as well."""
 
@@ -40,9 +45,9 @@ class Jump:
     """What jumped between two readings."""
 
     index: int
-    """Of the first reading after it."""
+    """Of the first reading after it; of the first jump, if there are several."""
     thing: int | None
-    """`READOUT` or the joint; None: the readings do not say which."""
+    """`READOUT` or the joint; None: several, or the readings do not say which."""
     size: float
     """mm of the readout, rad of the joint."""
 
@@ -71,52 +76,48 @@ class Jump:
         return JumpNote(reading=reading, thing=JOINTS[self.thing], size_deg=size_deg, text=text)
 
 
+Jumps = tuple[tuple[int, tuple[int, ...]], ...]
+"""First reading after each jump, and the things that may have jumped there."""
+
+
 @dataclass(frozen=True)
 class _Fitted:
-    """The model with all that is known of the machine, and perhaps a jump."""
+    """The model with all that is known of the machine, and jumps beside it."""
 
+    jumps: Jumps
     left: Real
     """(K + Q,) what is left of readings and of what is known, in standard deviations."""
     by_parameter: Real
-    """(K + Q, P) derivatives, of the jump last."""
-    size: float = 0.0
+    """(K + Q, P) derivatives, of what jumps last."""
+    sizes: Real
+    """(J,) of what jumps, mm and rad."""
 
     @property
     def square(self) -> float:
         return float(self.left @ self.left)
 
-    @property
-    def basis(self) -> Real:
-        """(K + Q, P) orthonormal, of all that the parameters can take up."""
-        return np.asarray(np.linalg.qr(self.by_parameter)[0])
-
 
 def find_jump(mechanism: FiveBar) -> Jump | None:
-    """The jump that readings contradict the model by; None when they do not, or not by a jump.
+    """The jump that readings contradict the model by; None when they do not, or not by jumps.
 
     The geometry is free within its tolerances, the noise is that of the robot file.
     """
-    without = _fitted(mechanism)
-    if not np.isfinite(without.square):
+    found = _fitted(mechanism, ())
+    dof = len(found.left) - np.linalg.matrix_rank(found.by_parameter)
+    if not np.isfinite(found.square) or chdtrc(dof, found.square) > _DOUBT_P:
         return None
-    dof = len(without.left) - np.linalg.matrix_rank(without.by_parameter)
-    if chdtrc(dof, without.square) > _DOUBT_P:
-        return None
-    found = [(_fitted(mechanism, thing, k), thing, k) for thing, k in _candidates(mechanism, without)]
-    found = [item for item in found if np.isfinite(item[0].square)]
-    if not found:
-        return None
-    best, thing, index = min(found, key=lambda item: item[0].square)
-    shift = best.by_parameter[: len(mechanism.row_sd), -1] * mechanism.row_sd * best.size
-    if (
-        without.square - best.square < _LEAST_GAIN
-        or float(np.sqrt(np.mean(shift[index:] ** 2))) < LEAST_MM
-        or best.square > _FITS * (dof - 1)
-    ):
-        return None
-    others = [other.square for other, what, _ in found if what != thing]
-    alone = min(others, default=np.inf) > best.square + _AS_WELL
-    return Jump(index, thing if alone else None, best.size)
+    single = _single(mechanism, found, _FITS * dof)
+    if single is not None or len(mechanism.row_sd) < _FEW:
+        return single
+    moments: tuple[int, ...] = ()
+    while len(moments) < MOST_MOMENTS and found.square > _FITS * dof:
+        more = _settled(mechanism, (*moments, _moment(mechanism, found)))
+        fitted = _fitted(mechanism, _anything_at(more))
+        if not found.square - fitted.square > _LEAST_GAIN:
+            return None
+        moments, found = more, fitted
+    large = all(_shift_mm(mechanism, found, moment) > LEAST_MM for moment in moments)
+    return Jump(min(moments), None, 0.0) if moments and large and found.square <= _FITS * dof else None
 
 
 def without_jump(result: CalibrationResult, robot: Robot, readings: Sequence[Reading]) -> CalibrationResult:
@@ -133,52 +134,106 @@ def without_jump(result: CalibrationResult, robot: Robot, readings: Sequence[Rea
     return result.model_copy(update=changed)
 
 
-def _candidates(mechanism: FiveBar, without: _Fitted) -> Iterator[tuple[int, int]]:
-    """The thing and the moment of jumps that would gain most, linear about the fit without one."""
-    count, basis = len(mechanism.row_sd), without.basis
+def _single(mechanism: FiveBar, without: _Fitted, limit: float) -> Jump | None:
+    """One jump of one thing, if it leaves a chi-square below `limit`."""
+    last = len(mechanism.row_sd) - 1
+    best = []
+    for thing in THINGS:
+        k = _moment(mechanism, without, (thing,))
+        beside = range(max(1, k - 1), min(last, k + 1) + 1)
+        best.append(min((_fitted(mechanism, ((n, (thing,)),)) for n in beside), key=_square))
+    first, second, _ = sorted(best, key=_square)
+    ((index, (thing,)),) = first.jumps
+    if without.square - first.square < _LEAST_GAIN or first.square > limit:
+        return None
+    if _shift_mm(mechanism, first, index) <= LEAST_MM:
+        return None
+    told = second.square > first.square + _AS_WELL
+    return Jump(index, thing if told else None, float(first.sizes[0]))
+
+
+def _anything_at(moments: Sequence[int]) -> Jumps:
+    return tuple((moment, THINGS) for moment in moments)
+
+
+def _settled(mechanism: FiveBar, moments: tuple[int, ...]) -> tuple[int, ...]:
+    """Each moment looked for again beside the others."""
+    for i in range(len(moments) if len(moments) > 1 else 0):
+        others = moments[:i] + moments[i + 1 :]
+        again = _moment(mechanism, _fitted(mechanism, _anything_at(others)))
+        moments = moments if again in others else (*moments[:i], again, *moments[i + 1 :])
+    return moments
+
+
+def _moment(mechanism: FiveBar, found: _Fitted, things: tuple[int, ...] = THINGS) -> int:
+    """First reading after the jump that would gain most, linear about a fit."""
+    count = len(mechanism.row_sd)
+    basis, _ = np.linalg.qr(found.by_parameter)
     later = np.tril(np.ones((count, count)))
-    for thing in (READOUT, 1, 2):
-        by_jump = np.ones(count) if thing == READOUT else _by_joint(without, mechanism, thing)
-        jumps = np.zeros((len(without.left), count))
-        jumps[:count] = later * (by_jump / mechanism.row_sd)[:, None]
-        jumps -= basis @ (basis.T @ jumps)
-        square = np.einsum("ij,ij->j", jumps, jumps)
-        gains = np.where(square > 1e-9, (jumps.T @ without.left) ** 2 / np.maximum(square, 1e-9), 0.0)
-        gains[0] = 0.0  # a jump before the first reading is the unknown offset
-        for k in np.argsort(gains)[::-1][:_TRIED]:
-            if gains[k] > 0.0:
-                yield thing, int(k)
+    by_thing = np.column_stack([np.ones(count), _by_joints(mechanism, found)]) / mechanism.row_sd[:, None]
+    jumps = np.zeros((len(found.left), count, len(things)))
+    jumps[:count] = later[:, :, None] * by_thing[:, None, list(things)]
+    flat = jumps.reshape(len(found.left), -1)
+    jumps = (flat - basis @ (basis.T @ flat)).reshape(jumps.shape)
+    along = np.einsum("rkt,r->kt", jumps, found.left)
+    square = np.einsum("rkt,rku->ktu", jumps, jumps) + np.diag(_SIZE_SD[list(things)] ** -2.0)
+    gains = np.einsum("kt,kt->k", along, np.linalg.solve(square, along[:, :, None])[:, :, 0])
+    gains[0] = 0.0  # a jump before the first reading is the unknown offset
+    return int(np.argmax(gains))
 
 
-def _by_joint(fitted: _Fitted, mechanism: FiveBar, joint: int) -> Real:
-    """(K,) mm per rad of a joint."""
-    return np.asarray(fitted.by_parameter[: len(mechanism.row_sd), joint - 1] * mechanism.row_sd)
+def _by_joints(mechanism: FiveBar, found: _Fitted) -> Real:
+    """(K, 2) mm per rad."""
+    count = len(mechanism.row_sd)
+    return np.asarray(found.by_parameter[:count, :2] * mechanism.row_sd[:, None])
 
 
-def _fitted(mechanism: FiveBar, thing: int | None = None, index: int = 0) -> _Fitted:
-    """The best fit, with a jump of `thing` at reading `index` or without one."""
-    p, size = mechanism.start, 0.0
+def _shift_mm(mechanism: FiveBar, found: _Fitted, moment: int) -> float:
+    """Root mean square of what the jump at this moment does to the readings after it."""
+    at = np.cumsum([0, *(len(things) for _, things in found.jumps)])
+    n = [index for index, _ in found.jumps].index(moment)
+    first = found.by_parameter.shape[1] - at[-1] + at[n]
+    columns = found.by_parameter[moment : len(mechanism.row_sd), first : first + at[n + 1] - at[n]]
+    shift = columns @ found.sizes[at[n] : at[n + 1]] * mechanism.row_sd[moment:]
+    return float(np.sqrt(np.mean(shift**2)))
+
+
+def _fitted(mechanism: FiveBar, jumps: Jumps) -> _Fitted:
+    """The best fit with these jumps; its square is not finite where there is none."""
+    p, things = mechanism.start, [(index, thing) for index, some in jumps for thing in some]
+    sizes = np.zeros(len(things))
     prior_sd = np.array([parameter.prior_sd for parameter in mechanism.parameters])
     known = np.isfinite(prior_sd)
     pull = np.eye(len(p))[known] / prior_sd[known, None]
-    sd = mechanism.row_sd
-    later = np.arange(len(sd)) >= index
+    bound = np.diag([1.0 / _SIZE_SD[thing] for _, thing in things]).reshape(len(things), len(things))
+    sd, number = mechanism.row_sd, np.arange(len(mechanism.row_sd))
+    later = np.array([number >= index for index, _ in things], dtype=float).reshape(len(things), len(sd))
     for _ in range(_ITERATIONS):
-        theta = mechanism.theta.copy()
-        if thing:
-            theta[later, thing - 1] += size
-        at = mechanism.observe(p, theta)
-        off = mechanism.measured - at.value
-        by_parameter = np.vstack([at.by_parameter / sd[:, None], pull])
-        if thing is not None:
+        theta, off = mechanism.theta.copy(), mechanism.measured.copy()
+        for (_, thing), size, after in zip(things, sizes, later, strict=True):
             if thing == READOUT:
-                off = off - size * later
-            by_jump = (at.by_parameter[:, thing - 1] if thing else 1.0) * later / sd
-            by_parameter = np.column_stack([by_parameter, np.append(by_jump, np.zeros(len(pull)))])
-        left = np.concatenate([off / sd, pull @ (mechanism.start - p)])
+                off -= size * after
+            else:
+                theta[:, thing - 1] += size * after
+        at = mechanism.observe(p, theta)
+        by_jump = [
+            (1.0 if thing == READOUT else at.by_parameter[:, thing - 1]) * after / sd
+            for (_, thing), after in zip(things, later, strict=True)
+        ]
+        by_parameter = np.block(
+            [
+                [at.by_parameter / sd[:, None], np.array(by_jump).reshape(len(things), len(sd)).T],
+                [pull, np.zeros((len(pull), len(things)))],
+                [np.zeros((len(things), len(p))), bound],
+            ]
+        )
+        left = np.concatenate([(off - at.value) / sd, pull @ (mechanism.start - p), -bound @ sizes])
         if not np.isfinite(left).all() or not np.isfinite(by_parameter).all():
-            return _Fitted(np.full_like(left, np.inf), by_parameter)
+            return _Fitted(jumps, np.full_like(left, np.inf), np.zeros_like(by_parameter), sizes)
         step = np.linalg.lstsq(by_parameter, left, rcond=None)[0]
-        p = p + step[: len(p)]
-        size += 0.0 if thing is None else float(step[-1])
-    return _Fitted(left, by_parameter, size)
+        p, sizes = p + step[: len(p)], sizes + step[len(p) :]
+    return _Fitted(jumps, left, by_parameter, sizes)
+
+
+def _square(fitted: _Fitted) -> float:
+    return fitted.square

@@ -113,6 +113,18 @@ def test_a_joint_that_slips_during_a_run(plan: PlanName, joint: int, size_deg: f
         assert abs(float(result.reason.params["slip_deg"])) == pytest.approx(abs(size_deg), rel=0.2)
 
 
+@pytest.mark.parametrize(
+    "slips", [((1, 0.1, 57), (2, -0.02, 57)), ((1, -0.1, 127), (1, -0.5, 65)), ((2, 0.02, 153), (1, 0.1, 59))]
+)
+def test_a_collision_that_moves_both_joints_or_one_twice(slips: tuple[tuple[int, float, int], ...]) -> None:
+    effects = [
+        {"kind": "count_slip", "joint": joint, "step_deg": size, "from_stop": at} for joint, size, at in slips
+    ]
+    machine = SimulatedMachine(ROBOT, group(2), "whole pulses", 4, effects)
+    _, result = carried_out(machine, start_procedure("full", ROBOT), samples=5)
+    assert (result.verdict, result.reason.code) == ("fail", "something_jumped")
+
+
 @pytest.mark.parametrize("from_the_end", [2, 6, 40])
 def test_a_slip_near_the_end_of_a_file_is_no_row_of_outliers(from_the_end: int) -> None:
     stops = make_plan("full", ROBOT).stops
