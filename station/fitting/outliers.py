@@ -146,9 +146,14 @@ def _apart(mechanism: Mechanism, residual: Real, k: int, suspects: Index) -> flo
     return float(np.abs(residual[k] - residual[sound if sound.size else companions].mean()))
 
 
+def few_enough(left_out: tuple[Outlier, ...], readings: int) -> bool:
+    """At most a tenth of the readings, or one: more are something that the model lacks."""
+    return len(left_out) <= max(1, int(LARGEST_SHARE * readings))
+
+
 def check_outlier_share(left_out: tuple[Outlier, ...], readings: int) -> None:
     """:raises InputRefused: more than a tenth of the readings (at least one) would be left out."""
-    if len(left_out) > max(1, int(LARGEST_SHARE * readings)):
+    if not few_enough(left_out, readings):
         names = ", ".join(str(o.reading) for o in left_out)
         raise InputRefused(
             f"Readings {names} disagree with the rest, more than a tenth of {readings}; "
