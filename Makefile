@@ -15,11 +15,12 @@ run: $(VENV)/installed  ## install and start the service on the emulated rig; pr
 test: $(VENV)/installed-for-tests  ## everything that can be checked
 	$(NPM) test
 	$(NPM) ci --prefix ../../tests/web/provider
-	deploy/debian-packages chromium curl mbpoll mosquitto nginx
+	$(NPM) ci --prefix ../../tests/browser/firefox
+	deploy/debian-packages chromium curl firefox-esr mbpoll mosquitto nginx
 	$(BIN)/pytest --numprocesses 3 --dist loadfile
 
 coverage: $(VENV)/installed-for-tests  ## the same tests, with the lines that none of them runs (slower)
-	deploy/debian-packages chromium curl mbpoll mosquitto nginx
+	deploy/debian-packages chromium curl firefox-esr mbpoll mosquitto nginx
 	$(BIN)/pytest --numprocesses 3 --dist loadfile --cov=station --cov=drivers --cov=web
 
 record: $(VENV)/installed-for-tests  ## the closed loop in the browser, recorded; prints the folder
