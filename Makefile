@@ -7,7 +7,7 @@ PAGE := $(shell find web/ui \( -name node_modules -o -name tests -o -name api-ty
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 NPM := $(BIN)/python deploy/node.py
 
-.PHONY: run test coverage record lint format bench security mutate reference lock bundle clean
+.PHONY: run test coverage record pictures lint format bench security mutate reference lock bundle clean
 
 run: $(VENV)/installed  ## install and start the service on the emulated rig; prints the address
 	$(BIN)/station serve
@@ -16,17 +16,21 @@ test: $(VENV)/installed-for-tests  ## everything that can be checked
 	$(NPM) test
 	$(NPM) ci --prefix ../../tests/web/provider
 	$(NPM) ci --prefix ../../tests/browser/firefox
-	deploy/debian-packages chromium curl firefox-esr mbpoll mosquitto nginx
+	deploy/debian-packages chromium curl firefox-esr fonts-droid-fallback mbpoll mosquitto nginx
 	$(BIN)/pytest --numprocesses 3 --dist loadfile
 
 coverage: $(VENV)/installed-for-tests  ## the same tests, with the lines that none of them runs (slower)
-	deploy/debian-packages chromium curl firefox-esr mbpoll mosquitto nginx
+	deploy/debian-packages chromium curl firefox-esr fonts-droid-fallback mbpoll mosquitto nginx
 	$(BIN)/pytest --numprocesses 3 --dist loadfile --cov=station --cov=drivers --cov=web
 
 record: $(VENV)/installed-for-tests  ## the closed loop in the browser, recorded; prints the folder
 	deploy/debian-packages chromium
 	folder=$$(mktemp -d) && STATION_RECORD=$$folder $(BIN)/pytest tests/browser/test_diagnosing.py && \
 	echo "Recorded in $$folder; watch one with: $(BIN)/playwright show-trace FILE.zip"
+
+pictures: $(VENV)/installed-for-tests  ## reference pictures of the page; look at what changed (git diff) before a commit
+	deploy/debian-packages chromium fonts-droid-fallback
+	STATION_PICTURES=1 $(BIN)/pytest tests/browser/test_languages.py -k picture
 
 lint: $(VENV)/installed-for-tests  ## style, types, import layers, spelling
 	$(BIN)/ruff check .
