@@ -16,11 +16,11 @@ test: $(VENV)/installed-for-tests  ## everything that can be checked
 	$(NPM) test
 	$(NPM) ci --prefix ../../tests/web/provider
 	$(NPM) ci --prefix ../../tests/browser/firefox
-	deploy/debian-packages chromium curl firefox-esr fonts-droid-fallback mbpoll mosquitto nginx
+	deploy/debian-packages chromium curl firefox-esr fonts-wqy-microhei mbpoll mosquitto nginx
 	$(BIN)/pytest --numprocesses 3 --dist loadfile
 
 coverage: $(VENV)/installed-for-tests  ## the same tests, with the lines that none of them runs (slower)
-	deploy/debian-packages chromium curl firefox-esr fonts-droid-fallback mbpoll mosquitto nginx
+	deploy/debian-packages chromium curl firefox-esr fonts-wqy-microhei mbpoll mosquitto nginx
 	$(BIN)/pytest --numprocesses 3 --dist loadfile --cov=station --cov=drivers --cov=web
 
 record: $(VENV)/installed-for-tests  ## the closed loop in the browser, recorded; prints the folder
@@ -29,7 +29,7 @@ record: $(VENV)/installed-for-tests  ## the closed loop in the browser, recorded
 	echo "Recorded in $$folder; watch one with: $(BIN)/playwright show-trace FILE.zip"
 
 pictures: $(VENV)/installed-for-tests  ## reference pictures of the page; look at what changed (git diff) before a commit
-	deploy/debian-packages chromium fonts-droid-fallback
+	deploy/debian-packages chromium fonts-wqy-microhei
 	STATION_PICTURES=1 $(BIN)/pytest tests/browser/test_languages.py -k picture
 
 lint: $(VENV)/installed-for-tests  ## style, types, import layers, spelling

@@ -19,8 +19,6 @@ from playwright.sync_api import Page
 
 PICTURES = Path(__file__).parent / "pictures"
 SPOILED = (Path(__file__).parent / "spoiled.js").read_text()
-CHINESE = Path("/usr/share/fonts/truetype/droid/DroidSansFallbackFull.ttf")
-"""Of Debian's package `fonts-droid-fallback`."""
 MAKE = "STATION_PICTURES"
 """Environment variable: reference pictures are written, not compared."""
 CELL_PX, GREYS = 8, 16
@@ -29,7 +27,7 @@ SAME = 32
 MOST_DIFFERENT = 0.003
 """Of all cells; about a word.  Noise of the readings, in charts and maps, made 0.0002 at most."""
 STYLE = """
-  *, *::before, *::after { font-family: "DejaVu Sans", "Droid Sans Fallback" !important; }
+  *, *::before, *::after { font-family: "DejaVu Sans", "WenQuanYi Micro Hei" !important; }
   header time, .where small, .values dd { visibility: hidden !important; }
 """
 STYLED = """css => {

@@ -12,8 +12,9 @@ import pytest
 from playwright.sync_api import Page, ViewportSize, expect
 from pypdf import PdfReader
 
+from station.certificate.pdf import CHINESE_FONTS
 from tests.browser.conftest import BUILT_PAGE, Station, needed
-from tests.browser.looks import CHINESE, spoiled, trouble_with
+from tests.browser.looks import spoiled, trouble_with
 from tests.browser.steps import open_station, violations
 from tests.station.simulated import Drawn, to_csv
 
@@ -62,7 +63,7 @@ def lived(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Station]:
 
 @pytest.mark.parametrize("language", WORDS)
 def test_every_view_looks_as_in_its_picture(page: Page, lived: Station, language: str) -> None:
-    needed(language != "zh" or CHINESE.is_file(), f"the font {CHINESE}")
+    needed(language != "zh" or CHINESE_FONTS[0].is_file(), f"the font {CHINESE_FONTS[0]}")
     page.add_init_script(f"localStorage.setItem('language', '{language}')")
     page.goto(lived.url)
     expect(page.locator("header")).to_contain_text(WORDS[language][1])
