@@ -78,7 +78,7 @@ def test_a_chinese_page_brings_its_glyphs_where_the_font_is_installed(
     """A reader without Chinese fonts showed nothing but digits."""
 
     def drawn_with() -> dict[str, bool]:
-        page = PdfReader(BytesIO(issued(kept, home, "pdf", "zh"))).pages[0]
+        page: Any = PdfReader(BytesIO(issued(kept, home, "pdf", "zh"))).pages[0]
         fonts = [font.get_object() for font in page["/Resources"]["/Font"].values()]
         used = [font for font in fonts if font["/BaseFont"] != "/Helvetica"]
         return {font["/BaseFont"]: "/FontFile2" in font.get("/FontDescriptor", {}) for font in used}

@@ -2,6 +2,7 @@
 
 import { t } from "./messages";
 import { language } from "./messages/language";
+import { said } from "./messages/said";
 import type { EffectAt, Interlock, Plan, RunKind } from "./types";
 
 interface Entry {
@@ -102,7 +103,7 @@ export const withNames = (text: string) =>
     .replace(QUOTED, (_, id: string) => planOf(id)?.name ?? id);
 
 /** The same as a sentence. */
-export const readable = (text: string) => capital(withNames(text));
+export const readable = (text: string) => capital(withNames(said(text)));
 
 /** A model on the way from the simplest one: one of three by name, or one with one more effect. */
 export function stageName(model: string): string {

@@ -1,6 +1,7 @@
 /** Alle Texte der Seite auf Deutsch. */
 import shared from "../../../../station/messages/de.json";
 import { maintenance, training } from "./de-maintenance";
+import { sentences } from "./de-sentences";
 import type { Messages } from "./index";
 
 export const de: Messages = {
@@ -8,6 +9,7 @@ export const de: Messages = {
   title: "Kalibrierstation",
   listed: (parts) => parts.join(", "),
 
+  sentences,
   effects: shared.effects,
   effectAt: {
     joint: (effect, joint) => `${effect} von Gelenk ${joint}`,
@@ -669,7 +671,6 @@ export const de: Messages = {
     processOfAll: "Prozess: alle Roboter dieser Station",
     pareto: (runs) => `Womit die neuesten ${runs} Kalibrierungen endeten`,
     share: "Anteil an allen",
-    reasonName: (code) => code.replaceAll("_", " "),
     offsetTrend: (joint) => `Nullpunktabweichung von Gelenk ${joint}`,
     errorTrend: "Größter Positionsfehler (95-%-Schranke)",
     trendChart: (name) => `${name}: jeder Lauf mit seinen Grenzen und die Änderung von Lauf zu Lauf`,

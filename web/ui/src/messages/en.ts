@@ -30,6 +30,8 @@ export const en = {
   listed: (parts: string[]) => parts.join(", "),
 
   /** By the identifier of the catalogue; `unnamed` is an error outside it. */
+  /** Of what the station says in English only. */
+  sentences: {} as Record<string, string>,
   effects: shared.effects satisfies Record<string, Entry>,
   /** An effect and where it acts. */
   effectAt: {
@@ -686,8 +688,6 @@ export const en = {
     processOfAll: "Process: all robots of this station",
     pareto: (runs: number) => `What the newest ${runs} calibrations ended with`,
     share: "Share of all",
-    /** A code that programs know a reason by, for an engineer. */
-    reasonName: (code: string) => code.replaceAll("_", " "),
     offsetTrend: (joint: number) => `Zero offset of joint ${joint}`,
     errorTrend: "Largest position error (95 % bound)",
     trendChart: (name: string) => `${name} of each run with its limits, and its change from run to run`,

@@ -2,12 +2,14 @@
 import shared from "../../../../station/messages/zh.json";
 import type { Messages } from "./index";
 import { maintenance, training } from "./zh-maintenance";
+import { sentences } from "./zh-sentences";
 
 export const zh: Messages = {
   language: "zh",
   title: "标定工作站",
   listed: (parts) => parts.join("、"),
 
+  sentences,
   effects: shared.effects,
   effectAt: {
     joint: (effect, joint) => `关节 ${joint} 的${effect}`,
@@ -586,7 +588,6 @@ export const zh: Messages = {
     processOfAll: "过程：本工作站的全部机器人",
     pareto: (runs) => `最近 ${runs} 次标定的结果`,
     share: "占总数的比例",
-    reasonName: (code) => code.replaceAll("_", " "),
     offsetTrend: (joint) => `关节 ${joint} 的零点偏差`,
     errorTrend: "最大位置误差（95 % 上限）",
     trendChart: (name) => `${name}：各次运行及其控制限，以及相邻运行之间的变化`,

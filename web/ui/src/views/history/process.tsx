@@ -4,6 +4,7 @@ import { fixed, percent } from "../../format";
 import { t } from "../../messages";
 import { Drawn } from "../../parts/drawn";
 import { useLoaded } from "../../parts/load";
+import { reasonName } from "../../reason";
 import type { ChartLines, Quality, Trend } from "../../types";
 
 export function Process({ serial, latest }: { serial: string | null; latest: string }) {
@@ -37,7 +38,7 @@ function Pareto({ ended }: { ended: Quality }) {
           <tr key={`${outcome} ${reason_code}`}>
             <th scope="row" class="text">
               {(outcome && outcomes[outcome]?.name) ?? t.shared.noVerdict}
-              {reason_code && `: ${t.history.reasonName(reason_code)}`}
+              {reason_code && `: ${reasonName(reason_code)}`}
             </th>
             <td>{count}</td>
             <td>{percent(count / all)}</td>
