@@ -49,6 +49,7 @@ def test_two_runs_are_compared_by_their_address(page: Page, station: Station, ru
         page.get_by_role("button", name=f"Compare run {run}", exact=True).click()
     compared = page.get_by_role("region", name="Two runs compared").first
     row = compared.get_by_role("row", name=re.compile("^Offset 1"))
+    expect(compared.locator(".chart svg")).to_have_count(2)
     expect(row).to_contain_text("±")
     assert violations(page) == []
     page.reload()

@@ -33,7 +33,8 @@ VIEWS = {
     "diagnosis": ("/diagnosis/4", ".pair:has(figure:nth-child(2) .chart svg)"),
     "history": (
         "/history?show=process&a=1&b=2",
-        ".history:has(.field-map):has(.list tbody tr):has(figure:nth-child(3) .chart svg)",
+        ".history:has(.field-map):has(.list tbody tr):has(.process figure:nth-child(3) .chart svg)"
+        ":has(.panel:not(.process) figure:nth-child(2) .chart svg)",
     ),
     "devices": ("/maintenance?part=devices", "tbody tr"),
     "people": ("/maintenance?part=people", "select"),
