@@ -24,15 +24,15 @@ describe("what the station says in English only", () => {
 
   it("is said in the page's language, with its numbers", async () => {
     const said = await inGerman();
-    expect(said("measure the mechanism's mounting error to 0.02 mm (sd 0.012 deg)")).toBe(
-      "Messen Sie den Anbaufehler der Messeinrichtung auf 0,02 mm genau (Standardunsicherheit dann 0,012°)",
+    expect(said("answers: 5 replies, 0.31 ms as a rule, 4.40 ms the slowest")).toBe(
+      "antwortet: 5 Antworten, in der Regel nach 0,31 ms, die langsamste nach 4,40 ms",
     );
   });
 
   it("is said sentence by sentence, and what is not known in English", async () => {
     const said = await inGerman();
-    expect(said("Replace the bearing of the passive joint. Call Ada.")).toBe(
-      "Ersetzen Sie das Lager des passiven Gelenks. Call Ada.",
+    expect(said("The drives hold these zero offsets. Call Ada.")).toBe(
+      "Die Antriebe haben diese Nullpunkte. Call Ada.",
     );
     expect(said("constructor")).toBe("constructor");
   });
