@@ -8,7 +8,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check
 NPM := $(BIN)/python deploy/node.py
 TESTS := $(BIN)/pytest --numprocesses 3 --dist loadfile --no-loadscope-reorder
 
-.PHONY: run test coverage record lint format bench security mutate reference lock bundle clean
+.PHONY: run test coverage record pictures lint format bench security mutate reference lock bundle clean
 
 run: $(VENV)/installed  ## install and start the service on the emulated rig; prints the address
 	$(BIN)/station serve
@@ -16,17 +16,22 @@ run: $(VENV)/installed  ## install and start the service on the emulated rig; pr
 test: $(VENV)/installed-for-tests  ## everything that can be checked
 	$(NPM) test
 	$(NPM) ci --prefix ../../tests/web/provider
-	deploy/debian-packages chromium curl mbpoll mosquitto nginx
+	$(NPM) ci --prefix ../../tests/browser/firefox
+	deploy/debian-packages chromium curl firefox-esr fonts-wqy-microhei mbpoll mosquitto nginx
 	$(TESTS)
 
 coverage: $(VENV)/installed-for-tests  ## the same tests, with the lines that none of them runs (slower)
-	deploy/debian-packages chromium curl mbpoll mosquitto nginx
+	deploy/debian-packages chromium curl firefox-esr fonts-wqy-microhei mbpoll mosquitto nginx
 	$(TESTS) --cov=station --cov=drivers --cov=web
 
 record: $(VENV)/installed-for-tests  ## the closed loop in the browser, recorded; prints the folder
 	deploy/debian-packages chromium
 	folder=$$(mktemp -d) && STATION_RECORD=$$folder $(BIN)/pytest tests/browser/test_diagnosing.py && \
 	echo "Recorded in $$folder; watch one with: $(BIN)/playwright show-trace FILE.zip"
+
+pictures: $(VENV)/installed-for-tests  ## reference pictures of the page; look at what changed (git diff) before a commit
+	deploy/debian-packages chromium fonts-wqy-microhei
+	STATION_PICTURES=1 $(BIN)/pytest tests/browser/test_languages.py -k picture
 
 lint: $(VENV)/installed-for-tests  ## style, types, import layers, spelling
 	$(BIN)/ruff check .

@@ -39,11 +39,17 @@ _LONG_WORD = 30
 _INK, _QUIET = HexColor("#111111"), HexColor("#444444")
 
 
+CHINESE_FONTS = (Path("/usr/share/fonts/truetype/wqy/wqy-microhei.ttc"),)
+"""TrueType with Latin and Chinese glyphs, which may be embedded: Debian's `fonts-wqy-microhei`."""
+
+
 def _fonts(language: Language) -> tuple[str, str]:
-    """Text and heading.  Latin text is embedded; a reader brings its own glyphs for Chinese (Adobe-GB1)."""
+    """Text and heading, embedded; for Chinese without such a font, the reader brings its own glyphs."""
     if language == "zh":
-        pdfmetrics.registerFont(UnicodeCIDFont("STSong-Light"))
-        return "STSong-Light", "STSong-Light"
+        found = next((file for file in CHINESE_FONTS if file.is_file()), None)
+        font = TTFont("Chinese", found) if found else UnicodeCIDFont("STSong-Light")  # Adobe-GB1
+        pdfmetrics.registerFont(font)
+        return font.fontName, font.fontName
     folder = Path(reportlab.__file__).parent / "fonts"
     for name, file in (("Vera", "Vera.ttf"), ("VeraBd", "VeraBd.ttf")):
         pdfmetrics.registerFont(TTFont(name, folder / file))

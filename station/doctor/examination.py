@@ -57,13 +57,22 @@ def _examine_interlocks(settings: Settings, devices: Devices, robot: Robot, tree
         if opened:
             drive.close()
     for lock in locks.views({}, robot.serial):
-        limits = ", ".join(f"{name} {value:g}" for name, value in lock.limits.items())
+        limits = _in_words(lock.limits)
         said = f"{lock.text}{f' ({limits})' if limits else ''}{f': {lock.shows}' if lock.shows else ''}"
         if lock.ok:
             branch.add(said)
         else:
             do = f"if that is not so, check [interlocks.{lock.id}] in the station file"
             branch.add(f"{said}: {lock.detail}", "trouble", do)
+
+
+def _in_words(limits: dict[str, float]) -> str:
+    """Limits of an interlock with their units, as the page shows them."""
+    window = [f"{limits['low_c']:g} to {limits['high_c']:g} °C"] if "low_c" in limits else []
+    most = [(name, value) for name, value in limits.items() if name not in ("low_c", "high_c")]
+    return ", ".join(
+        [*window, *(f"at most {value:g} {'°' if name.endswith('_deg') else 'mm'}" for name, value in most)]
+    )
 
 
 def examine_in_service(settings: Settings, devices: Devices, robot: Robot) -> Finding:

@@ -10,7 +10,7 @@ import numpy as np
 
 from station.quality.capability import Index, Limits, cpk, ppk
 from station.quality.control_chart import D2, D4, Rule, ewma, ewma_limits, run_rules, sd_of_moving_range
-from station.records import Real, Record, TrendPoint
+from station.records import EffectPoint, Real, Record, TrendPoint
 
 FEWEST = 3
 """Values from which a chart has limits."""
@@ -85,6 +85,19 @@ class ChartLines(Record):
     rules: tuple[BrokenRule, ...] = ()
 
 
+class EffectTrend(Record):
+    """The size of one effect in the runs that found it."""
+
+    effect: str
+    joint: int | None
+    part: str | None
+    parameter: str
+    unit: str
+    values: tuple[float, ...]
+    """Of the runs `lines.at`."""
+    lines: ChartLines
+
+
 class Trend(Record):
     """Runs in their order, with the charts of each quantity."""
 
@@ -95,6 +108,8 @@ class Trend(Record):
     dtheta1: ChartLines
     dtheta2: ChartLines
     position_error: ChartLines
+    effects: tuple[EffectTrend, ...] = ()
+    """The effect that most runs found first."""
 
 
 def _first(point: TrendPoint) -> float | None:
@@ -129,7 +144,9 @@ def quality(points: Sequence[TrendPoint], *, zero_offset_deg: float, position_er
     )
 
 
-def trend(robot_serial: str | None, points: Sequence[TrendPoint]) -> Trend:
+def trend(
+    robot_serial: str | None, points: Sequence[TrendPoint], effects: Sequence[EffectPoint] = ()
+) -> Trend:
     """The points of one robot, or of all where there is no serial, with charts over those that measured."""
     return Trend(
         robot_serial=robot_serial,
@@ -137,7 +154,28 @@ def trend(robot_serial: str | None, points: Sequence[TrendPoint]) -> Trend:
         dtheta1=_chart(points, _first),
         dtheta2=_chart(points, _second),
         position_error=_chart(points, _position),
+        effects=_effects(effects),
     )
+
+
+def _effects(points: Sequence[EffectPoint]) -> tuple[EffectTrend, ...]:
+    found: dict[tuple[str, int | None, str | None, str, str], list[EffectPoint]] = {}
+    for point in points:
+        key = (point.effect, point.joint, point.part, point.parameter, point.unit)
+        found.setdefault(key, []).append(point)
+    trends = [
+        EffectTrend(
+            effect=effect,
+            joint=joint,
+            part=part,
+            parameter=parameter,
+            unit=unit,
+            values=tuple(point.value for point in sizes),
+            lines=_lines([point.run for point in sizes], np.array([point.value for point in sizes])),
+        )
+        for (effect, joint, part, parameter, unit), sizes in found.items()
+    ]
+    return tuple(sorted(trends, key=lambda one: -len(one.values)))
 
 
 def _values(points: Sequence[TrendPoint], of: Callable[[TrendPoint], float | None]) -> tuple[list[int], Real]:
@@ -184,7 +222,10 @@ def _rules(runs: Sequence[int], values: Real) -> tuple[BrokenRule, ...]:
 
 
 def _chart(points: Sequence[TrendPoint], of: Callable[[TrendPoint], float | None]) -> ChartLines:
-    runs, values = _values(points, of)
+    return _lines(*_values(points, of))
+
+
+def _lines(runs: Sequence[int], values: Real) -> ChartLines:
     if len(runs) < FEWEST:
         return ChartLines(at=tuple(runs))
     centre, sd = float(values.mean()), sd_of_moving_range(values)

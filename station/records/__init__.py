@@ -171,7 +171,7 @@ from station.records.training import (
     TrainingView,
 )
 from station.records.translation import Translated, translated
-from station.records.trend import TrendPoint
+from station.records.trend import EffectPoint, TrendPoint
 from station.records.types import LARGEST_ID, Angles, Complex, Flags, Index, Real
 from station.records.uid import uid7
 from station.records.visited import inside_visited, visited_in_degrees, visited_ranges
@@ -232,6 +232,7 @@ __all__ = [
     "DiagnosisDocument",
     "DiagnosisVerdict",
     "EffectName",
+    "EffectPoint",
     "ErrorMap",
     "ErrorOfModel",
     "Event",

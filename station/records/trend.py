@@ -1,4 +1,4 @@
-"""One run as a point of a trend."""
+"""One run, or one effect that it found, as a point of a trend."""
 
 from __future__ import annotations
 
@@ -30,3 +30,16 @@ class TrendPoint(Record):
     """95 % bound of the largest position error, of runs that fresh readings verified; null for others."""
     software: str | None = None
     """Version that measured; null where it was not recorded."""
+
+
+class EffectPoint(Record):
+    """The size of one effect that a finished run found: the first of its parameters."""
+
+    run: int
+    effect: str
+    joint: int | None = None
+    part: str | None = None
+    parameter: str
+    unit: str
+    value: float
+    sd: float | None = None

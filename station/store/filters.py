@@ -9,7 +9,9 @@ from typing import Literal
 
 from station.store.rows import millis
 
-Order = Literal["newest", "oldest"]
+Order = Literal["newest", "oldest", "serial", "serial_down"]
+"""By number, or by serial in any case and then by number."""
+BY_SERIAL: tuple[Order, ...] = ("serial", "serial_down")
 Conditions = tuple[list[str], list[str | int]]
 FEW = 2000
 """So many matches of a search are sorted; of more, some are soon met going through all runs in order."""
@@ -34,39 +36,63 @@ class Filters:
     ended_since: datetime | None = None
     """Ended then or later."""
 
-    def conditions(self, or_unstored: Callable[[str], str], *, few_found: bool = True) -> Conditions:
+    def conditions(
+        self, or_unstored: Callable[[str], str], *, few_found: bool = True, order: Order = "newest"
+    ) -> Conditions:
         """Conditions on `calibrations` and their values.
 
         :param or_unstored: lets runs through whose stored state is not the one that is shown
         :param few_found: whether the search is to choose the index
+        :param order: how the list is ordered; by serial, only the index of serials may be chosen
         """
+        by_serial = order in BY_SERIAL
+        run = "+id" if by_serial else "id"
         conditions: list[str] = []
         values: list[str | int] = []
         if self.search:
-            column = f"{'' if few_found else '+'}robot_serial"
+            column = f"{'' if few_found or by_serial else '+'}robot_serial"
             conditions.append(f"{column} COLLATE NOCASE >= ? AND {column} COLLATE NOCASE < ?")
             values += [self.search, self.search + _AFTER_ALL]
         for name in ("work_order", "robot_serial", "verdict", "state", "plan"):
             wanted = getattr(self, name)
             if wanted is not None:
                 # Only the first, most selective one may choose the index: + takes the others out.
-                conditions.append(f"{'+' if conditions else ''}{name} = ?{or_unstored(name)}")
+                conditions.append(f"{'+' if conditions or by_serial else ''}{name} = ?{or_unstored(name)}")
                 values.append(wanted)
         if self.since is not None:
             conditions.append(
                 # times may fall where the clock was set back: the range narrows, the time decides
-                "id >= (SELECT min(id) FROM calibrations WHERE created_ms >= ?) AND +created_ms >= ?"
+                f"{run} >= (SELECT min(id) FROM calibrations WHERE created_ms >= ?) AND +created_ms >= ?"
             )
             values += [millis(self.since)] * 2
         if self.until is not None:
             conditions.append(
-                "id <= (SELECT max(id) FROM calibrations WHERE created_ms < ?) AND +created_ms < ?"
+                f"{run} <= (SELECT max(id) FROM calibrations WHERE created_ms < ?) AND +created_ms < ?"
             )
             values += [millis(self.until)] * 2
         if self.ended_since is not None:
-            conditions.append("ended_ms >= ?")
+            conditions.append(f"{'+' if by_serial else ''}ended_ms >= ?")
             values.append(millis(self.ended_since))
         return conditions, values
+
+
+def beyond(order: Order, run: int) -> tuple[str, list[str | int]]:
+    """The condition and its values for what comes after that run."""
+    than = "<" if order in ("newest", "serial_down") else ">"
+    if order not in BY_SERIAL:
+        return f"id {than} ?", [run]
+    # the second narrows to a range of the index, which SQLite does not find in the first
+    both = (
+        f"(robot_serial COLLATE NOCASE, id) {than} (SELECT robot_serial, id FROM calibrations WHERE id = ?)"
+    )
+    serial = f"robot_serial COLLATE NOCASE {than}= (SELECT robot_serial FROM calibrations WHERE id = ?)"
+    return f"{both} AND {serial}", [run, run]
+
+
+def ordered(order: Order) -> str:
+    """The clause."""
+    way = "DESC" if order in ("newest", "serial_down") else "ASC"
+    return f" ORDER BY {f'robot_serial COLLATE NOCASE {way}, ' if order in BY_SERIAL else ''}id {way}"
 
 
 def where(conditions: list[str]) -> str:

@@ -31,7 +31,7 @@ from station.records import (
 )
 from station.store.chain import Verified, append, verify
 from station.store.ends import End, UnstoredEnds, end_of
-from station.store.filters import FEW, Filters, Order, where
+from station.store.filters import FEW, Filters, Order, beyond, ordered, where
 from station.store.logs import Logs
 from station.store.outbox import Outbox
 from station.store.people import People
@@ -345,13 +345,16 @@ class Store(
         :raises InputRefused: a cursor that is none.
         """
         filters = Filters(search, robot_serial, state, verdict, plan, work_order, since, until, ended_since)
-        conditions, values = filters.conditions(self._or_unstored, few_found=self._finds_few(search))
+        conditions, values = filters.conditions(
+            self._or_unstored, few_found=self._finds_few(search), order=order
+        )
         if cursor is not None:
-            conditions.append("id < ?" if order == "newest" else "id > ?")
-            values.append(row_id(cursor))
+            condition, of_run = beyond(order, row_id(cursor))
+            conditions.append(condition)
+            values += of_run
         rows = self._readers.all(
             f"SELECT {LIST_COLUMNS} FROM calibrations LEFT JOIN results ON calibration_id = id"
-            f"{where(conditions)} ORDER BY id {'DESC' if order == 'newest' else 'ASC'} LIMIT ?",
+            f"{where(conditions)}{ordered(order)} LIMIT ?",
             [*values, limit + 1],
         )
         items = [self._as_ended(summary_from_row(row)) for row in rows[:limit]]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sqlite3
 from datetime import datetime
 
-from station.records import TrendPoint
+from station.records import EffectPoint, TrendPoint
 from station.store.kept_file import KeptFile
 from station.store.rows import millis, moment
 
@@ -48,6 +48,36 @@ class Trends(KeptFile):
             [*values, *bounds, limit],
         )
         return [_point(row) for row in reversed(rows)]
+
+    def effects(
+        self, *, limit: int, robot_serial: str | None = None, since: datetime | None = None
+    ) -> list[EffectPoint]:
+        """Sizes of the effects that the newest finished runs found, oldest first; `limit` counts runs.
+
+        :param since: ended then or later; a time without a zone is UTC.
+        """
+        conditions: list[str] = ["ended_ms IS NOT NULL"]
+        values: list[str | int] = []
+        if robot_serial is not None:
+            conditions.append("robot_serial = ?")
+            values.append(robot_serial)
+        if since is not None:
+            conditions.append("ended_ms >= ?")
+            values.append(millis(since))
+        rows = self._readers.all(
+            f"WITH newest AS (SELECT id FROM calibrations WHERE {' AND '.join(conditions)}"
+            " ORDER BY id DESC LIMIT ?)"
+            " SELECT newest.id AS run, finding.value ->> '$.effect' AS effect,"
+            " finding.value ->> '$.joint' AS joint, finding.value ->> '$.part' AS part,"
+            " finding.value ->> '$.parameters[0].name' AS parameter,"
+            " finding.value ->> '$.parameters[0].unit' AS unit,"
+            " finding.value ->> '$.parameters[0].value' AS value,"
+            " finding.value ->> '$.parameters[0].sd' AS sd"
+            " FROM newest JOIN results ON calibration_id = newest.id, json_each(result, '$.findings') finding"
+            " WHERE finding.value ->> '$.parameters[0].value' IS NOT NULL ORDER BY run",
+            [*values, limit],
+        )
+        return [EffectPoint(**{key: row[key] for key in row.keys()}) for row in rows]  # noqa: SIM118
 
 
 def _point(row: sqlite3.Row) -> TrendPoint:

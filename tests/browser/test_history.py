@@ -25,7 +25,12 @@ def test_a_list_is_found_counted_and_taken_away(page: Page, station: Station, ru
     page.get_by_label("Work order").focus()
     expect(page).to_have_url(re.compile("search=hist-$"))
     expect(page.get_by_text("4 runs", exact=True)).to_be_visible()
-    page.get_by_label("Sort").select_option("oldest")
+    page.get_by_role("button", name="Robot").click()
+    expect(page).to_have_url(re.compile("order=serial$"))
+    expect(page.get_by_role("columnheader", name="Robot")).to_have_attribute("aria-sort", "ascending")
+    expect(page.locator("tbody tr").last).to_contain_text("HIST-2")
+    page.get_by_role("button", name="Run", exact=True).click()
+    expect(page).to_have_url(re.compile("order=oldest$"))
     expect(page.locator("tbody tr").first).to_contain_text("HIST-1")
     expect(page.get_by_label("Robot serial")).to_have_value("hist-")
     with page.expect_download() as download:
@@ -44,6 +49,7 @@ def test_two_runs_are_compared_by_their_address(page: Page, station: Station, ru
         page.get_by_role("button", name=f"Compare run {run}", exact=True).click()
     compared = page.get_by_role("region", name="Two runs compared").first
     row = compared.get_by_role("row", name=re.compile("^Offset 1"))
+    expect(compared.locator(".chart svg")).to_have_count(2)
     expect(row).to_contain_text("±")
     assert violations(page) == []
     page.reload()

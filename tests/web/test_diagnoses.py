@@ -36,6 +36,9 @@ def test_the_document_is_answered_whole_and_the_findings_with_the_run(service: S
     )
     calibration = service.client.get(f"{LIST}/{number}").json()
     assert [finding["effect"] for finding in calibration["findings"]] == ["backlash"]
+    (moved,) = service.client.get("/api/v1/trend").json()["effects"]
+    assert (moved["effect"], moved["joint"], moved["lines"]["at"]) == ("backlash", 1, [calibration["id"]])
+    assert moved["values"] == [calibration["findings"][0]["parameters"][0]["value"]]
     assert calibration["after"]["fresh_reading_rms_mm"] < calibration["before"]["fresh_reading_rms_mm"]
     assert calibration["application"] is None
     assert "findings" not in service.client.get(LIST).json()["items"][0]

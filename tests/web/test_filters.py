@@ -56,6 +56,11 @@ def test_runs_are_found_by_how_their_serial_begins_counted_and_written_as_a_tabl
     assert ids(service, search="fb-1", order="oldest") == found[::-1]
     assert ids(service, search="fb-1", order="oldest", cursor=found[1]) == [found[0]]
     assert ids(service, search="%") == []
+    by_serial = [runs[serial] for serial in ("FB-10", "fb-11", "FB-2", "Fb_1", "XFB-1")]
+    assert ids(service, order="serial") == by_serial
+    assert ids(service, order="serial_down") == by_serial[::-1]
+    assert ids(service, order="serial", cursor=by_serial[1], limit=2) == by_serial[2:4]
+    assert ids(service, order="serial_down", cursor=by_serial[1], search="fb") == by_serial[:1]
     count = service.client.get(f"{RUNS}/count", params={"search": "fb-", "work_order": "WO-7"})
     assert count.json() == {"count": 3}
     answer = service.client.get(f"{RUNS}.csv", params={"search": "fb-1"})

@@ -78,7 +78,7 @@ def _filters(
 
 
 TheFilters = Annotated[Filters, Depends(_filters)]
-TheOrder = Annotated[Order, Query(description="by number")]
+TheOrder = Annotated[Order, Query(description="by number, or by serial in any case and then by number")]
 
 
 @router.get("", response_model=CalibrationList, dependencies=[needs(Permission.READ)])

@@ -38,8 +38,11 @@ def read_station_trend(
     since: Annotated[Moment | None, Query(description="ended then or later")] = None,
     limit: Annotated[int, Query(ge=1, le=5000)] = 200,
 ) -> Trend:
-    """The newest finished runs of all robots, oldest first, with control charts."""
-    return trend(None, runtime.store.trend(limit=limit, since=since, kinds=IN_TREND))
+    """The newest finished runs of all robots, oldest first, with control charts, of effects as well."""
+    store = runtime.store
+    return trend(
+        None, store.trend(limit=limit, since=since, kinds=IN_TREND), store.effects(limit=limit, since=since)
+    )
 
 
 @router.get(
@@ -57,4 +60,5 @@ def read_trend(
     """The newest finished runs of one robot, oldest first, with control charts."""
     runtime.store.robot(serial)
     points = runtime.store.trend(limit=limit, robot_serial=serial, since=since, kinds=IN_TREND)
-    return trend(serial, points)
+    effects = runtime.store.effects(limit=limit, robot_serial=serial, since=since)
+    return trend(serial, points, effects)

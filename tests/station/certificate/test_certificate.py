@@ -14,7 +14,7 @@ from click.testing import CliRunner, Result
 from pypdf import PdfReader, PdfWriter
 from pypdf.generic import NameObject, StreamObject
 
-from station.certificate import FORMATS, Format, issue
+from station.certificate import FORMATS, Format, issue, pdf
 from station.certificate.signature import leaves
 from station.cli import main
 from station.errors import InputRefused
@@ -69,6 +69,25 @@ def test_the_page_is_one_and_says_the_numbers_in_the_readers_language(
     said = text.replace(".", ",") if language == "de" else text
     assert f"{said}mm" in re.sub(r"\s", "", pages[0].extract_text())
     assert said in issued(kept, home, "html", language).decode()
+
+
+@pytest.mark.skipif(not pdf.CHINESE_FONTS[0].is_file(), reason="deploy/debian-packages fonts-wqy-microhei")
+def test_a_chinese_page_brings_its_glyphs_where_the_font_is_installed(
+    kept: Store, home: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A reader without Chinese fonts showed nothing but digits."""
+
+    def drawn_with() -> dict[str, bool]:
+        page: Any = PdfReader(BytesIO(issued(kept, home, "pdf", "zh"))).pages[0]
+        fonts = [font.get_object() for font in page["/Resources"]["/Font"].values()]
+        used = [font for font in fonts if font["/BaseFont"] != "/Helvetica"]
+        return {font["/BaseFont"]: "/FontFile2" in font.get("/FontDescriptor", {}) for font in used}
+
+    embedded = drawn_with()
+    assert embedded and all(embedded.values())
+    assert len(issued(kept, home, "pdf", "zh")) < 300_000
+    monkeypatch.setattr(pdf, "CHINESE_FONTS", ())
+    assert drawn_with() == {"/STSong-Light": False}
 
 
 def digits_of(value: Any, path: str = "") -> list[str]:

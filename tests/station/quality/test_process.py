@@ -11,7 +11,7 @@ import pytest
 from station.quality.capability import Index, Limits, cpk, ppk, with_confidence
 from station.quality.control_chart import RULE_TEXTS, Rule, ewma, ewma_limits, run_rules
 from station.quality.process import quality, trend
-from station.records import Real, State, TrendPoint
+from station.records import EffectPoint, Real, State, TrendPoint
 
 QUIET = [0.5, -0.5, 0.6, 0.4, -0.6, -0.4, 0.3, 0.5, -0.2, -0.6, 0.2, 0.6]
 PATTERNS: dict[Rule, tuple[list[float], int]] = {
@@ -122,3 +122,15 @@ def test_a_trend_charts_calibrations_and_shows_what_was_applied() -> None:
     assert found.dtheta1.low is not None and found.dtheta1.high is not None
     assert found.dtheta1.low < 0.1 < found.dtheta1.high
     assert len(found.dtheta1.ewma) == len(found.dtheta1.ewma_low) == 9
+
+
+def test_each_effect_has_its_own_chart_the_most_frequent_first() -> None:
+    def size(run: int, effect: str, value: float) -> EffectPoint:
+        return EffectPoint(run=run, effect=effect, joint=1, parameter="width", unit="deg", value=value)
+
+    found = trend("R1", [], [size(2, "scale_gain", 0.1), *(size(k, "backlash", 0.02) for k in (1, 2, 5))])
+    assert [(one.effect, one.lines.at, one.values) for one in found.effects] == [
+        ("backlash", (1, 2, 5), (0.02, 0.02, 0.02)),
+        ("scale_gain", (2,), (0.1,)),
+    ]
+    assert [one.lines.centre for one in found.effects] == [pytest.approx(0.02), None]

@@ -326,6 +326,8 @@ def test_a_run_of_six_readings_takes_less_than_2500_bytes_and_500_to_say_who_and
         {"work_order": "WO-7"},
         {"work_order": "WO-7", "robot_serial": "R1", "plan": "paper"},
         {"since": datetime(2026, 1, 1), "until": datetime(2026, 2, 1)},
+        {"order": "serial", "cursor": 10},
+        {"order": "serial_down", "search": "R", "state": "failed", "since": datetime(2026, 1, 1)},
     ],
 )
 def test_a_page_is_found_by_index_and_never_sorted(
@@ -344,3 +346,4 @@ def test_a_page_is_found_by_index_and_never_sorted(
     assert "TEMP B-TREE" not in plan
     if query:
         assert "SEARCH calibrations" in plan
+        assert "SCAN calibrations" not in plan

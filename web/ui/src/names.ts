@@ -1,5 +1,8 @@
 /** Display names of what the service calls by an identifier. */
+
 import { t } from "./messages";
+import { language } from "./messages/language";
+import { said } from "./messages/said";
 import type { EffectAt, Interlock, Plan, RunKind } from "./types";
 
 interface Entry {
@@ -17,9 +20,9 @@ const plain = (id: string): Entry => ({ name: capital(id.replaceAll("_", " ")), 
 /** As the first word of a sentence. */
 export const capital = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
 
-/** As in the middle of a sentence; abbreviations keep their capitals. */
+/** As in the middle of a sentence; abbreviations keep their capitals, and so do German nouns. */
 export const inSentence = (name: string) =>
-  /^[A-Z][^A-Z]/.test(name) ? name.charAt(0).toLowerCase() + name.slice(1) : name;
+  language !== "de" && /^[A-Z][^A-Z]/.test(name) ? name.charAt(0).toLowerCase() + name.slice(1) : name;
 
 const PLACEHOLDERS: Record<string, string> = { n: "(\\d+)", axis: "([xyz])" };
 const PLACEHOLDER = /\{(\w+)\}/;
@@ -100,7 +103,7 @@ export const withNames = (text: string) =>
     .replace(QUOTED, (_, id: string) => planOf(id)?.name ?? id);
 
 /** The same as a sentence. */
-export const readable = (text: string) => capital(withNames(text));
+export const readable = (text: string) => capital(withNames(said(text)));
 
 /** A model on the way from the simplest one: one of three by name, or one with one more effect. */
 export function stageName(model: string): string {
@@ -166,9 +169,9 @@ export const interlockName = ({ id, text, own_text }: Interlock) =>
 /** Limits of an interlock with their units, for instance "≤ 60 mm". */
 export function interlockLimits({ limits }: Interlock): string {
   const { low_c, high_c, ...others } = limits;
-  const window = low_c !== undefined && high_c !== undefined ? [`${low_c} … ${high_c} °C`] : [];
+  const window = low_c !== undefined && high_c !== undefined ? [`${low_c} … ${high_c}\u00a0°C`] : [];
   const most = Object.entries(others).map(
-    ([name, most]) => `≤ ${most} ${name.endsWith("_deg") ? "°" : "mm"}`,
+    ([name, most]) => `≤\u00a0${most}\u00a0${name.endsWith("_deg") ? "°" : "mm"}`,
   );
   return [...window, ...most].join(", ");
 }

@@ -49,6 +49,13 @@ const inWords = ([name, value]: [string, Value]): [string, Value] => {
   return [name, typeof value === "string" ? words(value) : value];
 };
 
+/** What a code stands for, without the numbers of one run. */
+export function reasonName(code: string): string {
+  const templates: Record<string, string> = t.reasons;
+  const template = Object.hasOwn(templates, code) ? templates[code] : undefined;
+  return template?.replace(FIELD, "…") ?? code.replaceAll("_", " ");
+}
+
 type Because = Pick<Summary, "reason"> & Partial<Pick<Summary, "reason_code" | "reason_params">>;
 
 /** The parameters of a reason, with display names in place of identifiers. */

@@ -1,6 +1,7 @@
 /** Alle Texte der Seite auf Deutsch. */
 import shared from "../../../../station/messages/de.json";
 import { maintenance, training } from "./de-maintenance";
+import { sentences } from "./de-sentences";
 import type { Messages } from "./index";
 
 export const de: Messages = {
@@ -8,6 +9,7 @@ export const de: Messages = {
   title: "Kalibrierstation",
   listed: (parts) => parts.join(", "),
 
+  sentences,
   effects: shared.effects,
   effectAt: {
     joint: (effect, joint) => `${effect} von Gelenk ${joint}`,
@@ -195,7 +197,8 @@ export const de: Messages = {
     recommended: (plan) => `${plan} (empfohlen)`,
     notKnown: "nicht bekannt",
     calibrate: "Kalibrieren",
-    accuracy: "Gewünschte Genauigkeit, mm (freiwillig)",
+    accuracy: "Gewünschte Genauigkeit, mm",
+    optional: "freiwillig",
     references: "Referenzen anderer Messgeräte",
     joint: "Gelenk",
     driveSays: "Der Antrieb zeigt, °",
@@ -635,6 +638,7 @@ export const de: Messages = {
     robot: "Roboter",
     outcome: "Ausgang und Begründung",
     offset: (joint) => `Abweichung ${joint} ± U, °`,
+    offsets: "Abweichung 1, 2 ± U, °",
     readings: "Messungen",
     csv: "CSV",
     csvLabel: (id) => `Messungen von Lauf ${id}, CSV`,
@@ -644,9 +648,6 @@ export const de: Messages = {
     firstPage: "Erste Seite",
     nextPage: "Nächste Seite",
     workOrder: "Auftrag",
-    sort: "Reihenfolge",
-    newestFirst: "Neueste zuerst",
-    oldestFirst: "Älteste zuerst",
     found: (count) => (count === 1 ? "1 Lauf" : `${count} Läufe`),
     listCsv: "Liste (CSV)",
     compare: "Vergleich",
@@ -663,15 +664,16 @@ export const de: Messages = {
     quantity: "Größe",
     runOf: (id, serial) => `Lauf ${id}, ${serial}`,
     difference: "Zweiter minus erster",
-    residualRms: "Residuum, RMS, µm",
-    residualMax: "Residuum, größtes, µm",
+    residualsOf: (id) => `Restfehler jeder Messung, Lauf ${id}`,
+    residualRms: "Restfehler, Effektivwert, µm",
+    residualMax: "Restfehler, größter, µm",
     process: "Prozess",
     processOf: (serial) => `Prozess: Roboter ${serial}`,
     processOfAll: "Prozess: alle Roboter dieser Station",
     pareto: (runs) => `Womit die neuesten ${runs} Kalibrierungen endeten`,
     share: "Anteil an allen",
-    reasonName: (code) => code.replaceAll("_", " "),
     offsetTrend: (joint) => `Nullpunktabweichung von Gelenk ${joint}`,
+    effectTrend: (effect, size) => `${effect}: ${size}`,
     errorTrend: "Größter Positionsfehler (95-%-Schranke)",
     trendChart: (name) => `${name}: jeder Lauf mit seinen Grenzen und die Änderung von Lauf zu Lauf`,
     fewValues: "Für Grenzen sind drei Läufe oder mehr nötig.",

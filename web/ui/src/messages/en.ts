@@ -30,6 +30,8 @@ export const en = {
   listed: (parts: string[]) => parts.join(", "),
 
   /** By the identifier of the catalogue; `unnamed` is an error outside it. */
+  /** Of what the station says in English only. */
+  sentences: {} as Record<string, string>,
   effects: shared.effects satisfies Record<string, Entry>,
   /** An effect and where it acts. */
   effectAt: {
@@ -219,7 +221,8 @@ export const en = {
     plan: "Plan",
     recommended: (plan: string) => `${plan} (recommended)`,
     calibrate: "Calibrate",
-    accuracy: "Wanted accuracy, mm (optional)",
+    accuracy: "Wanted accuracy, mm",
+    optional: "optional",
     references: "References from other instruments",
     joint: "Joint",
     driveSays: "The drive says, °",
@@ -653,6 +656,7 @@ export const en = {
     robot: "Robot",
     outcome: "Outcome and reason",
     offset: (joint: number) => `Offset ${joint} ± U, °`,
+    offsets: "Offsets 1 and 2 ± U, °",
     readings: "Readings",
     csv: "CSV",
     csvLabel: (id: number) => `Readings of run ${id}, CSV`,
@@ -662,9 +666,6 @@ export const en = {
     firstPage: "First page",
     nextPage: "Next page",
     workOrder: "Work order",
-    sort: "Sort",
-    newestFirst: "Newest first",
-    oldestFirst: "Oldest first",
     found: (count: number) => (count === 1 ? "1 run" : `${count} runs`),
     listCsv: "List (CSV)",
     compare: "Compare",
@@ -680,6 +681,7 @@ export const en = {
     quantity: "Quantity",
     runOf: (id: number, serial: string) => `Run ${id}, ${serial}`,
     difference: "Second less first",
+    residualsOf: (id: number) => `Residual of each reading, run ${id}`,
     residualRms: "Residual, RMS, µm",
     residualMax: "Residual, largest, µm",
     process: "Process",
@@ -687,9 +689,8 @@ export const en = {
     processOfAll: "Process: all robots of this station",
     pareto: (runs: number) => `What the newest ${runs} calibrations ended with`,
     share: "Share of all",
-    /** A code that programs know a reason by, for an engineer. */
-    reasonName: (code: string) => code.replaceAll("_", " "),
     offsetTrend: (joint: number) => `Zero offset of joint ${joint}`,
+    effectTrend: (effect: string, size: string) => `${effect}: ${size}`,
     errorTrend: "Largest position error (95 % bound)",
     trendChart: (name: string) => `${name} of each run with its limits, and its change from run to run`,
     fewValues: "Limits need three runs or more.",

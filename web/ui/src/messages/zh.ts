@@ -2,12 +2,14 @@
 import shared from "../../../../station/messages/zh.json";
 import type { Messages } from "./index";
 import { maintenance, training } from "./zh-maintenance";
+import { sentences } from "./zh-sentences";
 
 export const zh: Messages = {
   language: "zh",
   title: "标定工作站",
   listed: (parts) => parts.join("、"),
 
+  sentences,
   effects: shared.effects,
   effectAt: {
     joint: (effect, joint) => `关节 ${joint} 的${effect}`,
@@ -171,7 +173,8 @@ export const zh: Messages = {
     recommended: (plan) => `${plan}（推荐）`,
     notKnown: "未知",
     calibrate: "标定",
-    accuracy: "要求的精度，mm（可选）",
+    accuracy: "要求的精度，mm",
+    optional: "可选",
     references: "其他仪器的参考",
     joint: "关节",
     driveSays: "驱动器显示，°",
@@ -221,8 +224,8 @@ export const zh: Messages = {
     verdict: "结论",
     mapUnknown: "工作空间，尚不清楚",
     map: (done, all) => `工作空间：本轮 ${all} 个位置中已测 ${done} 个`,
-    xAxis: "x，mm",
-    yAxis: "y，mm",
+    xAxis: "x/mm",
+    yAxis: "y/mm",
     done: "已测",
     partly: "部分",
     planned: "计划",
@@ -521,8 +524,8 @@ export const zh: Messages = {
     unknownSide: "未知",
     fromBelow: "从下",
     micrometre: "µm",
-    yAxis: "y，mm",
-    xAxisMean: (largest) => `x，mm（最大平均 ${largest} µm）`,
+    yAxis: "y/mm",
+    xAxisMean: (largest) => `x/mm（最大平均 ${largest} µm）`,
 
     errors: "误差",
     errorsTitle: "各模型的残差，单位 µm",
@@ -553,6 +556,7 @@ export const zh: Messages = {
     robot: "机器人",
     outcome: "结果与原因",
     offset: (joint) => `偏差 ${joint} ± U，°`,
+    offsets: "偏差 1、2 ± U，°",
     readings: "读数",
     csv: "CSV",
     csvLabel: (id) => `运行 ${id} 的读数，CSV`,
@@ -562,9 +566,6 @@ export const zh: Messages = {
     firstPage: "第一页",
     nextPage: "下一页",
     workOrder: "工单",
-    sort: "排序",
-    newestFirst: "最新在前",
-    oldestFirst: "最早在前",
     found: (count) => `${count} 次运行`,
     listCsv: "列表（CSV）",
     compare: "比较",
@@ -580,6 +581,7 @@ export const zh: Messages = {
     quantity: "量",
     runOf: (id, serial) => `运行 ${id}，${serial}`,
     difference: "第二次减第一次",
+    residualsOf: (id) => `每次读数的残差，运行 ${id}`,
     residualRms: "残差均方根，µm",
     residualMax: "最大残差，µm",
     process: "过程",
@@ -587,8 +589,8 @@ export const zh: Messages = {
     processOfAll: "过程：本工作站的全部机器人",
     pareto: (runs) => `最近 ${runs} 次标定的结果`,
     share: "占总数的比例",
-    reasonName: (code) => code.replaceAll("_", " "),
     offsetTrend: (joint) => `关节 ${joint} 的零点偏差`,
+    effectTrend: (effect, size) => `${effect}：${size}`,
     errorTrend: "最大位置误差（95 % 上限）",
     trendChart: (name) => `${name}：各次运行及其控制限，以及相邻运行之间的变化`,
     fewValues: "控制限至少需要三次运行。",

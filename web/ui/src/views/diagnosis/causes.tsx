@@ -1,6 +1,7 @@
 /** The causes that a diagnosis found, by rank, and what an unexplained residual depends on. */
 import { fixed, K, percent, quantity } from "../../format";
 import { t } from "../../messages";
+import { said } from "../../messages/said";
 import { effectExplanation, effectName, readable, shown } from "../../names";
 import type { Diagnosis, Finding } from "../../types";
 
@@ -80,7 +81,7 @@ function Cause({ finding, rank, tried }: { finding: Finding; rank: number; tried
           <dt>{t.diagnosis.remedy}</dt>
           <dd>
             {readable(remedy)}
-            {separating_experiment && ` ${t.diagnosis.toDistinguish(separating_experiment)}`}
+            {separating_experiment && ` ${t.diagnosis.toDistinguish(said(separating_experiment))}`}
           </dd>
         </div>
       )}

@@ -25,7 +25,7 @@ export function Experiments({ found: { experiments = [] } }: { found: Diagnosis 
           {ranked.map(({ kind, text, decides }) => (
             <tr key={`${kind} ${text}`}>
               <td class="text">{readable(text)}</td>
-              <td class="part">
+              <td class="share">
                 <progress value={decides} max={1} aria-hidden="true" />
               </td>
               <td>{percent(decides)}</td>

@@ -41,7 +41,7 @@ function Row({ explanation: { effects, probability, named } }: { explanation: Ex
         {!named && <small> ({t.diagnosis.outsideCatalogue})</small>}
         {size && <small> {size}</small>}
       </th>
-      <td class="part">
+      <td class="share">
         <progress value={probability} max={1} aria-hidden="true" />
       </td>
       <td>{percent(probability)}</td>

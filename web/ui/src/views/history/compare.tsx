@@ -7,6 +7,7 @@ import { useLoaded } from "../../parts/load";
 import { navigate, query } from "../../router";
 import type { Calibration } from "../../types";
 import { hasMap } from "../result/error-maps";
+import { ResidualChart } from "../result/residual-chart";
 import { address, showing } from "./address";
 import { MapDifference } from "./map-difference";
 
@@ -36,6 +37,20 @@ function Both({ a, b }: { a: string; b: string }) {
   return (
     <>
       <Numbers first={first} second={second} />
+      <div class="pair">
+        {[
+          [first, second],
+          [second, first],
+        ].map(
+          ([run, other]) =>
+            run!.residuals.length > 0 && (
+              <figure key={run!.id}>
+                <figcaption>{t.history.residualsOf(run!.id)}</figcaption>
+                <ResidualChart id={run!.id} residuals={run!.residuals} beside={other!.residuals} />
+              </figure>
+            ),
+        )}
+      </div>
       {hasMap(first) && hasMap(second) && <MapDifference a={first.id} b={second.id} />}
     </>
   );

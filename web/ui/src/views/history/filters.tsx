@@ -38,17 +38,6 @@ export function Filters() {
         options={VERDICTS}
         value={filters.get("verdict") ?? ""}
       />
-      <p class="field">
-        <label for="filter-sort">{t.history.sort}</label>
-        <select
-          id="filter-sort"
-          value={filters.get("order") ?? ""}
-          onChange={(event) => set("order", event.currentTarget.value)}
-        >
-          <option value="">{t.history.newestFirst}</option>
-          <option value="oldest">{t.history.oldestFirst}</option>
-        </select>
-      </p>
       <Day name="since" label={t.history.from} value={filters.get("since") ?? ""} />
       <Day name="until" label={t.history.to} value={filters.get("until") ?? ""} />
     </form>

@@ -7,7 +7,7 @@ import { t } from "../../messages";
 import { Link } from "../../parts/link";
 import { useLoaded } from "../../parts/load";
 import { navigate, query, scrolledTo } from "../../router";
-import { address, newest, older, showing, toApi, toWholeList } from "./address";
+import { address, newest, older, showing, toApi, toWholeList, withFilter } from "./address";
 import { Compare } from "./compare";
 import { Filters } from "./filters";
 import { Process } from "./process";
@@ -92,25 +92,25 @@ export function HistoryView() {
   );
 }
 
+const UP = "▲";
+const DOWN = "▼";
+
 function Head() {
   return (
     <thead>
       <tr>
-        <th scope="col">{t.history.run}</th>
+        <Sorted name={t.history.run} up="oldest" down="" />
         <th scope="col" class="text">
           {t.history.started}
         </th>
-        <th scope="col" class="text">
-          {t.history.robot}
-        </th>
+        <Sorted name={t.history.robot} up="serial" down="serial_down" text />
         <th scope="col" class="text">
           {t.history.workOrder}
         </th>
         <th scope="col" class="text">
           {t.history.outcome}
         </th>
-        <th scope="col">{t.history.offset(1)}</th>
-        <th scope="col">{t.history.offset(2)}</th>
+        <th scope="col">{t.history.offsets}</th>
         <th scope="col" class="text">
           {t.history.readings}
         </th>
@@ -119,5 +119,25 @@ function Head() {
         </th>
       </tr>
     </thead>
+  );
+}
+
+/** The head of a column that orders the list, one way and then the other. */
+function Sorted({ name, up, down, text }: { name: string; up: string; down: string; text?: boolean }) {
+  const order = query.value.get("order") ?? "";
+  const shape = order === up ? UP : order === down ? DOWN : "";
+  const sort = shape === UP ? "ascending" : shape === DOWN ? "descending" : "none";
+  return (
+    <th scope="col" class={text ? "text" : ""} aria-sort={sort}>
+      <button
+        type="button"
+        class="sort"
+        onClick={() =>
+          navigate(address(withFilter(query.value, "order", shape === UP ? down : up)), { replace: true })
+        }
+      >
+        {name} <span aria-hidden="true">{shape || "↕"}</span>
+      </button>
+    </th>
   );
 }

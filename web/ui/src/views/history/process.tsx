@@ -2,9 +2,12 @@
 import { quality, trend } from "../../api";
 import { fixed, percent } from "../../format";
 import { t } from "../../messages";
+import { effectName, inSentence, shown } from "../../names";
 import { Drawn } from "../../parts/drawn";
 import { useLoaded } from "../../parts/load";
+import { reasonName } from "../../reason";
 import type { ChartLines, Quality, Trend } from "../../types";
+import type { Charted } from "./trend-drawing";
 
 export function Process({ serial, latest }: { serial: string | null; latest: string }) {
   const { value: ended } = useLoaded(`pareto ${serial} ${latest}`, () => quality(serial)).value;
@@ -16,9 +19,16 @@ export function Process({ serial, latest }: { serial: string | null; latest: str
       {trouble && <p role="status">{t.history.trouble(trouble)}</p>}
       {moved && (
         <div class="pair">
-          <Quantity name={t.history.offsetTrend(1)} unit="°" of="dtheta1" moved={moved} />
-          <Quantity name={t.history.offsetTrend(2)} unit="°" of="dtheta2" moved={moved} />
-          <Quantity name={t.history.errorTrend} unit="mm" of="position_error" moved={moved} />
+          <Quantity name={t.history.offsetTrend(1)} moved={moved} charted={measured(moved, "dtheta1", "°")} />
+          <Quantity name={t.history.offsetTrend(2)} moved={moved} charted={measured(moved, "dtheta2", "°")} />
+          <Quantity
+            name={t.history.errorTrend}
+            moved={moved}
+            charted={measured(moved, "position_error", "mm")}
+          />
+          {moved.effects.map((effect) => (
+            <Effect key={`${effect.effect} ${effect.joint} ${effect.part}`} effect={effect} moved={moved} />
+          ))}
         </div>
       )}
     </section>
@@ -36,8 +46,7 @@ function Pareto({ ended }: { ended: Quality }) {
         {ended.pareto.map(({ outcome, reason_code, count }) => (
           <tr key={`${outcome} ${reason_code}`}>
             <th scope="row" class="text">
-              {(outcome && outcomes[outcome]?.name) ?? t.shared.noVerdict}
-              {reason_code && `: ${t.history.reasonName(reason_code)}`}
+              {endedWith((outcome && outcomes[outcome]?.name) ?? t.shared.noVerdict, reason_code)}
             </th>
             <td>{count}</td>
             <td>{percent(count / all)}</td>
@@ -51,10 +60,53 @@ function Pareto({ ended }: { ended: Quality }) {
   );
 }
 
-type Charted = "dtheta1" | "dtheta2" | "position_error";
+/** Some reasons begin with the outcome's name. */
+function endedWith(outcome: string, code: string | null): string {
+  if (!code) return outcome;
+  const reason = reasonName(code);
+  return reason.startsWith(outcome) ? reason : `${outcome}: ${reason}`;
+}
 
-function Quantity({ name, unit, of, moved }: { name: string; unit: string; of: Charted; moved: Trend }) {
+const VALUE = {
+  dtheta1: "dtheta1_deg",
+  dtheta2: "dtheta2_deg",
+  position_error: "position_error_mm",
+} as const;
+
+function measured(moved: Trend, of: keyof typeof VALUE, unit: string): Charted {
   const lines = moved[of];
+  const inChart = new Set(lines.at);
+  const points = moved.items.flatMap((item): [number, number][] => {
+    const value = item[VALUE[of]];
+    return inChart.has(item.id) && value !== null ? [[item.id, value]] : [];
+  });
+  return { points, lines, unit };
+}
+
+/** How the size of an effect moves over the runs that found it. */
+function Effect({ effect, moved }: { effect: Trend["effects"][number]; moved: Trend }) {
+  const sizes = effect.values.map((value) =>
+    shown({ name: effect.parameter, value, sd: null, unit: effect.unit }),
+  );
+  const scale = (value: number | null) =>
+    shown({ name: effect.parameter, value, sd: null, unit: effect.unit }).value;
+  const lines = { ...effect.lines };
+  for (const line of ["centre", "low", "high", "range_centre", "range_high"] as const) {
+    lines[line] = scale(lines[line]);
+  }
+  const points = effect.lines.at.map((run, n): [number, number] => [run, sizes[n]?.value ?? Number.NaN]);
+  const { name, unit } = sizes[0]!;
+  return (
+    <Quantity
+      name={t.history.effectTrend(effectName({ label: "", depends_on: null, ...effect }), inSentence(name))}
+      moved={moved}
+      charted={{ points, lines, unit }}
+    />
+  );
+}
+
+function Quantity({ name, moved, charted }: { name: string; moved: Trend; charted: Charted }) {
+  const { lines, points, unit } = charted;
   return (
     <figure>
       <figcaption>{name}</figcaption>
@@ -64,12 +116,12 @@ function Quantity({ name, unit, of, moved }: { name: string; unit: string; of: C
         <>
           <Drawn
             label={t.history.trendChart(name)}
-            on={`${of} ${lines.at.join(" ")}`}
+            on={`${name} ${points.join(" ")}`}
             load={() =>
               import("./trend-drawing").then(
                 ({ draw }) =>
                   (place) =>
-                    draw(place, moved, of, unit),
+                    draw(place, moved, charted),
               )
             }
           />

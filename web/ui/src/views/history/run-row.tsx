@@ -17,7 +17,7 @@ export function RunRow({ run }: { run: Summary }) {
           {run.id}
         </Link>
       </td>
-      <td class="text">{dateTime(run.started_at ?? run.created_at)}</td>
+      <td class="text when">{dateTime(run.started_at ?? run.created_at)}</td>
       <td class="text serial">
         <Link class="cell" to={address(showing(ofRobot(run.robot_serial), "show", "process"))}>
           {run.robot_serial}
@@ -31,8 +31,11 @@ export function RunRow({ run }: { run: Summary }) {
         </span>
         {run.reason && <small>{reasonText(run)}</small>}
       </td>
-      <td>{offset(run, 1)}</td>
-      <td>{offset(run, 2)}</td>
+      <td>
+        {offset(run, 1)}
+        <br />
+        {offset(run, 2)}
+      </td>
       <td class="text">
         <a
           class="cell"

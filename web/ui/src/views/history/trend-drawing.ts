@@ -9,34 +9,27 @@ import type { ChartLines, Trend } from "../../types";
 
 use([LineChart, ScatterChart, GridComponent, MarkLineComponent, SVGRenderer]);
 
-type Charted = "dtheta1" | "dtheta2" | "position_error";
-
-const VALUE = {
-  dtheta1: "dtheta1_deg",
-  dtheta2: "dtheta2_deg",
-  position_error: "position_error_mm",
-} as const;
+/** Run and value of each point, with the lines of their chart. */
+export interface Charted {
+  points: [number, number][];
+  lines: ChartLines;
+  unit: string;
+}
 
 const short = (value: number) => fixed(value, 3);
 
 /** Draws into `place`; returns how to take it away. */
-export function draw(place: HTMLElement, moved: Trend, of: Charted, unit: string): () => void {
-  return mount(place, trendOption(moved, of, unit));
+export function draw(place: HTMLElement, moved: Trend, charted: Charted): () => void {
+  return mount(place, trendOption(moved, charted));
 }
 
 /** Individuals above, moving ranges below; broken rules as diamonds, what was written to the drives as lines. */
-export function trendOption(moved: Trend, of: Charted, unit: string) {
-  const lines: ChartLines = moved[of];
+export function trendOption(moved: Trend, { points, lines, unit }: Charted) {
   const broken = new Set(lines.rules.map(({ at }) => at));
-  const inChart = new Set(lines.at);
-  const points = moved.items.flatMap((item) => {
-    const value = item[VALUE[of]];
-    return inChart.has(item.id) && value !== null ? [[item.id, value] as [number, number]] : [];
-  });
   const ranges = points
     .slice(1)
     .map(([run, value], n) => [run, Math.abs(value - points[n]![1])] as [number, number]);
-  const shown = moved.items.map(({ id }) => id);
+  const shown = [...moved.items.map(({ id }) => id), ...lines.at];
   const runs = { ...xAxis, minInterval: 1, min: Math.min(...shown) - 1, max: Math.max(...shown) + 1 };
   // the limits belong into the picture, also while every value is well within them
   const reach = (values: number[], limits: (number | null)[]) => {

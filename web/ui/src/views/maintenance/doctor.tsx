@@ -2,6 +2,7 @@
 import { useSignal } from "@preact/signals";
 import { station } from "../../live";
 import { t } from "../../messages";
+import { said } from "../../messages/said";
 import type { Found } from "../../types";
 import { ActionButton } from "./action";
 import { Needs } from "./allowed";
@@ -47,8 +48,8 @@ function FoundItem({ found }: { found: Found }) {
       {found.condition !== "ok" && (
         <strong class={ALARMS[found.condition]}>{t.maintenance.conditions[found.condition]}</strong>
       )}{" "}
-      {found.text}
-      {found.do && <p class="todo">{t.maintenance.todo(found.do)}</p>}
+      {said(found.text)}
+      {found.do && <p class="todo">{t.maintenance.todo(said(found.do))}</p>}
       {found.parts.length > 0 && (
         <ul>
           {found.parts.map((part) => (

@@ -1,5 +1,6 @@
 import { fixed } from "../../format";
 import { t } from "../../messages";
+import { said } from "../../messages/said";
 import { adviceText } from "../../names";
 import type { Calibration } from "../../types";
 
@@ -17,7 +18,7 @@ export function Accuracy({ result: { accuracy, check, advice } }: { result: Cali
               {t.result.wanted(fixed(accuracy.wanted_mm, 3))}
             </p>
           )}
-          <p class="note">{t.result.stopped(accuracy.stopped_because ?? "")}</p>
+          <p class="note">{t.result.stopped(said(accuracy.stopped_because ?? ""))}</p>
           <AdviceTable advice={advice} />
         </>
       )}

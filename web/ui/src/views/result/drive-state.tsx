@@ -1,6 +1,7 @@
 /** What the drives hold of a run's zero offsets, in one line. */
 import { station } from "../../live";
 import { t } from "../../messages";
+import { said } from "../../messages/said";
 import type { ApplicationState, Calibration, Run } from "../../types";
 
 type Drives = NonNullable<Calibration["application"]>;
@@ -27,5 +28,5 @@ function progress({ walk, step, steps }: Run): string {
 export function statement({ state, text, verified }: Pick<Drives, "state" | "text" | "verified">): string {
   const shape = ALARMS.has(state) ? "▲" : verified ? "✓" : "○";
   const checked = state === "applied" ? [verified ? t.result.verified : t.result.notVerified] : [];
-  return [shape, text, ...checked].join(" ");
+  return [shape, said(text), ...checked].join(" ");
 }

@@ -64,8 +64,14 @@ export function FieldMap({ name, grid, values, scale, limit, dots = [], cursor, 
             <path d={cross(cx, cy)} />
           </g>
         )}
-        {[left, (left + right) / 2, right].map((x) => (
-          <text key={x} x={x} y={-low + 18} text-anchor="middle">
+        {(
+          [
+            ["start", left],
+            ["middle", (left + right) / 2],
+            ["end", right],
+          ] as const
+        ).map(([anchor, x]) => (
+          <text key={anchor} x={x} y={-low + 18} text-anchor={anchor}>
             {fixed(x, 0)}
           </text>
         ))}

@@ -12,12 +12,16 @@ use([LineChart, ScatterChart, GridComponent, SVGRenderer]);
 const UM = 1000;
 
 /** Draws into `place`; returns how to take it away. */
-export function draw(place: HTMLElement, residuals: Residual[]): () => void {
-  return mount(place, residualOption(residuals));
+export function draw(place: HTMLElement, residuals: Residual[], reach?: number): () => void {
+  return mount(place, residualOption(residuals, reach));
 }
 
-/** Residuals as dots, those over their limit as diamonds, the limits dashed. */
-export function residualOption(residuals: Residual[]) {
+/** Largest residual or limit, in µm: to draw several runs on one scale. */
+export const reachOf = (residuals: Residual[]): number =>
+  UM * Math.max(0, ...residuals.flatMap((r) => [Math.abs(r.residual_mm ?? 0), r.limit_mm ?? 0]));
+
+/** Residuals as dots, those over their limit as diamonds, the limits dashed; from -reach to reach where it is given. */
+export function residualOption(residuals: Residual[], reach?: number) {
   const over = ({ dataIndex }: { dataIndex: number }) => isOver(residuals[dataIndex]!);
   const limits = (sign: 1 | -1) => ({
     type: "line" as const,
@@ -35,7 +39,11 @@ export function residualOption(residuals: Residual[]) {
       min: ({ min }: { min: number }) => min - 1,
       max: ({ max }: { max: number }) => max + 1,
     },
-    yAxis: { ...yAxis, name: t.result.residualAxis },
+    yAxis: {
+      ...yAxis,
+      name: t.result.residualAxis,
+      ...(reach === undefined ? {} : { min: -Math.ceil(1.05 * reach), max: Math.ceil(1.05 * reach) }),
+    },
     series: [
       limits(1),
       limits(-1),

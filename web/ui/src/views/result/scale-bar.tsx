@@ -7,10 +7,13 @@ const STEPS = 40;
 const WIDTH = 1000;
 /** Ticks nearer to each other than this would be printed over one another. */
 const APART = 0.06;
+/** From here on a mark's text stands before it: after it there is no room. */
+const RIGHT = 0.5;
 
 export function ScaleBar({ scale, limit }: { scale: Scale; limit: number | null }) {
   const at = (mm: number) => scale.share(mm);
   const ticks = scale.ticks.filter((tick, k) => k === 0 || at(tick) - at(scale.ticks[k - 1]!) > APART);
+  const limitMark = t.result.map.limitMark(fixed(limit, 3));
   return (
     <div class="scale-bar" role="img" aria-label={t.result.map.scale(plain(scale.low), plain(scale.high))}>
       <svg viewBox={`0 0 ${WIDTH} 22`} preserveAspectRatio="none" aria-hidden="true">
@@ -30,8 +33,8 @@ export function ScaleBar({ scale, limit }: { scale: Scale; limit: number | null 
         </span>
       ))}
       {limit !== null && (
-        <span class="mark" style={{ left: `${100 * at(limit)}%` }}>
-          ▼ {t.result.map.limitMark(fixed(limit, 3))}
+        <span class={at(limit) > RIGHT ? "mark before" : "mark"} style={{ left: `${100 * at(limit)}%` }}>
+          {at(limit) > RIGHT ? `${limitMark} ▼` : `▼ ${limitMark}`}
         </span>
       )}
       <span class="unit">{t.result.map.unit}</span>

@@ -4,14 +4,14 @@ import { station } from "../../live";
 import { t } from "../../messages";
 import type { Run, RunStop } from "../../types";
 
-const MARGIN_MM = { left: 66, right: 30, top: 24, bottom: 30 };
+const MARGIN_MM = { left: 66, right: 30, top: 10, bottom: 30 };
 /** More positions than this are drawn smaller. */
 const CROWDED = 12;
 
 export function WorkspaceMap({ run }: { run: Run | null }) {
   const workspace = station.value?.workspace;
   if (!workspace)
-    return <svg class="map" viewBox="-306 608 576 204" role="img" aria-label={t.station.mapUnknown} />;
+    return <svg class="map" viewBox="-306 622 576 190" role="img" aria-label={t.station.mapUnknown} />;
   const [left, right] = workspace.x;
   const [bottom, top] = workspace.y;
   const width = right - left;
@@ -61,23 +61,31 @@ export function WorkspaceMap({ run }: { run: Run | null }) {
           d={`M${machine.x_mm - 11},${-machine.y_mm}h22M${machine.x_mm},${-machine.y_mm - 11}v22`}
         />
       )}
-      <g class="key" transform={`translate(${right - 236} ${-top - 12})`}>
-        <g class="done">
-          <circle cx={0} cy={-4} r={4} />
-        </g>
-        <text x={8}>{t.station.done}</text>
-        <g class="partly">
-          <circle cx={50} cy={-4} r={4} />
-        </g>
-        <text x={58}>{t.station.partly}</text>
-        <g class="to-come">
-          <circle cx={104} cy={-4} r={4} />
-        </g>
-        <text x={112}>{t.station.planned}</text>
-        <path class="machine" d="M168,-4h10M173,-9v10" />
-        <text x={182}>{t.station.robot}</text>
-      </g>
     </svg>
+  );
+}
+
+/** What its marks mean; beside the drawing, where each language has the room that it needs. */
+export function MapKey() {
+  return (
+    <ul class="map-key" aria-hidden="true">
+      {(["done", "partly", "planned"] as const).map((mark) => (
+        <li key={mark}>
+          <svg class="map" viewBox="-6 -6 12 12">
+            <g class={mark}>
+              <circle r={4} />
+            </g>
+          </svg>
+          {t.station[mark]}
+        </li>
+      ))}
+      <li>
+        <svg class="map" viewBox="-6 -6 12 12">
+          <path class="machine" d="M-5,0h10M0,-5v10" />
+        </svg>
+        {t.station.robot}
+      </li>
+    </ul>
   );
 }
 

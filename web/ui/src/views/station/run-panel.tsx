@@ -2,7 +2,7 @@ import { duration, fixed } from "../../format";
 import { machineAgeS, remainingS, shownRun, station } from "../../live";
 import { t } from "../../messages";
 import { AbortButton } from "./abort";
-import { WorkspaceMap } from "./map";
+import { MapKey, WorkspaceMap } from "./map";
 import { Outcome, outcome } from "./outcome";
 import { Prompt } from "./prompt";
 
@@ -27,6 +27,7 @@ export function RunPanel() {
         <AbortButton />
       </div>
       <Prompt />
+      <MapKey />
       <WorkspaceMap run={shownRun.value} />
       <LiveValues />
     </section>

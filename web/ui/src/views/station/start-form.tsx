@@ -24,7 +24,7 @@ import {
   serial,
   trouble,
 } from "./start";
-import { WishFields } from "./wish-fields";
+import { AccuracyField, References } from "./wish-fields";
 
 /** Scans that led on to what was missing. */
 let ledOn = 0;
@@ -66,8 +66,9 @@ export function StartForm() {
       <form onSubmit={entered} autocomplete="off">
         <TextField name="robot_serial" label={t.station.serial} input={serialField} value={serial} />
         <TextField name="operator" label={t.shared.operator} input={operatorField} value={operator} />
+        <AccuracyField />
         <PlanField />
-        <WishFields />
+        <References />
         <button type="submit" class="hidden" tabIndex={-1} aria-hidden="true" />
       </form>
       <p id="plan-explanation" class="note">
@@ -124,7 +125,7 @@ function TextField({ name, label, input, value }: TextFieldProps) {
 
 function PlanField() {
   return (
-    <Field name="plan" label={t.station.plan}>
+    <Field name="plan" label={t.station.plan} wide>
       <select
         id="plan"
         value={plan.value}
@@ -145,9 +146,9 @@ function PlanField() {
   );
 }
 
-function Field(props: { name: string; label: string; children: ComponentChildren }) {
+function Field(props: { name: string; label: string; wide?: boolean; children: ComponentChildren }) {
   return (
-    <p class="field">
+    <p class={props.wide ? "field wide" : "field"}>
       <label for={props.name}>{props.label}</label>
       {props.children}
     </p>

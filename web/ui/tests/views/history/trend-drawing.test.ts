@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 import type { Trend } from "../../../src/types";
-import { changes, trendOption } from "../../../src/views/history/trend-drawing";
+import { type Charted, changes, trendOption } from "../../../src/views/history/trend-drawing";
 
 const NO_LINES = {
   centre: null,
@@ -32,10 +32,20 @@ const moved: Trend = {
   },
   dtheta2: NO_LINES,
   position_error: NO_LINES,
+  effects: [],
+};
+const charted: Charted = {
+  points: [
+    [1, 0.5],
+    [2, 0.7],
+    [4, 0.4],
+  ],
+  lines: moved.dtheta1,
+  unit: "°",
 };
 
 it("draws values above their moving range, marks broken rules by shape, and what was applied", () => {
-  const [values, ranges] = trendOption(moved, "dtheta1", "°").series;
+  const [values, ranges] = trendOption(moved, charted).series;
   expect(values?.data).toEqual([
     [1, 0.5],
     [2, 0.7],

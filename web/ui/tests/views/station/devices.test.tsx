@@ -28,10 +28,10 @@ it("shows each interlock with its limits, its value and its last trip", () => {
     ],
   });
   const text = shown();
-  expect(text).toContain("The temperature is within its window 15 … 30 °C");
+  expect(text).toContain("The temperature is within its window 15 … 30\u00a0°C");
   expect(text).toContain("21.5 °C");
   expect(text).toContain("Stopped run 12: stop frames sent after 3.1 ms, standstill seen after 41 ms");
-  expect(text).toContain("≤ 60 mm");
+  expect(text).toContain("≤\u00a060\u00a0mm");
   expect(text).toContain("the rod slipped");
 });
 

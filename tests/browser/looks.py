@@ -1,0 +1,104 @@
+"""How views look: compared with reference pictures, and free of texts that cannot be read.
+
+Pictures are small (an eighth of the size, 16 greys), drawn with fonts that Debian does not change and with
+every digit a zero without a sign, so that another computer, another day and other noise give the same.
+`make pictures` makes them again; look at what changed before you commit it.
+"""
+
+from __future__ import annotations
+
+import os
+from io import BytesIO
+from pathlib import Path
+from tempfile import gettempdir
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+from playwright.sync_api import Page
+
+PICTURES = Path(__file__).parent / "pictures"
+SPOILED = (Path(__file__).parent / "spoiled.js").read_text()
+MAKE = "STATION_PICTURES"
+"""Environment variable: reference pictures are written, not compared."""
+CELL_PX, GREYS = 8, 16
+SAME = 32
+"""Of 255: two cells that differ less look the same from afar."""
+MOST_DIFFERENT = 0.003
+"""Of all cells; about a word.  Noise of the readings, in charts and maps, made 0.0002 at most."""
+STYLE = """
+  *, *::before, *::after { font-family: "DejaVu Sans", "WenQuanYi Micro Hei" !important; }
+  header time, .where small, .values dd { visibility: hidden !important; }
+"""
+STYLED = """css => {
+  const sheet = new CSSStyleSheet();
+  sheet.replaceSync(css);
+  document.adoptedStyleSheets = [sheet];
+}"""
+ZEROS = r"""() => {
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+    const zeros = node.data.replace(/\d/g, "0").replace(/[+−]/g, "");
+    if (zeros !== node.data) node.data = zeros;
+  }
+}"""
+Cells = NDArray[np.float64]
+
+
+def spoiled(page: Page) -> list[str]:
+    """Texts over one another, over a button, cut, or beside the page."""
+    found: list[str] = page.evaluate(SPOILED)
+    return found
+
+
+def picture(page: Page) -> Image.Image:
+    """The whole view as it is compared."""
+    page.evaluate(ZEROS)
+    png = page.screenshot(full_page=True, animations="disabled", caret="hide")
+    whole = Image.open(BytesIO(png)).convert("L")
+    small = whole.resize((whole.width // CELL_PX, whole.height // CELL_PX), Image.Resampling.BOX)
+    step = 256 // GREYS
+    return small.point(lambda grey: grey // step * (255 // (GREYS - 1)))
+
+
+def share_that_differs(one: Image.Image, other: Image.Image) -> float:
+    """Of the cells, each with its neighbours; what only one of the two has differs."""
+    high, wide = max(one.height, other.height), max(one.width, other.width)
+    a, b = (_blurred(_on_black(image, high, wide)) for image in (one, other))
+    return float(np.mean(np.abs(a - b) > SAME))
+
+
+def _on_black(image: Image.Image, high: int, wide: int) -> Cells:
+    cells = np.zeros((high, wide))
+    cells[: image.height, : image.width] = np.asarray(image, float)
+    return cells
+
+
+def _blurred(cells: Cells) -> Cells:
+    """The mean over three by three."""
+    padded = np.pad(cells, 1, mode="edge")
+    rows, columns = cells.shape
+    shifted = [padded[i : i + rows, k : k + columns] for i in range(3) for k in range(3)]
+    mean: Cells = np.mean(shifted, axis=0)
+    return mean
+
+
+def trouble_with(page: Page, name: str) -> str | None:
+    """What is wrong with how the view looks; None if it looks as in its reference picture."""
+    page.evaluate(STYLED, STYLE)
+    if texts := spoiled(page):
+        return f"{name}: {'; '.join(texts)}"
+    file = PICTURES / f"{name}.png"
+    seen = picture(page)
+    if os.environ.get(MAKE):
+        file.parent.mkdir(parents=True, exist_ok=True)
+        seen.save(file, optimize=True)
+        return None
+    if not file.is_file():
+        return f"{name}: there is no reference picture; make pictures"
+    with Image.open(file) as reference:
+        differs = share_that_differs(seen, reference.convert("L"))
+    if differs <= MOST_DIFFERENT:
+        return None
+    seen.save(shown := Path(gettempdir()) / f"{name.replace('/', '-')}.png")
+    return f"{name}: {100 * differs:.1f} % of the picture differ from {file}; it is now as {shown}"
