@@ -17,11 +17,11 @@ test: $(VENV)/installed-for-tests  ## everything that can be checked
 	$(NPM) test
 	$(NPM) ci --prefix ../../tests/web/provider
 	$(NPM) ci --prefix ../../tests/browser/firefox
-	deploy/debian-packages chromium curl firefox-esr fonts-wqy-microhei mbpoll mosquitto nginx
+	deploy/debian-packages chromium curl firefox-esr fonts-dejavu-core fonts-wqy-microhei mbpoll mosquitto nginx
 	$(TESTS)
 
 coverage: $(VENV)/installed-for-tests  ## the same tests, with the lines that none of them runs (slower)
-	deploy/debian-packages chromium curl firefox-esr fonts-wqy-microhei mbpoll mosquitto nginx
+	deploy/debian-packages chromium curl firefox-esr fonts-dejavu-core fonts-wqy-microhei mbpoll mosquitto nginx
 	$(TESTS) --cov=station --cov=drivers --cov=web
 
 record: $(VENV)/installed-for-tests  ## the closed loop in the browser, recorded; prints the folder
