@@ -30,7 +30,7 @@ record: $(VENV)/installed-for-tests  ## the closed loop in the browser, recorded
 	echo "Recorded in $$folder; watch one with: $(BIN)/playwright show-trace FILE.zip"
 
 pictures: $(VENV)/installed-for-tests  ## reference pictures of the page; look at what changed (git diff) before a commit
-	deploy/debian-packages chromium fonts-wqy-microhei
+	deploy/debian-packages chromium fonts-dejavu-core fonts-wqy-microhei
 	STATION_PICTURES=1 $(BIN)/pytest tests/browser/test_languages.py -k picture
 
 lint: $(VENV)/installed-for-tests  ## style, types, import layers, spelling
