@@ -74,6 +74,8 @@ REMOUNT_MM, LINK_MM = 1.0, 0.3
 VISIBLE_SDS = 5.0
 """If a full run would see them so clearly."""
 FULL_VISITS = 5
+GEOMETRY = slice(2, 10)
+"""Where it stands among the unknowns."""
 
 Stopped = Literal[
     "the wanted accuracy is reached",
@@ -121,9 +123,7 @@ class Situation:
     def best_mm(self) -> float:
         """The bound that as many readings as a full run takes could reach, on average."""
         left = with_readings(self.known.covariance, self._rows_of_full)
-        geometry = slice(2, 10)
-        now = self.known.covariance[geometry, geometry]
-        left[geometry, geometry] = now
+        left[GEOMETRY, GEOMETRY] = self.known.covariance[GEOMETRY, GEOMETRY]
         error, jacobian = self.known.position_jacobian()
         return largest_error_bound(error, jacobian, _positive(left))
 
@@ -161,13 +161,15 @@ class Situation:
         """The quickest few positions that should do, before anything is known of the zero offsets."""
         places, known = self.aim.first, self.known
         test, changes = self._test if known.memory else (None, np.zeros((0, 0)))
-        best = float(np.trace(with_readings(known.covariance, self._rows_of_full) @ self._weight))
+        weight, stays = self._by_zeros
+        best = stays + float(np.trace(with_readings(known.covariance, self._rows_of_full) @ weight))
         wanted = self.aim.wanted_mm
         spare = NEARER if wanted is None else max(TIGHTEST, wanted / self.best_mm)
         chosen = Quickest(
             covariance=known.covariance,
             rows=known.rows(places),
-            weight=self._weight,
+            weight=weight,
+            stays=stays,
             enough=best * spare**2,
             theta_deg=self._commands(places),
             here_deg=self.here_deg,
@@ -205,6 +207,15 @@ class Situation:
         """(P, P) M: trace(C M) is the mean square position error."""
         jacobian = self.known.position_jacobian()[1]
         return np.asarray(np.einsum("gdi,gdj->ij", jacobian, jacobian) / len(jacobian))
+
+    @cached_property
+    def _by_zeros(self) -> tuple[Real, float]:
+        """The same with the zeros in the drives only: M, and what the geometry leaves in any case, mm^2."""
+        weight = self._weight.copy()
+        weight[GEOMETRY, GEOMETRY] = 0.0
+        error = self.known.position_jacobian()[0]
+        shape = np.trace(self.known.covariance[GEOMETRY, GEOMETRY] @ self._weight[GEOMETRY, GEOMETRY])
+        return weight, float(np.mean(np.sum(error**2, axis=1)) + shape)
 
     def _worth(self, places: Complex) -> Real:
         """(N,) of a reading at each place."""
