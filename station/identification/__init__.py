@@ -21,6 +21,7 @@ from station.identification.verification import (
     result_of,
     verify,
 )
+from station.identification.zero_difference import zero_difference
 
 __all__ = [
     "GATE_P",
@@ -50,4 +51,5 @@ __all__ = [
     "verify",
     "with_accuracy",
     "without_jump",
+    "zero_difference",
 ]

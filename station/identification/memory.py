@@ -74,6 +74,8 @@ class Memory:
         for reference in robot.references:
             if not isinstance(reference, MountingError) or reference in self.references:
                 continue
+            if reference.parameter not in known.names:  # then it informs the tolerances
+                continue
             i = known.names.index(reference.parameter)
             value, sd = measured_value(reference, robot)
             off = value - known.mean[i]
