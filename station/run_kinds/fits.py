@@ -23,9 +23,13 @@ def fit_of(
 ) -> Identification[FiveBar]:
     """The measurement model on readings, with what is remembered as it was at that age.
 
+    Where the mechanism was moved between the readings, what is remembered of its mounting is of no use.
+
     :raises InputRefused: as `identify`.
     """
     known = None if memory is None else aged(memory, robot, age_days)
+    if known is not None and any(reading.mount for reading in readings):
+        known = known.about([name for name in known.names if not name.startswith(("rMx", "rMy"))])
     return identify(robot, from_readings(readings), known)
 
 

@@ -42,18 +42,31 @@ def reference(start: Start, memory: Remembered | None) -> Procedure:
 
 
 def two_mounts(start: Start, memory: Remembered | None) -> Procedure:
-    """The same positions from two mounting points; each has a mounting error and an offset of its own."""
+    """The same positions from two mounting points; each has a mounting error and an offset of its own.
+
+    The second mounting point comes first: what is measured and verified last is the mechanism as it stays
+    mounted, so the mounting error that later runs use is that of the first mounting point.
+    """
     robot = start.robot
     label, c = robot.second_mount
     stops = make_plan("two_mounts", robot).stops
-    readings: list[Reading] = yield MeasurementSequence("Measuring at the first mounting point", 1, stops)
     yield Ask(
         "Moving the mechanism",
         1,
-        f"Mount the mechanism at its second mounting point, ({c[0]:g}, {c[1]:g}) mm, then confirm."
-        " After the run mount it back.",
+        f"Mount the mechanism at its second mounting point, ({c[0]:g}, {c[1]:g}) mm, then confirm.",
         "confirm",
         mounted_at=c,
     )
-    readings += yield MeasurementSequence("Measuring at the second mounting point", 1, stops, mount=label)
-    return (yield from identified_and_verified(robot, readings, memory, start.wanted_mm, mount=label))
+    readings: list[Reading] = yield MeasurementSequence(
+        "Measuring at the second mounting point", 1, stops, mount=label
+    )
+    yield Ask(
+        "Moving the mechanism back",
+        1,
+        f"Mount the mechanism back at its first mounting point, ({robot.c[0]:g}, {robot.c[1]:g}) mm,"
+        " then confirm.",
+        "confirm",
+        mounted_at=robot.c,
+    )
+    readings += yield MeasurementSequence("Measuring at the first mounting point", 1, stops)
+    return (yield from identified_and_verified(robot, readings, memory, start.wanted_mm))

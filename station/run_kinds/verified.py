@@ -22,19 +22,15 @@ def identified_and_verified(
     readings: list[Reading],
     memory: Remembered | None,
     wanted_mm: float | None,
-    mount: str | None = None,
 ) -> Procedure:
-    """The measurement model on readings, and a verdict by fresh ones.
-
-    :param mount: where the mechanism is mounted now; None: at the robot file's `c`
-    """
+    """The measurement model on readings, and a verdict by fresh ones."""
     age_days = memory.age_days if memory else 0.0
     try:
         fit = fit_of(robot, readings, memory, age_days)
     except InputRefused as refusal:
         return without_jump(not_identified(str(refusal)), robot, readings)
     fresh: list[Reading] = yield MeasurementSequence(
-        "Verifying at fresh positions", 2, fresh_stops(fit), mount=mount, last=True
+        "Verifying at fresh positions", 2, fresh_stops(fit), last=True
     )
     result = result_of(fit, readings, fresh).model_copy(
         update={"lasting": fit.lasting.record(), "advice": advice_of(fit)}
