@@ -235,19 +235,27 @@ class Situation:
     @cached_property
     def _test(self) -> tuple[Contradiction, Real]:
         """Of the memory, and the changes (D, M) that a full run would see."""
-        assert self.known.memory is not None
-        parameters = self.known.parameters
-        names = [p.name for p in parameters]
-        memory = self.known.memory.about(names)
-        lasting = np.array([names.index(name) for name in memory.names])
-        passing = np.array([k for k in range(len(names)) if k not in lasting])
-        sd = np.array([parameters[k].prior_sd for k in passing])
-        known = np.where(np.isfinite(sd), 1.0 / np.where(np.isfinite(sd), sd, 1.0) ** 2, 0.0)
-        test = Contradiction(memory.covariance, lasting, passing, known, GATE_P)
-        changes = changes_of(memory.names, REMOUNT_MM, LINK_MM)
+        test, names = memory_test(self.known)
+        changes = changes_of(names, REMOUNT_MM, LINK_MM)
         full = self._rows_of_full
         seen = test.noncentrality(full.T @ full, changes) >= VISIBLE_SDS**2
         return test, changes[seen]
+
+
+def memory_test(known: Known) -> tuple[Contradiction, tuple[str, ...]]:
+    """How readings of one mount could contradict what is remembered, and what that is.
+
+    Only where there is a memory.
+    """
+    assert known.memory is not None
+    names = [p.name for p in known.parameters]
+    memory = known.memory.about(names)
+    lasting = np.array([names.index(name) for name in memory.names])
+    passing = np.array([k for k in range(len(names)) if k not in lasting])
+    sd = np.array([known.parameters[k].prior_sd for k in passing])
+    finite = np.where(np.isfinite(sd), sd, 1.0)
+    information = np.where(np.isfinite(sd), 1.0 / finite**2, 0.0)
+    return Contradiction(memory.covariance, lasting, passing, information, GATE_P), memory.names
 
 
 def _positive(covariance: Real) -> Real:
