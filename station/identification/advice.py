@@ -9,8 +9,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from station.fitting import expected_largest_error_bound
 from station.five_bar import KNOWN_DRM_SD_MM, SECOND_MOUNT_MM, FiveBar, with_second_mount
+from station.identification.bound import expected_bound_mm
 from station.identification.estimate import Identification
 from station.records import Advice, Real
 
@@ -19,9 +19,6 @@ LEAST_SHARE = 0.03
 """Of the bound; a smaller gain is not worth a sentence."""
 READING_S = 0.4
 MINUTES = {"joint_angle": 3.0, "drm_x": 10.0, "second_mount": 15.0}
-GEOMETRY = slice(2, 10)
-LEARNED = 8
-"""Draws of what may be learned, each taken both ways."""
 
 
 def advice_of(found: Identification[FiveBar]) -> tuple[Advice, ...]:
@@ -72,16 +69,7 @@ def _told(information: Real, index: int, sd: float) -> Real:
 
 
 def _bound(found: Identification[FiveBar], covariance: Real) -> float:
-    """With the zeros in the drives only: what is learned of the geometry later moves nothing.
-
-    It is the mean over what may be learned: the geometry as identified moves by what its covariance loses.
-    """
+    """With the zeros in the drives only: what is learned of the geometry later moves nothing."""
     p = found.p.copy()
     p[:2] = 0.0
-    error, jacobian = found.mechanism.position_errors(p)
-    lost = (found.covariance - covariance)[GEOMETRY, GEOMETRY]
-    values, vectors = np.linalg.eigh(lost)
-    root = vectors * np.sqrt(np.maximum(values, 0.0))
-    drawn = root @ np.random.default_rng(0).standard_normal((len(lost), LEARNED))
-    learned = np.einsum("gdi,im->mgd", jacobian[:, :, GEOMETRY], np.hstack([drawn, -drawn]))
-    return expected_largest_error_bound(error + learned, jacobian, covariance)
+    return expected_bound_mm(*found.mechanism.position_errors(p), found.covariance, covariance)

@@ -89,8 +89,11 @@ def turned(size_mm: float, count: int = 72) -> Real:
 def changes_of(names: Sequence[str], remount_mm: float, link_mm: float) -> Real:
     """(D, M) what may have happened to what is remembered: the mechanism mounted anew in some direction, one
     link changed."""
-    around = turned(remount_mm)
-    out = np.zeros((len(around), len(names)))
-    out[:, [names.index("rMx"), names.index("rMy")]] = around
     links = [k for k, name in enumerate(names) if name in ("L1", "L2", "l1", "l2")]
-    return np.vstack([out, link_mm * np.eye(len(names))[links]])
+    changes = link_mm * np.eye(len(names))[links]
+    if "rMx" not in names:
+        return changes
+    around = turned(remount_mm)
+    mounted = np.zeros((len(around), len(names)))
+    mounted[:, [names.index("rMx"), names.index("rMy")]] = around
+    return np.vstack([mounted, changes])

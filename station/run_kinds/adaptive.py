@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 
 from station.errors import InputRefused
-from station.fitting import NotConvergedError, largest_error_bound
+from station.fitting import NotConvergedError
 from station.five_bar import HOME, FiveBar, Robot, inverse
 from station.identification import (
     GATE_P,
@@ -22,6 +22,7 @@ from station.identification import (
     accuracy_of,
     advice_of,
     bounds_mm,
+    expected_bound_mm,
     not_identified,
     predicted_result,
     with_accuracy,
@@ -39,13 +40,13 @@ from station.plans import (
     with_readings,
 )
 from station.records import (
+    Beforehand,
     CalibrationResult,
     Complex,
     MeasurementSequence,
     Procedure,
     Reading,
     Real,
-    Remembered,
     Stop,
 )
 from station.run_kinds.fits import aged, with_memory_use
@@ -55,7 +56,7 @@ FEWEST = 4
 FEWEST_WITHOUT_MEMORY = 6
 """The same where geometry and mechanism are known by their tolerances alone."""
 MOST_AT_ONCE = 6
-MOST = 60
+MOST = 120
 FIRST_GRID = (7, 4)
 RECENT, APART_DEG = 12, 1.0
 """A position must be that far from those of so many readings before: elsewhere tells more."""
@@ -71,6 +72,8 @@ CONTRADICTED_P = 1e-4
 """Of a memory that is dropped before the run would stop."""
 REMOUNT_MM, LINK_MM = 1.0, 0.3
 """Changes since the last run that must be noticed."""
+OTHER_TYPE_MM = 1.0
+"""Of a link: a robot that is not of the type whose others it is expected to be like."""
 VISIBLE_SDS = 5.0
 """If a full run would see them so clearly."""
 FULL_VISITS = 5
@@ -122,27 +125,31 @@ class Situation:
     @cached_property
     def best_mm(self) -> float:
         """The bound that as many readings as a full run takes could reach, on average."""
-        left = with_readings(self.known.covariance, self._rows_of_full)
-        left[GEOMETRY, GEOMETRY] = self.known.covariance[GEOMETRY, GEOMETRY]
-        error, jacobian = self.known.position_jacobian()
-        return largest_error_bound(error, jacobian, _positive(left))
+        rows = replace(self.known, samples=self.aim.pace.samples).rows(self.aim.of_full)
+        left = with_readings(self.known.covariance, np.repeat(rows, FULL_VISITS, axis=0))
+        return expected_bound_mm(*self.known.position_jacobian(), self.known.covariance, _positive(left))
 
     @cached_property
     def _rows_of_full(self) -> Real:
-        """(120, P) of as many readings as a full run takes."""
+        """(120, P) of as many readings as a full run takes, each of one sample: what is to be noticed and how
+        accurate few readings are is judged carefully."""
         return np.repeat(self.known.rows(self.aim.of_full), FULL_VISITS, axis=0)
 
     @cached_property
     def trusted(self) -> bool:
         """Whether the readings could have contradicted a memory that is wrong."""
-        if self.known.memory is None:
-            return len(self.known.readings) >= FEWEST_WITHOUT_MEMORY
-        if len(self.known.readings) < FEWEST:
+        if len(self.known.readings) < self._fewest:
             return False
+        if self.known.memory is None:
+            return True
         test, changes = self._test
         information = self._information
         found = test.power(test.noncentrality(information, changes), test.directions(information))
         return not len(found) or float(found.mean()) >= POWER
+
+    @property
+    def _fewest(self) -> int:
+        return FEWEST if self.known.measured_before else FEWEST_WITHOUT_MEMORY
 
     def stops_because(self) -> Stopped | None:
         """None: go on."""
@@ -177,7 +184,7 @@ class Situation:
             test=test,
             changes=changes,
             power=POWER,
-        ).choose(FEWEST if known.memory else FEWEST_WITHOUT_MEMORY, MOST_AT_ONCE)
+        ).choose(self._fewest, MOST_AT_ONCE)
         return [complex(places[k]) for k in chosen]
 
     def next_place(self) -> complex:
@@ -236,7 +243,7 @@ class Situation:
     def _test(self) -> tuple[Contradiction, Real]:
         """Of the memory, and the changes (D, M) that a full run would see."""
         test, names = memory_test(self.known)
-        changes = changes_of(names, REMOUNT_MM, LINK_MM)
+        changes = changes_of(names, REMOUNT_MM, LINK_MM if self.known.measured_before else OTHER_TYPE_MM)
         full = self._rows_of_full
         seen = test.noncentrality(full.T @ full, changes) >= VISIBLE_SDS**2
         return test, changes[seen]
@@ -265,7 +272,7 @@ def _positive(covariance: Real) -> Real:
 
 
 def adaptive_run(
-    robot: Robot, remembered: Remembered | None, wanted_mm: float | None, pace: Pace
+    robot: Robot, remembered: Beforehand | None, wanted_mm: float | None, pace: Pace
 ) -> Procedure:
     """Reading after reading until there is a reason to stop."""
     age_days = remembered.age_days if remembered else 0.0
@@ -308,7 +315,7 @@ def _result(known: Known, wanted_mm: float | None, stopped: Stopped, last: Situa
 
 
 def fit_in_sequence(
-    robot: Robot, readings: list[Reading], memory: Remembered | None, age_days: float
+    robot: Robot, readings: list[Reading], memory: Beforehand | None, age_days: float
 ) -> Identification[FiveBar]:
     """The fit of an ended run again, from its readings.
 

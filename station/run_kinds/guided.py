@@ -7,11 +7,11 @@ from typing import Literal
 from station.plans import make_plan
 from station.records import (
     Ask,
+    Beforehand,
     JointAngle,
     MeasurementSequence,
     Procedure,
     Reading,
-    Remembered,
 )
 from station.run_kinds.kind import Start
 from station.run_kinds.verified import identified_and_verified
@@ -19,7 +19,7 @@ from station.run_kinds.verified import identified_and_verified
 JOINT: Literal[1] = 1
 
 
-def reference(start: Start, memory: Remembered | None) -> Procedure:
+def reference(start: Start, memory: Beforehand | None) -> Procedure:
     """Six positions, then the angle of one arm as a level sees it, where the arm stands last."""
     stops = make_plan("reference", start.robot).stops
     readings: list[Reading] = yield MeasurementSequence("Measuring", 1, stops)
@@ -41,7 +41,7 @@ def reference(start: Start, memory: Remembered | None) -> Procedure:
     )
 
 
-def two_mounts(start: Start, memory: Remembered | None) -> Procedure:
+def two_mounts(start: Start, memory: Beforehand | None) -> Procedure:
     """The same positions from two mounting points; each has a mounting error and an offset of its own.
 
     The second mounting point comes first: what is measured and verified last is the mechanism as it stays

@@ -13,14 +13,14 @@ from station.identification import (
     with_accuracy,
     without_jump,
 )
-from station.records import MeasurementSequence, Procedure, Reading, Remembered
+from station.records import Beforehand, MeasurementSequence, Procedure, Reading
 from station.run_kinds.fits import fit_of, with_memory_use
 
 
 def identified_and_verified(
     robot: Robot,
     readings: list[Reading],
-    memory: Remembered | None,
+    memory: Beforehand | None,
     wanted_mm: float | None,
 ) -> Procedure:
     """The measurement model on readings, and a verdict by fresh ones."""

@@ -11,12 +11,14 @@ from station.studies.engine import Engine
 from station.studies.plans.advised import followed
 from station.studies.plans.checks import checked
 from station.studies.plans.collision import misled, struck
+from station.studies.plans.fleet import taught
 from station.studies.plans.page import (
     ABOUT,
     advice_table,
     cases_table,
     checks_table,
     collision_text,
+    fleet_table,
     misled_text,
     retaught_text,
     time_table,
@@ -25,12 +27,16 @@ from station.studies.plans.references import calibrated
 from station.studies.plans.retaught import retaught
 
 TOLERANCES_MM = (0.03, 0.003)
+FLEET_MM = 0.1
+"""Geometry that is made much better than this shows too little in readings to be taught."""
 
 
 @click.command()
 @click.option("--machines", default=200, show_default=True, type=click.IntRange(2), help="A row.")
 @click.option("--many", default=2000, show_default=True, type=click.IntRange(2), help="For shares.")
 @click.option("--promises", default=1000, show_default=True, type=click.IntRange(2), help="Of `adaptive`.")
+@click.option("--fleets", default=50, show_default=True, type=click.IntRange(1), help="Of 20 robots each.")
+@click.option("--tolerance", "tolerances", multiple=True, default=TOLERANCES_MM, help="mm; may be repeated.")
 @click.option("--seed", default=1, show_default=True, type=click.IntRange(0))
 @click.option("--workers", type=click.IntRange(1), help="Processes; one for each core without it.")
 @click.option("--resume", type=click.Path(file_okay=False, path_type=Path), help="Folder to go on from.")
@@ -39,6 +45,8 @@ def main(
     machines: int,
     many: int,
     promises: int,
+    fleets: int,
+    tolerances: tuple[float, ...],
     seed: int,
     workers: int | None,
     resume: Path | None,
@@ -47,7 +55,7 @@ def main(
     """What the plans promise, and what comes of it, on emulated machines."""
     engine = Engine(Console(stderr=True), workers, resume)
     parts = [ABOUT.format(machines=machines, many=many, promises=promises, seed=seed), time_table()]
-    for tolerance in TOLERANCES_MM:
+    for tolerance in tolerances:
         items = [(tolerance, seed * 100_000 + k) for k in range(max(machines, many, promises))]
         parts += [
             f"## Tolerance {tolerance} mm",
@@ -58,6 +66,8 @@ def main(
             advice_table(engine.each(followed, items[:machines], "followed")),
             retaught_text(engine.each(retaught, items[:machines], "retaught")),
         ]
+    of_fleets = engine.each(taught, [(FLEET_MM, seed * 1000 + k) for k in range(fleets)], "fleets", long=True)
+    parts += [f"## Robots of one type, tolerance {FLEET_MM} mm", fleet_table(of_fleets)]
     text = "\n\n".join(parts) + "\n"
     if out:
         out.write_text(text, encoding="utf-8")

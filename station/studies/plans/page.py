@@ -13,6 +13,9 @@ from station.studies.drawn import robot_of
 from station.studies.plans.advised import Followed
 from station.studies.plans.checks import SIZES, Checked, operating_curve
 from station.studies.plans.collision import CLEAR_SDS, WISH, Misled, Struck
+from station.studies.plans.fleet import OWN, NextOne
+from station.studies.plans.fleet import SIZES as FLEETS
+from station.studies.plans.fleet import WISH as FLEET_WISH
 from station.studies.plans.promise import Kept
 from station.studies.plans.references import CASES
 from station.studies.plans.retaught import Retaught
@@ -142,6 +145,30 @@ def retaught_text(found: Sequence[Sequence[Retaught]]) -> str:
         f"**`translate`** after a collision and a second full run: of {len(every)} taught positions"
         f" {share(held)} within their stated 95 %; off by {off_mm:.4f} mm, stated {u95_mm:.4f} mm (medians)."
     )
+
+
+def fleet_table(found: Sequence[Sequence[NextOne]]) -> str:
+    """Robots that were never measured, after so many of their type."""
+    every = list(chain.from_iterable(found))
+    lines = [
+        f"Robots of a type have {100.0 * (1.0 - OWN**2):.0f} % of the variance of their tolerance in common."
+        f"  Plan `adaptive`, to {FLEET_WISH} of the bound of the robot's own full run without the others.",
+        "",
+        "| robots before | next ones | readings (90 %) | wish reached | largest, mm | bound, mm |"
+        " kept, zeros only | kept, model | another type refused |",
+        "|---|---|---|---|---|---|---|---|---|",
+    ]
+    for count in FLEETS:
+        next_ones = [one for one in every if one.before == count]
+        readings = [one.readings for one in next_ones]
+        kept = [one.kept for one in next_ones]
+        refused = share([one.wrong_refused for one in next_ones]) if count else ""
+        reached = share([one.reached for one in next_ones])
+        lines.append(
+            f"| {count} | {len(next_ones)} | {np.median(readings):.0f} ({np.quantile(readings, 0.9):.0f}) |"
+            f" {reached} | {_largest(kept)} | {_promise(kept)} | {refused} |"
+        )
+    return "\n".join(lines)
 
 
 def _largest(kept: Sequence[Kept]) -> str:
