@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import click
 from rich.console import Console
@@ -18,6 +20,7 @@ from station.studies.plans.page import (
     cases_table,
     checks_table,
     collision_text,
+    counted,
     fleet_table,
     misled_text,
     retaught_text,
@@ -54,20 +57,23 @@ def main(
 ) -> None:
     """What the plans promise, and what comes of it, on emulated machines."""
     engine = Engine(Console(stderr=True), workers, resume)
-    parts = [ABOUT.format(machines=machines, many=many, promises=promises, seed=seed), time_table()]
+    parts = [ABOUT, time_table()]
+
+    def part(show: Callable[[Any], str], work: Callable[[Any], Any], tolerance: float, count: int) -> None:
+        items = [(tolerance, seed * 100_000 + k) for k in range(count)]
+        found = engine.each(work, items, work.__name__)
+        parts.append(counted(show(found), found))
+
     for tolerance in tolerances:
-        items = [(tolerance, seed * 100_000 + k) for k in range(max(machines, many, promises))]
-        parts += [
-            f"## Tolerance {tolerance} mm",
-            cases_table(engine.each(calibrated, items[:many], "calibrated")),
-            collision_text(engine.each(struck, items[:promises], "struck")),
-            misled_text(engine.each(misled, items[:machines], "misled")),
-            checks_table(engine.each(checked, items[:many], "checked")),
-            advice_table(engine.each(followed, items[:machines], "followed")),
-            retaught_text(engine.each(retaught, items[:machines], "retaught")),
-        ]
-    of_fleets = engine.each(taught, [(FLEET_MM, seed * 1000 + k) for k in range(fleets)], "fleets", long=True)
-    parts += [f"## Robots of one type, tolerance {FLEET_MM} mm", fleet_table(of_fleets)]
+        parts.append(f"## Tolerance {tolerance} mm")
+        part(cases_table, calibrated, tolerance, many)
+        part(collision_text, struck, tolerance, promises)
+        part(misled_text, misled, tolerance, machines)
+        part(checks_table, checked, tolerance, many)
+        part(advice_table, followed, tolerance, machines)
+        part(retaught_text, retaught, tolerance, machines)
+    parts.append(f"## Robots of one type, tolerance {FLEET_MM} mm")
+    part(fleet_table, taught, FLEET_MM, fleets)
     text = "\n\n".join(parts) + "\n"
     if out:
         out.write_text(text, encoding="utf-8")

@@ -27,8 +27,8 @@ Machines drawn from the tolerances of the robot file (zero offsets uniform withi
 mounting normal), five samples a reading, servos with the scatter of eq. 35 on whole pulses, scale with the
 noise of eq. 34.  Positions are those of the emulated machine's own geometry, over a grid of 13 x 9.
 
-`python -m station.studies.plans --out docs/accuracy.md` makes this page again.  Seed {seed}: {many} machines
-for the calibrations and checks, {promises} for the promise of `adaptive`, {machines} for everything else.
+`python -m station.studies.plans --out docs/accuracy.md` makes this page again; `--resume FOLDER` goes on from
+what was done.  Each part says how many machines it is made of.
 
 - *largest*: the largest position error over the workspace with the zeros in the drives only, a median with
   its standard error.
@@ -47,6 +47,11 @@ def time_table() -> str:
         told = plan.predicted
         lines.append(f"| {name} | {len(plan.stops)} | {told.travel_deg:.0f} | {told.duration_s:.1f} |")
     return "\n".join(lines) + "\n\nAt 30 degrees a second; of `two_mounts` one mounting point of two."
+
+
+def counted(text: str, found: Sequence[object]) -> str:
+    """A part with the number of machines or fleets that it is made of."""
+    return f"*Of {len(found)}:*\n\n{text}"
 
 
 def cases_table(found: Sequence[dict[str, Kept]]) -> str:
@@ -85,8 +90,9 @@ def misled_text(found: Sequence[Misled]) -> str:
     )
     return (
         "Wrong memory (mounted anew by 1 mm in a random direction, or a link changed by 0.3 mm) let through:"
-        f" {sum(one.let_through for one in clear)} of the {len(clear)} that a full run would see at"
-        f" {CLEAR_SDS:.0f} standard deviations or more; {len(through)} of the other {dim}"
+        f" {sum(one.let_through for one in clear)} of the {len(clear)} that a full run of one sample a"
+        f" reading would see at {CLEAR_SDS:.0f} standard deviations or more; {len(through)} of the other"
+        f" {dim}"
         f"{': ' + listed if through else ''}."
     )
 
