@@ -8,8 +8,8 @@ from station.identification.document import gate_record, identification_document
 from station.identification.error_map import error_fields, fresh_readings
 from station.identification.estimate import Gate, Identification, identify
 from station.identification.fleet import fleet_prior
+from station.identification.jump import without_jump
 from station.identification.memory import GATE_P, Memory
-from station.identification.readout_jump import without_jump
 from station.identification.sequential import Innovation, Known
 from station.identification.verification import (
     Verification,

@@ -20,6 +20,7 @@ from station.fitting import (
     Solution,
     check_outlier_share,
     estimate_noise,
+    few_enough,
     find_outliers,
     lack_of_fit,
     position_error_field,
@@ -210,7 +211,10 @@ def _identify(everything: M, memory: Memory | None) -> Identification[M]:
     _check_enough(everything)
     prior = tolerance_prior(everything)
     left_out = find_outliers(everything, lambda sd: _fit(everything, prior, sd).solution, everything.row_sd)
-    check_outlier_share(left_out, len(everything.measurements))
+    if everything.needs_repeats:
+        check_outlier_share(left_out, len(everything.measurements))
+    elif not few_enough(left_out, len(everything.measurements)):
+        left_out = ()  # its uncertainty grows by what the model leaves
     mechanism = everything
     if left_out:
         mechanism = _without(everything, left_out)
