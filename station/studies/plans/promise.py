@@ -12,7 +12,7 @@ from station.identification import Identification, bounds_mm
 from station.plans import zeros_only
 from station.records import Real
 from station.studies.drawn import GRID, Drawn, largest_errors_mm
-from station.studies.population.physics import PlainMachine
+from station.studies.population import PlainMachine
 
 DRAWS = 16
 """Of the linear model, a machine: their median scatters a quarter of what the figure beside it does."""

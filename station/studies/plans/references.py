@@ -13,7 +13,7 @@ from station.identification import identify
 from station.records import AnyReference, JointAngle, Measurements, MountingError, PlanName, Stop
 from station.studies.drawn import Drawn, drawn, robot_of, stops_of
 from station.studies.plans.promise import Kept, kept
-from station.studies.population.physics import PlainMachine
+from station.studies.population import PlainMachine
 
 LEVEL_SD_DEG, MOUNTING_SD_MM = 0.005, 0.02
 Array = NDArray[Any]

@@ -13,7 +13,7 @@ from station.run_kinds import Change, translated
 from station.settings import DEFAULT_JOINTS
 from station.studies.drawn import drawn, robot_of
 from station.studies.plans.references import measured
-from station.studies.population.physics import PlainMachine
+from station.studies.population import PlainMachine
 
 POINTS = 50
 """A machine."""
