@@ -10,6 +10,7 @@ from station.identification.estimate import Gate, Identification, identify
 from station.identification.fleet import fleet_prior
 from station.identification.jump import without_jump
 from station.identification.memory import GATE_P, Memory
+from station.identification.same_geometry import zero_difference
 from station.identification.sequential import Innovation, Known
 from station.identification.verification import (
     Verification,
@@ -22,7 +23,6 @@ from station.identification.verification import (
     result_of,
     verify,
 )
-from station.identification.zero_difference import zero_difference
 
 __all__ = [
     "GATE_P",
