@@ -128,6 +128,9 @@ class TranslateBody(Body):
     taught_under: int | None = Field(
         default=None, ge=1, le=LARGEST_ID, description="the run after whose application they were taught"
     )
+    back: bool = Field(
+        default=False, strict=True, description="take translated positions back to what they were"
+    )
 
 
 class TranslatedList(Record):

@@ -151,6 +151,11 @@ def show_command(home: Path, calibration_id: int, as_json: bool, config: Path | 
             f" {memory.text}",
             soft_wrap=True,
         )
+    if fleet := calibration.fleet:
+        console.print(
+            f"{'others':>14}  {', '.join(fleet.prior.serials)}: {fleet.text}",
+            soft_wrap=True,
+        )
     for zero in calibration.zero_offsets:
         console.print(
             f"{'dtheta' + str(zero.joint):>14}  {zero.value_deg or 0.0:+.4f} deg, sd {zero.sd_deg or 0.0:.4f}"

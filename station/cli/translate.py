@@ -18,11 +18,18 @@ from station.settings import load_settings
 @click.argument("taught", type=existing)
 @click.option("--from", "run", type=click.IntRange(1), required=True, help="The run that was applied.")
 @click.option("--taught-under", type=click.IntRange(1), help="The run under whose zeros they were taught.")
+@click.option("--back", is_flag=True, help="Take translated positions back to what they were.")
 @click.option("--csv", "csv_file", type=existing, help="Write the positions here instead of printing them.")
 @config_option
 @click.pass_obj
 def translate_command(
-    home: Path, taught: Path, run: int, taught_under: int | None, csv_file: Path | None, config: Path | None
+    home: Path,
+    taught: Path,
+    run: int,
+    taught_under: int | None,
+    back: bool,
+    csv_file: Path | None,
+    config: Path | None,
 ) -> None:
     """Taught joint positions as the same physical positions under the present zeros."""
     try:
@@ -34,6 +41,7 @@ def translate_command(
             change = change_of(store, run, taught_under)
         except NotApplicable as refusal:
             raise InputRefused(str(refusal)) from refusal
+    change = change.back() if back else change
     text = translated_to_csv(translated(change, positions, load_settings(config).joints))
     if csv_file:
         write_text(csv_file, text)

@@ -81,6 +81,8 @@ class Robot:
     """c of further mounting places of the mechanism, by the `mount` id of the measurement file."""
     references: tuple[AnyReference, ...] = ()
     """What was measured of the mechanism and, in one run, of the joints, by other instruments."""
+    type: str | None = None
+    """Robots of one type learn from each other; None where this one shall not."""
     accuracy_mm: float | None = None
     """Largest position error that is wanted of a calibration; None where nobody said."""
     tolerances: Tolerances = field(default_factory=Tolerances)
@@ -124,6 +126,7 @@ class Robot:
         return {
             "robot": {
                 "serial": self.serial,
+                **({} if self.type is None else {"type": self.type}),
                 **({} if self.accuracy_mm is None else {"accuracy_mm": self.accuracy_mm}),
                 "e": self.e,
                 "L": self.L,
@@ -252,6 +255,8 @@ class _RobotSection(Section):
     """Serial number of the robot."""
     model: Literal["five-bar"] = "five-bar"
     """Kind of machine."""
+    type: Annotated[str, Field(min_length=1, max_length=64)] | None = None
+    """Robots of one type learn from each other: the spread of their geometry is the prior of the next."""
     accuracy_mm: Positive | None = None
     """Largest position error over the workspace that is wanted of a calibration, mm."""
     e: tuple[tuple[Finite, Finite], tuple[Finite, Finite]] = Robot.e
@@ -313,6 +318,7 @@ class RobotFile(Section):
                 raise InputRefused(f"{source}: [workspace.{axis}] must be [lower, upper] with lower < upper.")
         robot = Robot(
             serial=self.robot.serial,
+            type=self.robot.type,
             e=self.robot.e,
             L=_pair(self.robot.L),
             l=_pair(self.robot.l),

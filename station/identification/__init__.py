@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from station.identification.advice import advice_of
-from station.identification.bound import PLAN_ENDED, accuracy_of, bounds_mm, with_accuracy
+from station.identification.bound import PLAN_ENDED, accuracy_of, bounds_mm, expected_bound_mm, with_accuracy
 from station.identification.document import gate_record, identification_document, position_error_map
 from station.identification.error_map import error_fields, fresh_readings
 from station.identification.estimate import Gate, Identification, identify
+from station.identification.fleet import fleet_prior
 from station.identification.jump import without_jump
 from station.identification.memory import GATE_P, Memory
+from station.identification.same_geometry import zero_difference
 from station.identification.sequential import Innovation, Known
 from station.identification.verification import (
     Verification,
@@ -35,6 +37,8 @@ __all__ = [
     "advice_of",
     "bounds_mm",
     "error_fields",
+    "expected_bound_mm",
+    "fleet_prior",
     "fresh_readings",
     "fresh_stops",
     "fresh_stops_of",
@@ -50,4 +54,5 @@ __all__ = [
     "verify",
     "with_accuracy",
     "without_jump",
+    "zero_difference",
 ]

@@ -9,8 +9,8 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from station.fitting import largest_error_bound
 from station.five_bar import KNOWN_DRM_SD_MM, SECOND_MOUNT_MM, FiveBar, with_second_mount
+from station.identification.bound import expected_bound_mm
 from station.identification.estimate import Identification
 from station.records import Advice, Real
 
@@ -19,7 +19,6 @@ LEAST_SHARE = 0.03
 """Of the bound; a smaller gain is not worth a sentence."""
 READING_S = 0.4
 MINUTES = {"joint_angle": 3.0, "drm_x": 10.0, "second_mount": 15.0}
-GEOMETRY = slice(2, 10)
 
 
 def advice_of(found: Identification[FiveBar]) -> tuple[Advice, ...]:
@@ -73,7 +72,4 @@ def _bound(found: Identification[FiveBar], covariance: Real) -> float:
     """With the zeros in the drives only: what is learned of the geometry later moves nothing."""
     p = found.p.copy()
     p[:2] = 0.0
-    error, jacobian = found.mechanism.position_errors(p)
-    left = covariance.copy()
-    left[GEOMETRY, GEOMETRY] = found.covariance[GEOMETRY, GEOMETRY]
-    return largest_error_bound(error, jacobian, left)
+    return expected_bound_mm(*found.mechanism.position_errors(p), found.covariance, covariance)

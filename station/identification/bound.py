@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from station.fitting import largest_error_bound
+from station.fitting import expected_largest_error_bound, largest_error_bound
 from station.five_bar import FiveBar
 from station.identification.estimate import Identification
 from station.records import AccuracyReached, CalibrationResult, Real, because
 
 PLAN_ENDED = "the plan has ended"
+GEOMETRY = slice(2, 10)
+"""Where it stands among the unknowns."""
+LEARNED = 8
+"""Draws of what may be learned, each taken both ways."""
 
 
 def bounds_mm(found: Identification[FiveBar], zeros: Real | None = None) -> tuple[float, float]:
@@ -23,6 +27,23 @@ def bounds_mm(found: Identification[FiveBar], zeros: Real | None = None) -> tupl
     by_drives = largest_error_bound(error, jacobian, found.covariance)
     by_model = largest_error_bound(np.zeros_like(error), jacobian, found.covariance)
     return by_drives, by_model
+
+
+def expected_bound_mm(error: Real, jacobian: Real, now: Real, later: Real) -> float:
+    """The bound that further measurements are expected to leave, zeros in the drives only.
+
+    It is the mean over what may be learned: the geometry as identified moves by what its covariance loses.
+
+    :param error: (G, 2) over the workspace with the zeros taken out, mm
+    :param jacobian: (G, 2, P)
+    :param now: (P, P) covariance before them
+    :param later: (P, P) after them
+    """
+    values, vectors = np.linalg.eigh((now - later)[GEOMETRY, GEOMETRY])
+    root = vectors * np.sqrt(np.maximum(values, 0.0))
+    drawn = root @ np.random.default_rng(0).standard_normal((len(values), LEARNED))
+    learned = np.einsum("gdi,im->mgd", jacobian[:, :, GEOMETRY], np.hstack([drawn, -drawn]))
+    return expected_largest_error_bound(error + learned, jacobian, later)
 
 
 def accuracy_of(

@@ -35,6 +35,7 @@ from station.machines import AnyMechanism, AnyRobot, kind_of, mechanism_of
 from station.mechanism import by_reading, reference_of
 from station.model import Fit, Model, fit
 from station.records import (
+    FleetPrior,
     Measurements,
     MountingError,
     PositionError,
@@ -75,6 +76,8 @@ class Identification(Generic[M_co]):
     """What other instruments measured, beside the rest."""
     remembered: tuple[MountingError, ...] = ()
     """Measurements of the mounting that the memory holds."""
+    fleet: FleetPrior | None = None
+    """What other robots of the type had told, where that took part."""
 
     @property
     def measurements(self) -> Measurements:
@@ -137,7 +140,7 @@ class Identification(Generic[M_co]):
         measured = tuple(u.reference for u in self.references if isinstance(u.reference, MountingError))
         held = tuple(dict.fromkeys((*self.remembered, *measured)))
         ratio = self.noise.sigma_mm / float(np.sqrt(np.mean(self.mechanism.row_sd**2)))
-        return Memory(names, self.p[kept], self.covariance[np.ix_(kept, kept)], ratio, held)
+        return Memory(names, self.p[kept], self.covariance[np.ix_(kept, kept)], ratio, held, self.fleet)
 
     def quantities(self) -> tuple[Quantity, ...]:
         """Every parameter in shown units with its standard uncertainty.
@@ -228,7 +231,7 @@ def _identify(everything: M, memory: Memory | None) -> Identification[M]:
         if p_value < GATE_P:
             found = replace(found, gate=Gate(False, p_value))
         else:
-            found = replace(with_memory, gate=Gate(True, p_value), remembered=held)
+            found = replace(with_memory, gate=Gate(True, p_value), remembered=held, fleet=memory.fleet)
     if isinstance(mechanism, FiveBar):
         found = replace(found, references=reference_uses(mechanism, found.solution, found.remembered))
     if impossible := mechanism.implausible(found.p):

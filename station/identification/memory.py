@@ -16,7 +16,7 @@ from scipy.special import chdtrc, ndtr
 from station.fitting import Prior, Solution
 from station.five_bar import Robot, measured_value
 from station.mechanism import Parameter
-from station.records import LastingParameters, MountingError, Real
+from station.records import FleetPrior, LastingParameters, MountingError, Real
 
 WIDENED_PER_ROOT_YEAR = 0.3
 """Share of a parameter's tolerance by which it may have wandered in a year (random walk)."""
@@ -39,6 +39,8 @@ class Memory:
     """Noise of a reading over its specification, as repeats showed it."""
     references: tuple[MountingError, ...] = ()
     """Measurements of the mounting that it holds already; what is measured once counts once."""
+    fleet: FleetPrior | None = None
+    """What it had started from, where other robots of the type were known."""
 
     def record(self) -> LastingParameters:
         """As the store keeps it."""
@@ -49,14 +51,19 @@ class Memory:
             covariance=covariance,
             references=self.references,
             noise_ratio=self.noise_ratio,
+            fleet=self.fleet,
         )
 
     @classmethod
     def of(cls, kept: LastingParameters) -> Memory:
         """From what the store kept."""
-        return cls(
-            kept.names, np.array(kept.mean), np.array(kept.covariance), kept.noise_ratio, kept.references
-        )
+        mean, covariance = np.array(kept.mean), np.array(kept.covariance)
+        return cls(kept.names, mean, covariance, kept.noise_ratio, kept.references, kept.fleet)
+
+    @classmethod
+    def of_fleet(cls, prior: FleetPrior) -> Memory:
+        """Of a robot that was never measured, as others of its type let expect it."""
+        return cls(prior.names, np.array(prior.mean), np.array(prior.covariance), fleet=prior)
 
     def aged(self, parameters: tuple[Parameter, ...], years: float) -> Memory:
         """The same, less sure by what may have changed since."""
@@ -73,6 +80,8 @@ class Memory:
         known, p_value = self, 1.0
         for reference in robot.references:
             if not isinstance(reference, MountingError) or reference in self.references:
+                continue
+            if reference.parameter not in known.names:  # then it informs the tolerances
                 continue
             i = known.names.index(reference.parameter)
             value, sd = measured_value(reference, robot)

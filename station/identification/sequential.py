@@ -6,7 +6,7 @@ of candidates cost microseconds each.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -21,8 +21,8 @@ from station.mechanism import Parameter, reference_of
 from station.model import Model, fit
 from station.records import Complex, MountingError, Reading, Real, from_readings
 
-FLAT_PRIOR_SD_MM = 1e4
-"""Stands for "nothing is known" of the reading offset while predicting."""
+FLAT_PRIOR_SD_MM = 1e3
+"""Stands for "nothing is known" of the reading offset while predicting; wider loses digits."""
 
 
 @dataclass(frozen=True)
@@ -42,19 +42,25 @@ class Known:
     readings: tuple[Reading, ...] = ()
     memory: Memory | None = None
     innovations: tuple[Innovation, ...] = ()
+    samples: int = 1
+    """Of a further reading."""
 
     def absorb(self, reading: Reading) -> Known:
         """With one more reading, predicted first."""
-        return Known(
-            self.robot, (*self.readings, reading), self.memory, (*self.innovations, self._innovation(reading))
-        )
+        innovations = (*self.innovations, self._innovation(reading))
+        return replace(self, readings=(*self.readings, reading), innovations=innovations)
 
     def without_memory(self) -> Known:
         """The same readings, one after another, as if nothing had been remembered."""
-        known = Known(self.robot)
+        known = Known(self.robot, samples=self.samples)
         for reading in self.readings:
             known = known.absorb(reading)
         return known
+
+    @property
+    def measured_before(self) -> bool:
+        """Whether a run of this robot left what is remembered, and not others of its type."""
+        return self.memory is not None and "rMx" in self.memory.names
 
     @cached_property
     def noise_ratio(self) -> float:
@@ -84,6 +90,7 @@ class Known:
             gate=gate,
             references=reference_uses(mechanism, result.solution, held),
             remembered=held,
+            fleet=self.memory.fleet if self.memory else None,
         )
 
     @property
@@ -137,7 +144,7 @@ class Known:
 
     def _at(self, theta: Real) -> FiveBar:
         readings = [
-            Reading(k + 1, 0.0, (float(a), float(b)), (0, 0), 0.0, str(k))
+            Reading(k + 1, 0.0, (float(a), float(b)), (0, 0), 0.0, str(k), samples_mm=(0.0,) * self.samples)
             for k, (a, b) in enumerate(np.degrees(theta))
         ]
         return FiveBar(self.robot, from_readings(readings))

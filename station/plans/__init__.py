@@ -14,7 +14,7 @@ from station.plans.duration import USUAL, Pace
 from station.plans.full import candidates, full_positions, inset_grid
 from station.plans.next_position import Contradiction, changes_of, gains, with_readings
 from station.plans.plan import PLANS, RECOMMENDED, PlanDesign, Visits, each_once, make_plan, register
-from station.plans.prediction import predict
+from station.plans.prediction import predict, zeros_only
 from station.plans.quickest import Quickest
 
 __all__ = [
@@ -44,4 +44,5 @@ __all__ = [
     "predict",
     "register",
     "with_readings",
+    "zeros_only",
 ]

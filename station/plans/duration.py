@@ -25,11 +25,13 @@ class Pace:
     run_up_deg: float
     reading_s: float
     """From standstill until the samples agree."""
+    samples: int = 1
+    """Of a reading."""
 
     @classmethod
     def of(cls, limits: LimitSettings) -> Pace:
         """As a station file says it."""
-        return cls(limits.speed_deg_s, limits.overshoot_deg, limits.samples * SAMPLE_S)
+        return cls(limits.speed_deg_s, limits.overshoot_deg, limits.samples * SAMPLE_S, limits.samples)
 
     def travel_deg(self, here: Real, there: Real, approach: Sides) -> Real:
         """(...,) way of the joint that goes furthest, the run-up of a wanted approach included.

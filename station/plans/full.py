@@ -6,6 +6,8 @@ directions vary, so that a drift cannot pass for geometry.
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from station.errors import InputRefused
@@ -59,15 +61,20 @@ def inset_grid(robot: Robot, nx: int, ny: int) -> Complex:
 
 def _choose(robot: Robot, candidates: Complex, count: int) -> Complex:
     mechanism = measured_at(robot, candidates)
-    chosen = choose(
-        information_rows(mechanism),
-        candidates,
-        known_beforehand(mechanism),
-        position_weight(mechanism),
-        count,
-        APART_MM,
-    )
-    return np.asarray(candidates[chosen])
+    rows, known = information_rows(mechanism), known_beforehand(mechanism)
+    weight = position_weight(mechanism)
+    chosen = _chosen(rows.tobytes(), candidates.tobytes(), known.tobytes(), weight.tobytes(), count)
+    return np.asarray(candidates[list(chosen)])
+
+
+@lru_cache(maxsize=16)
+def _chosen(rows: bytes, places: bytes, known: bytes, weight: bytes, count: int) -> tuple[int, ...]:
+    """As `choose`; the same question is answered at once."""
+    at = np.frombuffer(places, dtype=complex)
+    whitened = np.frombuffer(rows).reshape(len(at), -1)
+    size = (whitened.shape[1], whitened.shape[1])
+    information, mean_square = np.frombuffer(known).reshape(size), np.frombuffer(weight).reshape(size)
+    return tuple(choose(whitened, at, information, mean_square, count, APART_MM))
 
 
 def position_weight(mechanism: FiveBar) -> Real:

@@ -54,29 +54,30 @@ class Contradiction:
         The misfit of the memory has the covariance of the memory and that of the readings, unknowns that
         nothing is remembered of projected out.
         """
+        told = self._told(information)
+        # (A^-1 + C)^-1 = A (1 + C A)^-1, which needs no inverse of A
+        test = told @ np.linalg.inv(np.eye(len(self.lasting)) + self.remembered @ told)
+        return np.asarray(np.einsum("...dj,dj->...d", changes @ test, changes))
+
+    def directions(self, information: Real) -> Index:
+        """(...,) in how many directions readings say enough to contradict anything."""
+        root = np.linalg.cholesky(self.remembered)
+        values = np.linalg.eigvalsh(root.T @ self._told(information) @ root)
+        return np.asarray(np.sum(values > ALONE**2, axis=-1))
+
+    def power(self, noncentrality: Real, directions: Index) -> Real:
+        """(..., D) probability that the memory is dropped; 0 where nothing can contradict it."""
+        count = np.maximum(directions, 1)
+        found = 1.0 - chndtr(chdtri(count, self.p_value)[..., None], count[..., None], noncentrality)
+        return np.asarray(np.where(directions[..., None] > 0, found, 0.0))
+
+    def _told(self, information: Real) -> Real:
+        """(..., M, M) what readings say of what is remembered."""
         kept, p = self.lasting, self.passing
-        own = information[..., kept[:, None], kept]
         cross = information[..., kept[:, None], p]
         rest = information[..., p[:, None], p] + np.diag(self.known)
-        told = own - cross @ np.linalg.solve(rest, np.swapaxes(cross, -1, -2))
-        # (A^-1 + C)^-1 = A (1 + C A)^-1, which needs no inverse of A
-        test = told @ np.linalg.inv(np.eye(len(kept)) + self.remembered @ told)
-        return np.asarray(np.einsum("di,...ij,dj->...d", changes, test, changes))
-
-    def directions(self, information: Real) -> int:
-        """In how many directions readings say enough to contradict anything."""
-        kept, p = self.lasting, self.passing
-        rest = information[np.ix_(p, p)] + np.diag(self.known)
-        cross = information[np.ix_(kept, p)]
-        told = information[np.ix_(kept, kept)] - cross @ np.linalg.solve(rest, cross.T)
-        root = np.linalg.cholesky(self.remembered)
-        return int(np.sum(np.linalg.eigvalsh(root.T @ told @ root) > ALONE**2))
-
-    def power(self, noncentrality: Real, directions: int) -> Real:
-        """(D,) probability that the memory is dropped."""
-        if directions == 0:
-            return np.zeros_like(noncentrality)
-        return np.asarray(1.0 - chndtr(chdtri(directions, self.p_value), directions, noncentrality))
+        own = information[..., kept[:, None], kept]
+        return np.asarray(own - cross @ np.linalg.solve(rest, np.swapaxes(cross, -1, -2)))
 
 
 def turned(size_mm: float, count: int = 72) -> Real:
@@ -88,8 +89,11 @@ def turned(size_mm: float, count: int = 72) -> Real:
 def changes_of(names: Sequence[str], remount_mm: float, link_mm: float) -> Real:
     """(D, M) what may have happened to what is remembered: the mechanism mounted anew in some direction, one
     link changed."""
-    around = turned(remount_mm)
-    out = np.zeros((len(around), len(names)))
-    out[:, [names.index("rMx"), names.index("rMy")]] = around
     links = [k for k, name in enumerate(names) if name in ("L1", "L2", "l1", "l2")]
-    return np.vstack([out, link_mm * np.eye(len(names))[links]])
+    changes = link_mm * np.eye(len(names))[links]
+    if "rMx" not in names:
+        return changes
+    around = turned(remount_mm)
+    mounted = np.zeros((len(around), len(names)))
+    mounted[:, [names.index("rMx"), names.index("rMy")]] = around
+    return np.vstack([mounted, changes])

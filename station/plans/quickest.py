@@ -18,7 +18,7 @@ from station.records import Index, Real
 
 STARTS = 3
 ROUNDS = 4
-SHORT_S = 20.0
+SHORT_S = 60.0
 """Seconds that a set is made worse by for each factor e that it falls short of what is needed."""
 LEAST_POWER = 1e-3
 
@@ -32,9 +32,11 @@ class Quickest:
     rows: Real
     """(N, P) whitened derivatives of one reading at each candidate."""
     weight: Real
-    """(P, P) M: trace(C M) is the mean square position error."""
+    """(P, P) M: trace(C M) is the mean square position error, but for what stays."""
+    stays: float
+    """What no reading changes of it, mm^2."""
     enough: float
-    """Of trace(C M), mm^2."""
+    """Of all of it, mm^2."""
     theta_deg: Real
     """(N, 2) commands."""
     here_deg: Real
@@ -48,60 +50,63 @@ class Quickest:
     """Mean probability that is asked for."""
 
     def choose(self, fewest: int, most: int) -> list[int]:
-        """As few candidates as do, in the order of the quickest way; the best of `most` where none do."""
-        best: list[int] = []
+        """As few candidates as do, in the order of the quickest way.
+
+        Where even `most` do not, those are chosen that are worth their time.
+        """
+        found: list[list[int]] = []
         for count in range(fewest, most + 1):
-            best = self._exchanged(count)
-            if self._short(best) == 0.0:
-                break
-        return best
+            found.append(self._exchanged(count))
+            if self._short(np.array([found[-1]]))[0] == 0.0:
+                return found[-1]
+        return min(found, key=lambda chosen: float(self._cost(np.array([chosen]))[0]))
 
     def _exchanged(self, count: int) -> list[int]:
         """Of several starts, one position after the other replaced by the best for its place in the set."""
         rng = np.random.default_rng(0)
-        found = [
-            self._improved(list(rng.choice(len(self.rows), count, replace=False))) for _ in range(STARTS)
-        ]
-        best = min(found, key=self._cost)
-        return [best[k] for k in self._way(best)[1]]
+        starts = [rng.choice(len(self.rows), count, replace=False) for _ in range(STARTS)]
+        best = min((self._improved(start) for start in starts), key=lambda found: found[0])[1]
+        return [int(k) for k in best[self._way(best[None])[1][0]]]
 
-    def _improved(self, chosen: list[int]) -> list[int]:
-        cost = self._cost(chosen)
+    def _improved(self, chosen: Index) -> tuple[float, Index]:
+        cost = float(self._cost(chosen[None])[0])
         for _ in range(ROUNDS):
             before = cost
             for slot in range(len(chosen)):
-                for candidate in range(len(self.rows)):
-                    if candidate in chosen:
-                        continue
-                    other = [*chosen[:slot], candidate, *chosen[slot + 1 :]]
-                    if (its := self._cost(other)) < cost:
-                        chosen, cost = other, its
+                others = np.tile(chosen, (len(self.rows), 1))
+                others[:, slot] = np.arange(len(self.rows))
+                others = others[~np.isin(others[:, slot], np.delete(chosen, slot))]
+                costs = self._cost(others)
+                if costs.min() < cost:
+                    chosen, cost = others[np.argmin(costs)], float(costs.min())
             if cost == before:
                 break
-        return chosen
+        return cost, chosen
 
-    def _cost(self, chosen: list[int]) -> float:
-        return self._way(chosen)[0] + SHORT_S * self._short(chosen)
+    def _cost(self, sets: Index) -> Real:
+        """(S,) of sets (S, count)."""
+        return self._way(sets)[0] + SHORT_S * self._short(sets)
 
-    def _short(self, chosen: list[int]) -> float:
-        """Factors e that accuracy and power together lack; 0 when nothing does."""
-        rows = self.rows[chosen]
+    def _short(self, sets: Index) -> Real:
+        """(S,) factors e that accuracy and power together lack; 0 when nothing does."""
+        rows = self.rows[sets]
+        turned = np.swapaxes(rows, 1, 2)
         spread = rows @ self.covariance
-        told = np.eye(len(rows)) + spread @ rows.T
-        left = self._before - float(np.sum(np.linalg.solve(told, spread) * (spread @ self.weight)))
-        short = max(0.0, float(np.log(max(left, 1e-12) / self.enough)))
-        if self.test is not None:
-            information = rows.T @ rows
+        told = np.eye(sets.shape[1]) + spread @ turned
+        left = self._before - np.sum(np.linalg.solve(told, spread) * (spread @ self.weight), axis=(1, 2))
+        short = np.maximum(0.0, np.log(np.maximum(left, 1e-12) / self.enough))
+        if self.test is not None and len(self.changes):
+            information = turned @ rows
             found = self.test.power(
                 self.test.noncentrality(information, self.changes), self.test.directions(information)
             )
-            missed = 1.0 - float(found.mean()) if len(found) else 0.0
-            short += max(0.0, float(np.log(max(missed, LEAST_POWER) / (1.0 - self.power))))
-        return short
+            missed = np.maximum(1.0 - found.mean(axis=1), LEAST_POWER)
+            short += np.maximum(0.0, np.log(missed / (1.0 - self.power)))
+        return np.asarray(short)
 
     @cached_property
     def _before(self) -> float:
-        return float(np.trace(self.covariance @ self.weight))
+        return self.stays + float(np.trace(self.covariance @ self.weight))
 
     @cached_property
     def _legs(self) -> Real:
@@ -110,14 +115,13 @@ class Quickest:
         there = np.broadcast_to(self.theta_deg[None], (len(start), *self.theta_deg.shape))
         return self.pace.duration_s(start, there, np.zeros_like(there))
 
-    def _way(self, chosen: list[int]) -> tuple[float, tuple[int, ...]]:
-        """Seconds of the quickest way, and its order."""
-        orders = _orders(len(chosen))
-        way = np.array(chosen)[orders]
-        legs = self._legs
-        duration_s = legs[0, way[:, 0]] + legs[1 + way[:, :-1], way[:, 1:]].sum(axis=1)
-        best = int(np.argmin(duration_s))
-        return float(duration_s[best]), tuple(int(k) for k in orders[best])
+    def _way(self, sets: Index) -> tuple[Real, Index]:
+        """(S,) seconds of the quickest way through each set (S, count), and (S, count) its order."""
+        orders = _orders(sets.shape[1])
+        way = sets[:, orders]
+        duration_s = self._legs[0, way[..., 0]] + self._legs[1 + way[..., :-1], way[..., 1:]].sum(axis=2)
+        best = np.argmin(duration_s, axis=1)
+        return duration_s[np.arange(len(sets)), best], orders[best]
 
 
 @cache

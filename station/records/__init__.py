@@ -121,12 +121,14 @@ from station.records.reading import Reading
 from station.records.reason import Reason, ReasonValue, because
 from station.records.record import Record
 from station.records.references import AnyReference, Asked, JointAngle, MountingError, ReferenceUse
-from station.records.remembered import MemorySummary, Remembered
+from station.records.remembered import Beforehand, MemorySummary, Remembered
 from station.records.residuals import LIMIT_SDS, residual_rows
 from station.records.result import (
     Accuracy,
     CalibrationResult,
     CheckFound,
+    FleetPrior,
+    FleetUse,
     Iteration,
     LastingParameters,
     MemoryUse,
@@ -205,6 +207,7 @@ __all__ = [
     "Backlog",
     "BackupDrill",
     "BackupMade",
+    "Beforehand",
     "Blamed",
     "Calibration",
     "CalibrationHolds",
@@ -245,6 +248,8 @@ __all__ = [
     "Finding",
     "Finite",
     "Flags",
+    "FleetPrior",
+    "FleetUse",
     "ForeignTable",
     "FreshReading",
     "GateOfMemory",

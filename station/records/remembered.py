@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 
 from station.records.quantity import Quantity
 from station.records.record import Record
-from station.records.result import LastingParameters
+from station.records.result import FleetPrior, LastingParameters
 
 
 class MemorySummary(Record):
@@ -47,3 +47,7 @@ class Remembered:
                 for name, mean, variance in zip(self.memory.names, self.memory.mean, variances, strict=True)
             ),
         )
+
+
+Beforehand = Remembered | FleetPrior
+"""What is known of a robot before a run: what its own runs left, else what others of its type show."""

@@ -79,6 +79,33 @@ class MemoryUse(Record):
     age_days: float | None = None
 
 
+class FleetPrior(Record):
+    """Geometry of a robot as others of its type let expect it, before it is measured: mm and mm^2."""
+
+    type: str
+    """As the robot files name it."""
+    serials: tuple[str, ...]
+    """Of those others."""
+    names: tuple[str, ...]
+    mean: tuple[float, ...]
+    covariance: tuple[tuple[float, ...], ...]
+
+    @property
+    def age_days(self) -> float:
+        """It is made when a run begins."""
+        return 0.0
+
+
+class FleetUse(Record):
+    """Whether what other robots of the type showed took part."""
+
+    used: bool
+    p_value: float | None = None
+    """Of the readings under that prior."""
+    text: str
+    prior: FleetPrior
+
+
 class CheckFound(Record):
     """How small a shift of the zeros a check would have found, and what it found."""
 
@@ -107,6 +134,8 @@ class LastingParameters(Record):
     """Measurements of the mounting that took part."""
     noise_ratio: float = 1.0
     """Noise of a reading over its specification, as repeats showed it."""
+    fleet: FleetPrior | None = None
+    """What other robots had told before this one was measured first; null for its tolerances alone."""
 
 
 class ResultParts(Record):
@@ -130,7 +159,9 @@ class ResultParts(Record):
     residuals: tuple[Residual, ...] = ()
     """Of the readings of the fit."""
     memory: MemoryUse | None = None
-    """Null when nothing was known before."""
+    """Null when nothing was known of this robot before."""
+    fleet: FleetUse | None = None
+    """Null when this robot was known, or no others of its type were."""
     references: tuple[ReferenceUse, ...] = ()
     """What other instruments measured, and how well it agrees with the rest."""
     lack_of_fit: str | None = None

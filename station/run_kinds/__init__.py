@@ -10,7 +10,7 @@ from station.run_kinds import (  # noqa: F401 - they register themselves
     retract,
     separate,
 )
-from station.run_kinds.adaptive import adaptive_run, fit_in_sequence
+from station.run_kinds.adaptive import adaptive_run, fit_in_sequence, memory_test
 from station.run_kinds.arm_log import ArmLog, import_log, import_measured
 from station.run_kinds.check import check_run
 from station.run_kinds.diagnose import diagnosed
@@ -19,12 +19,13 @@ from station.run_kinds.import_file import Upload, import_dataset
 from station.run_kinds.kind import RUN_KINDS, Continued, RunKind, Start, kind_of_plan, request_of
 from station.run_kinds.lock import calibration_holds, check_not_locked, clear_failed_check
 from station.run_kinds.separate import planned
-from station.run_kinds.translate import change_of, translated
+from station.run_kinds.translate import Change, change_of, translated
 from station.run_kinds.zero_state import application
 
 __all__ = [
     "RUN_KINDS",
     "ArmLog",
+    "Change",
     "Continued",
     "RunKind",
     "Start",
@@ -43,6 +44,7 @@ __all__ = [
     "import_log",
     "import_measured",
     "kind_of_plan",
+    "memory_test",
     "planned",
     "request_of",
     "translated",

@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 
 from station.errors import InputRefused
-from station.fitting import NotConvergedError, largest_error_bound
+from station.fitting import NotConvergedError
 from station.five_bar import HOME, FiveBar, Robot, inverse
 from station.identification import (
     GATE_P,
@@ -22,6 +22,7 @@ from station.identification import (
     accuracy_of,
     advice_of,
     bounds_mm,
+    expected_bound_mm,
     not_identified,
     predicted_result,
     with_accuracy,
@@ -39,13 +40,13 @@ from station.plans import (
     with_readings,
 )
 from station.records import (
+    Beforehand,
     CalibrationResult,
     Complex,
     MeasurementSequence,
     Procedure,
     Reading,
     Real,
-    Remembered,
     Stop,
 )
 from station.run_kinds.fits import aged, with_memory_use
@@ -55,7 +56,7 @@ FEWEST = 4
 FEWEST_WITHOUT_MEMORY = 6
 """The same where geometry and mechanism are known by their tolerances alone."""
 MOST_AT_ONCE = 6
-MOST = 60
+MOST = 120
 FIRST_GRID = (7, 4)
 RECENT, APART_DEG = 12, 1.0
 """A position must be that far from those of so many readings before: elsewhere tells more."""
@@ -71,9 +72,13 @@ CONTRADICTED_P = 1e-4
 """Of a memory that is dropped before the run would stop."""
 REMOUNT_MM, LINK_MM = 1.0, 0.3
 """Changes since the last run that must be noticed."""
+OTHER_TYPE_MM = 1.0
+"""Of a link: a robot that is not of the type whose others it is expected to be like."""
 VISIBLE_SDS = 5.0
 """If a full run would see them so clearly."""
 FULL_VISITS = 5
+GEOMETRY = slice(2, 10)
+"""Where it stands among the unknowns."""
 
 Stopped = Literal[
     "the wanted accuracy is reached",
@@ -120,29 +125,31 @@ class Situation:
     @cached_property
     def best_mm(self) -> float:
         """The bound that as many readings as a full run takes could reach, on average."""
-        left = with_readings(self.known.covariance, self._rows_of_full)
-        geometry = slice(2, 10)
-        now = self.known.covariance[geometry, geometry]
-        left[geometry, geometry] = now
-        error, jacobian = self.known.position_jacobian()
-        return largest_error_bound(error, jacobian, _positive(left))
+        rows = replace(self.known, samples=self.aim.pace.samples).rows(self.aim.of_full)
+        left = with_readings(self.known.covariance, np.repeat(rows, FULL_VISITS, axis=0))
+        return expected_bound_mm(*self.known.position_jacobian(), self.known.covariance, _positive(left))
 
     @cached_property
     def _rows_of_full(self) -> Real:
-        """(120, P) of as many readings as a full run takes."""
+        """(120, P) of as many readings as a full run takes, each of one sample: what is to be noticed and how
+        accurate few readings are is judged carefully."""
         return np.repeat(self.known.rows(self.aim.of_full), FULL_VISITS, axis=0)
 
     @cached_property
     def trusted(self) -> bool:
         """Whether the readings could have contradicted a memory that is wrong."""
-        if self.known.memory is None:
-            return len(self.known.readings) >= FEWEST_WITHOUT_MEMORY
-        if len(self.known.readings) < FEWEST:
+        if len(self.known.readings) < self._fewest:
             return False
+        if self.known.memory is None:
+            return True
         test, changes = self._test
         information = self._information
         found = test.power(test.noncentrality(information, changes), test.directions(information))
         return not len(found) or float(found.mean()) >= POWER
+
+    @property
+    def _fewest(self) -> int:
+        return FEWEST if self.known.measured_before else FEWEST_WITHOUT_MEMORY
 
     def stops_because(self) -> Stopped | None:
         """None: go on."""
@@ -161,13 +168,15 @@ class Situation:
         """The quickest few positions that should do, before anything is known of the zero offsets."""
         places, known = self.aim.first, self.known
         test, changes = self._test if known.memory else (None, np.zeros((0, 0)))
-        best = float(np.trace(with_readings(known.covariance, self._rows_of_full) @ self._weight))
+        weight, stays = self._by_zeros
+        best = stays + float(np.trace(with_readings(known.covariance, self._rows_of_full) @ weight))
         wanted = self.aim.wanted_mm
         spare = NEARER if wanted is None else max(TIGHTEST, wanted / self.best_mm)
         chosen = Quickest(
             covariance=known.covariance,
             rows=known.rows(places),
-            weight=self._weight,
+            weight=weight,
+            stays=stays,
             enough=best * spare**2,
             theta_deg=self._commands(places),
             here_deg=self.here_deg,
@@ -175,7 +184,7 @@ class Situation:
             test=test,
             changes=changes,
             power=POWER,
-        ).choose(FEWEST if known.memory else FEWEST_WITHOUT_MEMORY, MOST_AT_ONCE)
+        ).choose(self._fewest, MOST_AT_ONCE)
         return [complex(places[k]) for k in chosen]
 
     def next_place(self) -> complex:
@@ -206,6 +215,15 @@ class Situation:
         jacobian = self.known.position_jacobian()[1]
         return np.asarray(np.einsum("gdi,gdj->ij", jacobian, jacobian) / len(jacobian))
 
+    @cached_property
+    def _by_zeros(self) -> tuple[Real, float]:
+        """The same with the zeros in the drives only: M, and what the geometry leaves in any case, mm^2."""
+        weight = self._weight.copy()
+        weight[GEOMETRY, GEOMETRY] = 0.0
+        error = self.known.position_jacobian()[0]
+        shape = np.trace(self.known.covariance[GEOMETRY, GEOMETRY] @ self._weight[GEOMETRY, GEOMETRY])
+        return weight, float(np.mean(np.sum(error**2, axis=1)) + shape)
+
     def _worth(self, places: Complex) -> Real:
         """(N,) of a reading at each place."""
         rows = self.known.rows(places)
@@ -224,19 +242,27 @@ class Situation:
     @cached_property
     def _test(self) -> tuple[Contradiction, Real]:
         """Of the memory, and the changes (D, M) that a full run would see."""
-        assert self.known.memory is not None
-        parameters = self.known.parameters
-        names = [p.name for p in parameters]
-        memory = self.known.memory.about(names)
-        lasting = np.array([names.index(name) for name in memory.names])
-        passing = np.array([k for k in range(len(names)) if k not in lasting])
-        sd = np.array([parameters[k].prior_sd for k in passing])
-        known = np.where(np.isfinite(sd), 1.0 / np.where(np.isfinite(sd), sd, 1.0) ** 2, 0.0)
-        test = Contradiction(memory.covariance, lasting, passing, known, GATE_P)
-        changes = changes_of(memory.names, REMOUNT_MM, LINK_MM)
+        test, names = memory_test(self.known)
+        changes = changes_of(names, REMOUNT_MM, LINK_MM if self.known.measured_before else OTHER_TYPE_MM)
         full = self._rows_of_full
         seen = test.noncentrality(full.T @ full, changes) >= VISIBLE_SDS**2
         return test, changes[seen]
+
+
+def memory_test(known: Known) -> tuple[Contradiction, tuple[str, ...]]:
+    """How readings of one mount could contradict what is remembered, and what that is.
+
+    Only where there is a memory.
+    """
+    assert known.memory is not None
+    names = [p.name for p in known.parameters]
+    memory = known.memory.about(names)
+    lasting = np.array([names.index(name) for name in memory.names])
+    passing = np.array([k for k in range(len(names)) if k not in lasting])
+    sd = np.array([known.parameters[k].prior_sd for k in passing])
+    finite = np.where(np.isfinite(sd), sd, 1.0)
+    information = np.where(np.isfinite(sd), 1.0 / finite**2, 0.0)
+    return Contradiction(memory.covariance, lasting, passing, information, GATE_P), memory.names
 
 
 def _positive(covariance: Real) -> Real:
@@ -246,7 +272,7 @@ def _positive(covariance: Real) -> Real:
 
 
 def adaptive_run(
-    robot: Robot, remembered: Remembered | None, wanted_mm: float | None, pace: Pace
+    robot: Robot, remembered: Beforehand | None, wanted_mm: float | None, pace: Pace
 ) -> Procedure:
     """Reading after reading until there is a reason to stop."""
     age_days = remembered.age_days if remembered else 0.0
@@ -289,7 +315,7 @@ def _result(known: Known, wanted_mm: float | None, stopped: Stopped, last: Situa
 
 
 def fit_in_sequence(
-    robot: Robot, readings: list[Reading], memory: Remembered | None, age_days: float
+    robot: Robot, readings: list[Reading], memory: Beforehand | None, age_days: float
 ) -> Identification[FiveBar]:
     """The fit of an ended run again, from its readings.
 

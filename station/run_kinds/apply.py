@@ -20,6 +20,7 @@ from station.records import (
     LIMIT_SDS,
     Accuracy,
     Angles,
+    Beforehand,
     CalibrationResult,
     MeasurementSequence,
     Procedure,
@@ -73,7 +74,9 @@ def source_of(store: Store, calibration_id: int) -> Source:
         readings = [r for r in everything if r.sequence == 1]
         fresh = [r for r in everything if r.sequence > 1]
     use = calibration.memory
-    memory = store.memory_left_by(use.from_calibration) if use and use.used else None
+    memory: Beforehand | None = store.memory_left_by(use.from_calibration) if use and use.used else None
+    if calibration.fleet is not None and calibration.fleet.used:
+        memory = calibration.fleet.prior
     refit = fit_in_sequence if calibration.plan == "adaptive" else fit_of
     robot = robot_as_measured(store, calibration)
     fit = refit(robot, readings, memory, (use.age_days if use else None) or 0.0)

@@ -22,15 +22,16 @@ from station.plans import make_plan
 from station.published import MAX_PASSES, PublishedRun
 from station.records import (
     AccuracyReached,
+    Beforehand,
     CalibrationResult,
     MeasurementSequence,
     PlanName,
     Procedure,
     Reading,
-    Remembered,
     because,
 )
 from station.run_kinds.adaptive import adaptive_run
+from station.run_kinds.beforehand import known_before
 from station.run_kinds.fits import fit_of
 from station.run_kinds.guided import reference, two_mounts
 from station.run_kinds.kind import RunKind, Start, register
@@ -44,7 +45,7 @@ def calibrate(start: Start) -> Procedure:
     """
     if start.plan == "paper":  # the published method has no use for what earlier runs know
         return published(start.robot, start.wanted_mm)
-    memory = start.store.memory(start.robot.serial, start.began_at)
+    memory = start.known_before() if start.known_before else known_before(start)
     if guided := GUIDED.get(start.plan):
         return guided(start, memory)
     if start.plan == "adaptive":
@@ -113,7 +114,7 @@ def _verified(run: PublishedRun, result: CalibrationResult, fresh: list[Reading]
 
 
 def measured_and_verified(
-    plan: PlanName, robot: Robot, memory: Remembered | None = None, wanted_mm: float | None = None
+    plan: PlanName, robot: Robot, memory: Beforehand | None = None, wanted_mm: float | None = None
 ) -> Procedure:
     """The measurement model on a chosen plan, then fresh positions that took no part in the fit."""
     readings: list[Reading] = yield MeasurementSequence("Measuring", 1, make_plan(plan, robot).stops)

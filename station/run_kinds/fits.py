@@ -6,26 +6,41 @@ import numpy as np
 
 from station.five_bar import FiveBar, Robot
 from station.identification import Gate, Identification, Memory, gate_record, identify
-from station.records import CalibrationResult, MemoryUse, Reading, Real, Remembered, from_readings
+from station.records import (
+    Beforehand,
+    CalibrationResult,
+    FleetPrior,
+    FleetUse,
+    MemoryUse,
+    Reading,
+    Real,
+    from_readings,
+)
 
 DAYS_PER_YEAR = 365.25
 UNKNOWN_OFFSET_MM = 1e4
 
 
-def aged(memory: Remembered, robot: Robot, age_days: float) -> Memory:
-    """What is remembered, less sure by what may have changed since."""
+def aged(memory: Beforehand, robot: Robot, age_days: float) -> Memory:
+    """What is known before a run; what is remembered is less sure by what may have changed since."""
+    if isinstance(memory, FleetPrior):
+        return Memory.of_fleet(memory)
     mechanism = FiveBar(robot, from_readings([]))
     return Memory.of(memory.memory).aged(mechanism.parameters, age_days / DAYS_PER_YEAR)
 
 
 def fit_of(
-    robot: Robot, readings: list[Reading], memory: Remembered | None, age_days: float
+    robot: Robot, readings: list[Reading], memory: Beforehand | None, age_days: float
 ) -> Identification[FiveBar]:
     """The measurement model on readings, with what is remembered as it was at that age.
+
+    Where the mechanism was moved between the readings, what is remembered of its mounting is of no use.
 
     :raises InputRefused: as `identify`.
     """
     known = None if memory is None else aged(memory, robot, age_days)
+    if known is not None and any(reading.mount for reading in readings):
+        known = known.about([name for name in known.names if not name.startswith(("rMx", "rMy"))])
     return identify(robot, from_readings(readings), known)
 
 
@@ -45,10 +60,18 @@ def wandered(fit: Identification[FiveBar], age_days: float) -> Real:
 
 
 def with_memory_use(
-    result: CalibrationResult, gate: Gate | None, memory: Remembered | None, age_days: float
+    result: CalibrationResult, gate: Gate | None, memory: Beforehand | None, age_days: float
 ) -> CalibrationResult:
     """The result, with what became of the memory."""
     if memory is None or gate is None:
         return result
+    if isinstance(memory, FleetPrior):
+        text = (
+            f"the geometry of {len(memory.serials)} other robots of type {memory.type}"
+            if gate.used
+            else f"not used: this robot is not like the others of type {memory.type}"
+        )
+        fleet = FleetUse(used=gate.used, p_value=gate.p_value, text=text, prior=memory)
+        return result.model_copy(update={"fleet": fleet})
     use = MemoryUse(**dict(gate_record(gate)), from_calibration=memory.calibration_id, age_days=age_days)
     return result.model_copy(update={"memory": use})

@@ -7,11 +7,11 @@ from typing import Literal
 from station.plans import make_plan
 from station.records import (
     Ask,
+    Beforehand,
     JointAngle,
     MeasurementSequence,
     Procedure,
     Reading,
-    Remembered,
 )
 from station.run_kinds.kind import Start
 from station.run_kinds.verified import identified_and_verified
@@ -19,7 +19,7 @@ from station.run_kinds.verified import identified_and_verified
 JOINT: Literal[1] = 1
 
 
-def reference(start: Start, memory: Remembered | None) -> Procedure:
+def reference(start: Start, memory: Beforehand | None) -> Procedure:
     """Six positions, then the angle of one arm as a level sees it, where the arm stands last."""
     stops = make_plan("reference", start.robot).stops
     readings: list[Reading] = yield MeasurementSequence("Measuring", 1, stops)
@@ -41,19 +41,32 @@ def reference(start: Start, memory: Remembered | None) -> Procedure:
     )
 
 
-def two_mounts(start: Start, memory: Remembered | None) -> Procedure:
-    """The same positions from two mounting points; each has a mounting error and an offset of its own."""
+def two_mounts(start: Start, memory: Beforehand | None) -> Procedure:
+    """The same positions from two mounting points; each has a mounting error and an offset of its own.
+
+    The second mounting point comes first: what is measured and verified last is the mechanism as it stays
+    mounted, so the mounting error that later runs use is that of the first mounting point.
+    """
     robot = start.robot
     label, c = robot.second_mount
     stops = make_plan("two_mounts", robot).stops
-    readings: list[Reading] = yield MeasurementSequence("Measuring at the first mounting point", 1, stops)
     yield Ask(
         "Moving the mechanism",
         1,
-        f"Mount the mechanism at its second mounting point, ({c[0]:g}, {c[1]:g}) mm, then confirm."
-        " After the run mount it back.",
+        f"Mount the mechanism at its second mounting point, ({c[0]:g}, {c[1]:g}) mm, then confirm.",
         "confirm",
         mounted_at=c,
     )
-    readings += yield MeasurementSequence("Measuring at the second mounting point", 1, stops, mount=label)
-    return (yield from identified_and_verified(robot, readings, memory, start.wanted_mm, mount=label))
+    readings: list[Reading] = yield MeasurementSequence(
+        "Measuring at the second mounting point", 1, stops, mount=label
+    )
+    yield Ask(
+        "Moving the mechanism back",
+        1,
+        f"Mount the mechanism back at its first mounting point, ({robot.c[0]:g}, {robot.c[1]:g}) mm,"
+        " then confirm.",
+        "confirm",
+        mounted_at=robot.c,
+    )
+    readings += yield MeasurementSequence("Measuring at the first mounting point", 1, stops)
+    return (yield from identified_and_verified(robot, readings, memory, start.wanted_mm))

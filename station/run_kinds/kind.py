@@ -13,7 +13,7 @@ from types import MappingProxyType
 
 from station.five_bar import Robot
 from station.plans import PLANS, Pace
-from station.records import Asked, Calibration, CalibrationRequest, PlanName, Procedure, Reading
+from station.records import Asked, Beforehand, Calibration, CalibrationRequest, PlanName, Procedure, Reading
 from station.settings import LimitSettings
 from station.store import Store
 
@@ -29,6 +29,8 @@ class Start:
     """The station's clock when the run was created; None is now."""
     limits: LimitSettings = field(default_factory=LimitSettings)
     """Of this station."""
+    known_before: Callable[[], Beforehand | None] | None = None
+    """What was known when an ended run is carried out again; None: what the store knows."""
 
     @property
     def pace(self) -> Pace:

@@ -7,12 +7,13 @@ before and now, each with its uncertainty, gives the new angle and how far off t
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from station.errors import NotApplicable
 from station.five_bar import Robot, pose, position_jacobian
+from station.identification import zero_difference
 from station.motion import shift_of
 from station.records import Real, TaughtPosition, TranslatedPosition
 from station.run_kinds.apply import source_of
@@ -37,6 +38,10 @@ class Change:
     """(2,) rad, to be added to taught angles."""
     covariance: Real
     """(2, 2) rad^2, of what the actual angles then differ by."""
+
+    def back(self) -> Change:
+        """What takes translated positions back to what they were."""
+        return replace(self, shift=-self.shift)
 
 
 def change_of(store: Store, run_id: int, taught_under: int | None = None) -> Change:
@@ -66,9 +71,18 @@ def change_of(store: Store, run_id: int, taught_under: int | None = None) -> Cha
     if not after:
         raise NotApplicable(f"Run {taught_under} was never applied; nothing was taught under it.")
     old, new = source_of(store, taught_under).fit, source_of(store, run_id).fit
-    left_then = old.dtheta + np.radians(shift_of(after))
-    left_now = new.dtheta + np.radians(now)
-    return Change(robot, left_then - left_now, old.covariance[:2, :2] + new.covariance[:2, :2])
+    moved, covariance = zero_difference(old, new, same_mounting=_same_mounting(store, taught_under, run_id))
+    return Change(robot, moved + np.radians(shift_of(after)) - np.radians(now), covariance)
+
+
+def _same_mounting(store: Store, earlier: int, later: int) -> bool:
+    """Whether every run between them found the mechanism as the run before it had left it."""
+    while later > earlier:
+        use = store.calibration(later).memory
+        if use is None or not use.used:
+            return False
+        later = use.from_calibration
+    return later == earlier
 
 
 def translated(

@@ -13,28 +13,24 @@ from station.identification import (
     with_accuracy,
     without_jump,
 )
-from station.records import MeasurementSequence, Procedure, Reading, Remembered
+from station.records import Beforehand, MeasurementSequence, Procedure, Reading
 from station.run_kinds.fits import fit_of, with_memory_use
 
 
 def identified_and_verified(
     robot: Robot,
     readings: list[Reading],
-    memory: Remembered | None,
+    memory: Beforehand | None,
     wanted_mm: float | None,
-    mount: str | None = None,
 ) -> Procedure:
-    """The measurement model on readings, and a verdict by fresh ones.
-
-    :param mount: where the mechanism is mounted now; None: at the robot file's `c`
-    """
+    """The measurement model on readings, and a verdict by fresh ones."""
     age_days = memory.age_days if memory else 0.0
     try:
         fit = fit_of(robot, readings, memory, age_days)
     except InputRefused as refusal:
         return without_jump(not_identified(str(refusal)), robot, readings)
     fresh: list[Reading] = yield MeasurementSequence(
-        "Verifying at fresh positions", 2, fresh_stops(fit), mount=mount, last=True
+        "Verifying at fresh positions", 2, fresh_stops(fit), last=True
     )
     result = result_of(fit, readings, fresh).model_copy(
         update={"lasting": fit.lasting.record(), "advice": advice_of(fit)}

@@ -183,7 +183,8 @@ class Days:
                     axis = self.plant.machine.axes[0]
                     value = axis.arm_deg(world.now_s) + self.random.gauss(0.0, 0.005)
                 else:
-                    self.plant.machine.remount(ROBOT.second_mount[1])
+                    back = "back" in prompt.text
+                    self.plant.machine.remount(ROBOT.c if back else ROBOT.second_mount[1])
                 self.plant.ask(lambda station: station.answer(run, prompt.id, value, "ada"))  # noqa: B023
 
     def _trouble(self, trouble: str, run: int, request: Callable[[Orchestrator], int], key: str) -> None:

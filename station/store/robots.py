@@ -4,9 +4,12 @@ from __future__ import annotations
 
 import json
 import sqlite3
+from collections.abc import Mapping
 from dataclasses import replace
 from datetime import UTC, datetime
 from typing import Protocol
+
+from sqlite_utils import Database
 
 from station.errors import NotApplicable, NotFound
 from station.five_bar import FIVE_BAR_MODEL, Robot
@@ -14,6 +17,9 @@ from station.records import Actor, KeptRobot, LastingParameters, Remembered, Sec
 from station.store.audit import AuditTrail
 from station.store.rows import compact, moment
 from station.store.times import now_ms
+
+MOST_OF_TYPE = 50
+"""Robots that teach a further one: more change nothing."""
 
 
 class RobotFile(Protocol):
@@ -35,7 +41,8 @@ class RobotFiles(AuditTrail):
     def save_robot(self, robot: RobotFile) -> int:
         """Keep a robot file; a changed one becomes a new version.  Returns the version's row id.
 
-        :raises NotApplicable: the serial is that of another kind of machine.
+        :raises NotApplicable: the serial is that of another kind of machine, or robots of its type have other
+            nominal lengths.
         """
         file = compact(robot.to_json())
         with self._writing() as db:
@@ -49,6 +56,7 @@ class RobotFiles(AuditTrail):
                     f"Robot {robot.serial} is kept as a machine of model {own}; "
                     "give another kind of machine another serial number."
                 )
+            _check_type(db, robot)
             cursor = db.execute(
                 "INSERT INTO robots (serial, file, saved_ms) VALUES (?, ?, ?)",
                 [robot.serial, file, now_ms()],
@@ -138,6 +146,26 @@ class Memories(RobotFiles):
             raise NotFound(f"Run {calibration_id} left no memory.")
         return _remembered(row)
 
+    def others_of_type(self, robot: Robot) -> list[tuple[Robot, LastingParameters]]:
+        """Other robots of its type with what their newest pass left, newest first; none that was cleared."""
+        rows = self._readers.all(
+            "SELECT memories.robot_serial, memory, file FROM memories"
+            " JOIN calibrations ON calibrations.id = calibration_id JOIN robots ON robots.id = robot_id"
+            " WHERE calibration_id IN (SELECT max(calibration_id) FROM memories GROUP BY robot_serial)"
+            " AND cleared_ms IS NULL AND memories.robot_serial != ?"
+            " AND json_extract(file, '$.robot.type') = ?"
+            " ORDER BY calibration_id DESC LIMIT ?",
+            [robot.serial, robot.type, MOST_OF_TYPE],
+        )
+        return [
+            (
+                _five_bar(_sections(row["file"]), f"robot {row['robot_serial']}"),
+                LastingParameters.model_validate_json(row["memory"]),
+            )
+            for row in rows
+            if _lengths(_sections(row["file"])) == _lengths(json.loads(compact(robot.to_json())))
+        ]
+
     def forget(self, serial: str, by: Actor) -> None:
         """The robot's next run starts without memory; what was known stays on record.
 
@@ -151,6 +179,36 @@ class Memories(RobotFiles):
                 [now_ms(), by.name, serial],
             ).rowcount
             self.record(by, "memory.cleared", f"robot {serial}", before={"memories": cleared})
+
+
+def _check_type(db: Database, robot: RobotFile) -> None:
+    """:raises NotApplicable: robots of its type have other nominal lengths; says which and what to do."""
+    file: Sections = json.loads(compact(robot.to_json()))
+    kind = _robot_section(file).get("type")
+    if kind is None:
+        return
+    rows = db.execute(
+        "SELECT serial, file FROM robots WHERE id IN (SELECT max(id) FROM robots GROUP BY serial)"
+        " AND serial != ? AND json_extract(file, '$.robot.type') = ? ORDER BY id DESC LIMIT 1",
+        [robot.serial, kind],
+    )
+    for row in rows:
+        if _lengths(json.loads(row[1])) != _lengths(file):
+            raise NotApplicable(
+                f"Robot {robot.serial} is said to be of type {kind}, but robot {row[0]} of that type has "
+                "other nominal lengths; correct e, L and l or give it another type."
+            )
+
+
+def _lengths(file: Sections) -> tuple[object, ...]:
+    """Nominal geometry of a robot."""
+    section = _robot_section(file)
+    return tuple(section.get(key) for key in ("e", "L", "l"))
+
+
+def _robot_section(file: Sections) -> Mapping[str, object]:
+    section = file.get("robot")
+    return section if isinstance(section, dict) else {}
 
 
 def _sections(text: str) -> Sections:

@@ -10,7 +10,7 @@ import math
 import time
 from collections.abc import Sequence
 from contextlib import closing
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache
 from pathlib import Path
 from typing import Any, cast
@@ -19,12 +19,12 @@ from pydantic import JsonValue
 
 from station.errors import InputRefused, NotFound
 from station.records import (
+    Beforehand,
     Calibration,
     CalibrationResult,
     MeasurementSequence,
     Reading,
     Record,
-    Remembered,
     Step,
 )
 from station.run_kinds import RUN_KINDS, Start, request_of
@@ -62,20 +62,6 @@ class Refitted(Record):
 
 class _NotRepeatable(Exception):
     """The procedure asks for readings that were not taken then."""
-
-
-@dataclass(frozen=True)
-class _AsThen:
-    """The store as the run's procedure saw it: with the memory that took part then."""
-
-    store: Store
-    remembered: Remembered | None
-
-    def memory(self, _serial: str, *_as_of: object) -> Remembered | None:
-        return self.remembered
-
-    def __getattr__(self, name: str) -> Any:
-        return getattr(self.store, name)
 
 
 def candidates(store: Store, ids: Sequence[int] = ()) -> list[int]:
@@ -139,8 +125,7 @@ def refitted(store: Store, before: Calibration, readings: Sequence[Reading]) -> 
 
     :raises InputRefused: the readings are not enough to judge any more.
     """
-    use = before.memory
-    memory: Remembered | None = None
+    use, memory = before.memory, cast(Beforehand | None, before.fleet and before.fleet.prior)
     if use is not None:
         try:
             memory = replace(store.memory_left_by(use.from_calibration), as_of=before.created_at)
@@ -149,7 +134,7 @@ def refitted(store: Store, before: Calibration, readings: Sequence[Reading]) -> 
     kind = RUN_KINDS[before.kind]
     request = request_of(store, before.id)
     robot = store.robot_of(before.id).informed(request.references)
-    start = Start(cast(Store, _AsThen(store, memory)), request, robot, before.created_at)
+    start = Start(store, request, robot, before.created_at, known_before=lambda: memory)
     assert kind.procedure is not None
     taken: dict[int, list[Reading]] = {}
     for reading in readings:

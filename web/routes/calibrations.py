@@ -181,6 +181,7 @@ def answer_prompt(
 def translate(calibration_id: CalibrationId, body: TranslateBody, runtime: TheRuntime) -> TranslatedList:
     """Taught joint positions as the same physical positions under the zeros of this run."""
     change = change_of(runtime.store, calibration_id, body.taught_under)
+    change = change.back() if body.back else change
     return TranslatedList(items=list(translated(change, body.positions, runtime.settings.joints)))
 
 

@@ -26,6 +26,8 @@ class PlainMachine:
 
     robot: Robot
     truth: Real
+    aside_mm: complex = 0j
+    """How far from the robot file's mounting point the mechanism is mounted."""
 
     def stand(self, theta: Real) -> Complex:
         """(K,) mm, where P is with the drives at theta (K, 2), rad."""
@@ -54,7 +56,7 @@ class PlainMachine:
         commanded = (np.array([stop.theta_deg for stop in stops]) - zero_deg) * _SPEC.pulses_per_deg
         scatter = rng.normal(0.0, _SPEC.servo_error_pulses / 3, commanded.shape)
         theta = np.radians(zero_deg + np.round(np.round(commanded) + scatter) / _SPEC.pulses_per_deg)
-        foot = complex(*np.array(self.robot.c) + np.array(self.robot.d) + self.truth[10:])
+        foot = complex(*np.array(self.robot.c) + np.array(self.robot.d) + self.truth[10:]) + self.aside_mm
         noise = rng.normal(0.0, _SPEC.scale_noise_mm, (len(stops), SAMPLES)).mean(axis=1)
         return Measurements(
             ids=tuple(range(1, len(stops) + 1)),

@@ -22,6 +22,15 @@ def test_one_place_is_rayleigh() -> None:
     assert bound == pytest.approx(0.2 * RAYLEIGH_95, rel=0.02)
 
 
+def test_it_is_what_very_many_draws_show() -> None:
+    rng = np.random.default_rng(5)
+    mean, jacobian = rng.normal(size=(6, 2)), rng.normal(size=(6, 2, 4))
+    root = rng.normal(size=(4, 4))
+    drawn = mean[:, :, None] + jacobian @ root @ rng.normal(size=(4, 200_000))
+    brute = np.quantile(np.sqrt((drawn**2).sum(axis=1)).max(axis=0), 0.95)
+    assert largest_error_bound(mean, jacobian, root @ root.T) == pytest.approx(brute, rel=0.012)
+
+
 def test_a_known_error_is_all_of_it() -> None:
     mean = np.array([[3.0, 4.0], [0.0, 1.0]])
     assert largest_error_bound(mean, np.zeros((2, 2, 3)), np.eye(3)) == pytest.approx(5.0)

@@ -44,7 +44,7 @@ def test_the_power_against_a_changed_memory_is_what_draws_show() -> None:
     """Readings of a changed machine, unknowns fitted anew, the memory tested: how often is it refused?"""
     rows, change = ROWS[:8], np.array([0.8, -0.5])
     information = rows.T @ rows
-    power = TEST.power(TEST.noncentrality(information, change[None]), 2)[0]
+    power = TEST.power(TEST.noncentrality(information, change[None]), np.array(2))[0]
     held = rows[:, :4]
     nuisance = np.linalg.inv(np.eye(8) + held @ np.diag([1.0, 1.0, 1e8, 1e8]) @ held.T)
     told = rows[:, 4:]
@@ -63,7 +63,7 @@ def test_the_power_against_a_changed_memory_is_what_draws_show() -> None:
 
 def test_no_direction_no_power() -> None:
     assert TEST.directions(ROWS[:2].T @ ROWS[:2]) == 0
-    assert TEST.power(np.array([1e6]), 0) == [0.0]
+    assert TEST.power(np.array([1e6]), np.array(0)) == [0.0]
 
 
 def test_what_may_have_changed() -> None:
@@ -78,6 +78,7 @@ def quickest(enough: float) -> Quickest:
         covariance=COVARIANCE,
         rows=ROWS[:12],
         weight=WEIGHT,
+        stays=0.0,
         enough=enough,
         theta_deg=RNG.uniform(-30.0, 30.0, (12, 2)),
         here_deg=np.zeros(2),

@@ -7,7 +7,7 @@ import pytest
 
 from station.errors import InputRefused
 from station.five_bar import inverse
-from station.identification import identify
+from station.identification import identify, zero_difference
 from station.plans import make_plan
 from station.records import JointAngle, TaughtPosition, read_taught, translated_to_csv
 from station.run_kinds.translate import Change, translated
@@ -46,7 +46,8 @@ def test_a_frame_that_moved_is_exact() -> None:
 
 def test_after_a_collision_and_two_calibrations_they_stand_within_what_is_said() -> None:
     """Both calibrations were applied: what is left of each zero is its uncertainty."""
-    held, size = [], []
+    held: list[bool] = []
+    size: dict[bool, list[float]] = {True: [], False: []}
     for seed in range(24):
         machine, rng = drawn(ROBOT, seed)
         struck = machine.struck(rng)
@@ -55,19 +56,30 @@ def test_after_a_collision_and_two_calibrations_they_stand_within_what_is_said()
             seen_deg = float(np.degrees(one.truth[0]) + rng.normal(0.0, 0.005))
             reference = JointAngle(joint=1, at_deg=0.0, reads_deg=seen_deg, sd_deg=0.005)
             fits.append(identify(ROBOT.informed([reference]), one.machine(number).measure(STOPS)))
-        covariance = fits[0].covariance[:2, :2] + fits[1].covariance[:2, :2]
+        moved, covariance = zero_difference(*fits, same_mounting=(same := seed % 2 == 0))
+        change = Change(ROBOT, moved - fits[0].dtheta + fits[1].dtheta, covariance)
         positions = taught(10, rng)
-        new = translated(Change(ROBOT, np.zeros(2), covariance), positions, DEFAULT_JOINTS)
-        theta = np.radians([[p.theta1_deg, p.theta2_deg] for p in positions])
-        then, now = (
-            true_positions(ROBOT, one.truth, theta - fit.dtheta)
-            for one, fit in zip((machine, struck), fits, strict=True)
-        )
+        new = translated(change, positions, DEFAULT_JOINTS)
+        old_theta = np.radians([[p.theta1_deg, p.theta2_deg] for p in positions])
+        new_theta = np.radians([[p.theta1_deg, p.theta2_deg] for p in new])
+        then = true_positions(ROBOT, machine.truth, old_theta - fits[0].dtheta)
+        now = true_positions(ROBOT, struck.truth, new_theta - fits[1].dtheta)
         bound = np.array([p.u95_mm for p in new])
         held += list(np.abs(then - now) <= bound)
-        size.append(np.median(bound))
+        size[same] += list(bound)
     assert np.mean(held) >= 0.94
-    assert np.median(size) < 0.5
+    assert np.median(size[True]) < 0.5 * np.median(size[False]) < 0.1
+
+
+def test_a_translation_is_taken_back() -> None:
+    change = Change(ROBOT, np.radians([0.4, -0.2]), np.eye(2) * 1e-12)
+    positions = taught(3, np.random.default_rng(2))
+    there = [
+        TaughtPosition(position=p.position, theta1_deg=p.theta1_deg, theta2_deg=p.theta2_deg)
+        for p in translated(change, positions, DEFAULT_JOINTS)
+    ]
+    for old, back in zip(positions, translated(change.back(), there, DEFAULT_JOINTS), strict=True):
+        assert (back.theta1_deg, back.theta2_deg) == pytest.approx((old.theta1_deg, old.theta2_deg))
 
 
 def test_limits_and_singularities_are_marked() -> None:

@@ -38,9 +38,8 @@ def carried_out(plant: Plant, run: int) -> State:
             continue
         value = plant.machine.axes[0].arm_deg(plant.scheduler.now_s) if prompt.kind == "number" else None
         if prompt.kind == "confirm":
-            plant.machine.remount(ROBOT.second_mount[1])
+            plant.machine.remount(ROBOT.c if "back" in prompt.text else ROBOT.second_mount[1])
         plant.ask(lambda station: station.answer(run, prompt.id, value, "ada"))  # noqa: B023
-    plant.machine.remount(ROBOT.c)
     return plant.runtime.store.summary(run).state
 
 

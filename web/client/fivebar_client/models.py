@@ -1,6 +1,6 @@
 """What the station takes and answers.  Made by `make reference`; do not edit.
 
-From schemas with SHA-256 e2a1efd95722e0117cc2dc8bce0e8bce868dfc701aab795f1801837fc98c023b.
+From schemas with SHA-256 3824c90ea05fcd4a3c21d1a18da9ace04ad9f60f0102fc5b00b83e5566949c37.
 """
 
 from __future__ import annotations
@@ -198,6 +198,26 @@ class MemoryUse(BaseModel):
     text: str
     from_calibration: int
     age_days: float | None
+
+
+class FleetPrior(BaseModel):
+    """
+    Geometry of a robot as others of its type let expect it, before it is measured: mm and mm^2.
+    """
+
+    type: str
+    """
+    As the robot files name it.
+    """
+
+    serials: list[str]
+    """
+    Of those others.
+    """
+
+    names: list[str]
+    mean: list[float]
+    covariance: list[list[float]]
 
 
 class ReferenceUse(BaseModel):
@@ -729,6 +749,21 @@ class Accuracy(BaseModel):
     predicted_position_error_mm: PositionError | None
 
 
+class FleetUse(BaseModel):
+    """
+    Whether what other robots of the type showed took part.
+    """
+
+    used: bool
+    p_value: float | None
+    """
+    Of the readings under that prior.
+    """
+
+    text: str
+    prior: FleetPrior
+
+
 class Finding(BaseModel):
     """
     One effect that the model lacked.
@@ -989,7 +1024,12 @@ class Calibration(BaseModel):
 
     memory: MemoryUse | None
     """
-    Null when nothing was known before.
+    Null when nothing was known of this robot before.
+    """
+
+    fleet: FleetUse | None
+    """
+    Null when this robot was known, or no others of its type were.
     """
 
     references: list[ReferenceUse]

@@ -203,6 +203,7 @@ export const calibration = (given: Partial<Calibration> = {}): Calibration => ({
   application: null,
   made_by: null,
   memory: null,
+  fleet: null,
   lack_of_fit: null,
   accuracy: null,
   advice: [],

@@ -459,6 +459,10 @@ export const de: Messages = {
     stopped: (why) => (why ? `Keine weiteren Messungen: ${why}.` : ""),
     smallestShift: (deg, blind, blindDeg) =>
       `Eine Verschiebung eines der Nullpunkte um ${deg}° wird mit 99 % Wahrscheinlichkeit gefunden; von ${blind} um ${blindDeg}°.`,
+    fleetUsed: (count, type, serials, p) =>
+      `Benutzt: Geometrie von ${count} anderen Robotern des Typs ${type} (${serials}; p-Wert ${p}).`,
+    fleetNotUsed: (type, serials, p) =>
+      `◆ Nicht benutzt: Dieser Roboter ist nicht wie die anderen des Typs ${type} (${serials}; p-Wert ${p}). Prüfen Sie seinen Typ und seine Längen.`,
     memoryNone: "Dieser Lauf benutzte keine gespeicherten Parameter.",
     memoryNext: (id, days) =>
       `Der nächste schnelle oder vollständige Lauf beginnt mit Lauf ${id}, der ${days} Tage alt ist.`,

@@ -477,6 +477,10 @@ export const en = {
     stopped: (why: string) => (why ? `No further readings: ${why}.` : ""),
     smallestShift: (deg: string, blind: string, blindDeg: string) =>
       `A shift of either zero by ${deg}° is found with 99 % probability; of ${blind} by ${blindDeg}°.`,
+    fleetUsed: (count: number, type: string, serials: string, p: string) =>
+      `Used: geometry of ${count} other robots of type ${type} (${serials}; p-value ${p}).`,
+    fleetNotUsed: (type: string, serials: string, p: string) =>
+      `◆ Not used: this robot is not like the others of type ${type} (${serials}; p-value ${p}). Check its type and its lengths.`,
     memoryNone: "This run used no stored parameters.",
     memoryNext: (id: number, days: string) =>
       `The next rapid or full run starts from run ${id}, which is ${days} days old.`,

@@ -388,6 +388,10 @@ export const zh: Messages = {
     stopped: (why) => (why ? `不再读数：${why}。` : ""),
     smallestShift: (deg, blind, blindDeg) =>
       `任一零点偏移 ${deg}° 以 99 % 的概率被发现；${blind}为 ${blindDeg}°。`,
+    fleetUsed: (count, type, serials, p) =>
+      `已使用：${type} 型其他 ${count} 台机器人的几何参数（${serials}；p 值 ${p}）。`,
+    fleetNotUsed: (type, serials, p) =>
+      `◆ 未使用：该机器人与 ${type} 型的其他机器人（${serials}；p 值 ${p}）不一致。请检查其型号和长度。`,
     memoryNone: "该运行未使用存储参数。",
     memoryNext: (id, days) => `下一次快速或完整运行从运行 ${id} 开始，已有 ${days} 天。`,
     memoryNextNone: "下一次运行不使用存储参数。",

@@ -11,7 +11,7 @@ import { Link } from "../../parts/link";
 import { useLoaded } from "../../parts/load";
 import type { Calibration } from "../../types";
 
-export function Memory({ result: { memory, robot_serial } }: { result: Calibration }) {
+export function Memory({ result: { memory, fleet, robot_serial } }: { result: Calibration }) {
   const forgotten = useSignal(0);
   // asked again when a run ends: it may have left something new
   const key = `${robot_serial} ${station.value?.last?.id} ${forgotten.value}`;
@@ -23,7 +23,9 @@ export function Memory({ result: { memory, robot_serial } }: { result: Calibrati
   };
   return (
     <div class="memory">
-      <p class="used">{memory ? <Used memory={memory} /> : t.result.memoryNone}</p>
+      <p class="used">
+        {memory ? <Used memory={memory} /> : fleet ? <Taught fleet={fleet} /> : t.result.memoryNone}
+      </p>
       <p>
         {next ? t.result.memoryNext(next.from_calibration, fixed(next.age_days, 1)) : t.result.memoryNextNone}
       </p>
@@ -33,6 +35,16 @@ export function Memory({ result: { memory, robot_serial } }: { result: Calibrati
         {t.result.forgetAs}
       </ConfirmedButton>
     </div>
+  );
+}
+
+function Taught({ fleet }: { fleet: NonNullable<Calibration["fleet"]> }) {
+  const { serials, type } = fleet.prior;
+  const p = fixed(fleet.p_value, 3);
+  return fleet.used ? (
+    <>{t.result.fleetUsed(serials.length, type, serials.join(", "), p)}</>
+  ) : (
+    <strong class="alarm warn">{t.result.fleetNotUsed(type, serials.join(", "), p)}</strong>
   );
 }
 
