@@ -6,6 +6,7 @@ from station.run_kinds import (  # noqa: F401 - they register themselves
     apply,
     calibrate,
     diagnose,
+    gauge_study,
     import_file,
     retract,
     separate,
@@ -19,6 +20,7 @@ from station.run_kinds.import_file import Upload, import_dataset
 from station.run_kinds.kind import RUN_KINDS, Continued, RunKind, Start, kind_of_plan, request_of
 from station.run_kinds.lock import calibration_holds, check_not_locked, clear_failed_check
 from station.run_kinds.separate import planned
+from station.run_kinds.station_gauge import JointStudied, StationGauge, station_gauge
 from station.run_kinds.translate import change_of, translated
 from station.run_kinds.zero_state import application
 
@@ -26,8 +28,10 @@ __all__ = [
     "RUN_KINDS",
     "ArmLog",
     "Continued",
+    "JointStudied",
     "RunKind",
     "Start",
+    "StationGauge",
     "Upload",
     "adaptive_run",
     "application",
@@ -45,5 +49,6 @@ __all__ = [
     "kind_of_plan",
     "planned",
     "request_of",
+    "station_gauge",
     "translated",
 ]

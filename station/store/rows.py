@@ -167,11 +167,12 @@ def request_hash(request: CalibrationRequest) -> bytes:
 
 
 def asked_more(request: CalibrationRequest) -> dict[str, JsonValue]:
-    """What a request says of accuracy and references, if it says anything."""
+    """What a request says of accuracy, references and a gauge study, if it says anything."""
     more: dict[str, JsonValue] = {
         "references": [reference.model_dump() for reference in request.references],
         "until_mm": request.until_mm,
         "accuracy_mm": request.accuracy_mm,
+        "study": request.study.model_dump() if request.study else None,
     }
     return {key: value for key, value in more.items() if value}
 
