@@ -152,7 +152,7 @@ class _Calibration:
         others = [fit(found.model, found.prior, found.row_sd, start).x[:2] for start in starts]
         solver = np.mean((np.array(others) - found.x[:2]) ** 2, axis=0)
         parts = np.array([readout, np.maximum(repeats - readout, 0.0), solver])
-        return parts * np.degrees(1.0) ** 2
+        return np.asarray(parts * np.degrees(1.0) ** 2)
 
     def _readout_sd_mm(self) -> float:
         """Of a reading, by the scatter of its samples; by the specification where none are kept."""

@@ -100,9 +100,8 @@ def drawn_values(rng: np.random.Generator, shape: tuple[int, int, int, int], sd:
     """Robots, operators, mountings and repeats that scatter so."""
     p, o, m, r = shape
     shapes = ((p, 1, 1, 1), (1, o, 1, 1), (p, o, m, 1), (p, o, m, r))
-    return np.sum(
-        [np.broadcast_to(rng.normal(0.0, s, of), shape) for s, of in zip(sd, shapes, strict=True)], 0
-    )
+    parts = [rng.normal(0.0, s, of) for s, of in zip(sd, shapes, strict=True)]
+    return np.asarray(sum(np.broadcast_to(part, shape) for part in parts))
 
 
 @pytest.mark.parametrize("robots", [1, 5])
