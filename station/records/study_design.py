@@ -6,12 +6,12 @@ from typing import Annotated
 
 from pydantic import Field
 
-from station.records.record import Record
+from station.records.sections import Section
 
 Times = Annotated[int, Field(ge=2, le=10)]
 
 
-class StudyDesign(Record):
+class StudyDesign(Section):
     """Every operator mounts the mechanism several times; each mounting is calibrated several times."""
 
     operators: Times = 3

@@ -16,6 +16,7 @@ from station.run_kinds.arm_log import ArmLog, import_log, import_measured
 from station.run_kinds.check import check_run
 from station.run_kinds.diagnose import diagnosed
 from station.run_kinds.error_maps import error_map
+from station.run_kinds.gauge_page import gauge_page, judgement
 from station.run_kinds.import_file import Upload, import_dataset
 from station.run_kinds.kind import RUN_KINDS, Continued, RunKind, Start, kind_of_plan, request_of
 from station.run_kinds.lock import calibration_holds, check_not_locked, clear_failed_check
@@ -43,9 +44,11 @@ __all__ = [
     "diagnosed",
     "error_map",
     "fit_in_sequence",
+    "gauge_page",
     "import_dataset",
     "import_log",
     "import_measured",
+    "judgement",
     "kind_of_plan",
     "planned",
     "request_of",

@@ -58,7 +58,7 @@ def start_calibration(
     """Start a run.  The same `Idempotency-Key` with the same body answers the same run."""
     request = CalibrationRequest(kind=kind_of_plan(body.plan), **dict(body))
     submitted = runtime.orchestrator.submit(request, idempotency_key=idempotency_key, by=by)
-    return _started(submitted, runtime, response)
+    return started(submitted, runtime, response)
 
 
 def _filters(
@@ -205,7 +205,7 @@ def apply_calibration(
     submitted = runtime.orchestrator.follow(
         "apply", calibration_id, body.operator, idempotency_key=idempotency_key, by=by
     )
-    return _started(submitted, runtime, response)
+    return started(submitted, runtime, response)
 
 
 @router.post(
@@ -223,7 +223,7 @@ def roll_back_calibration(
 ) -> CalibrationSummary:
     """Put the old zeros back; a run of its own.  Calling it again answers the run that did it."""
     submitted = runtime.orchestrator.follow("rollback", calibration_id, body.operator, by=by)
-    return _started(submitted, runtime, response)
+    return started(submitted, runtime, response)
 
 
 @router.post(
@@ -247,7 +247,7 @@ def separate(
     submitted = runtime.orchestrator.follow(
         "separate", calibration_id, body.operator, idempotency_key=idempotency_key, by=by
     )
-    return _started(submitted, runtime, response)
+    return started(submitted, runtime, response)
 
 
 def _check_own(runtime: Runtime, calibration_id: int, by: Actor) -> None:
@@ -262,6 +262,7 @@ def _check_own(runtime: Runtime, calibration_id: int, by: Actor) -> None:
             )
 
 
-def _started(submitted: Submitted, runtime: Runtime, response: Response) -> CalibrationSummary:
+def started(submitted: Submitted, runtime: Runtime, response: Response) -> CalibrationSummary:
+    """The run that a request started, with the way to it."""
     response.headers["Location"] = f"/api/v1/calibrations/{submitted.id}"
     return runtime.store.summary(submitted.id)

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 import pytest
 
 from station.errors import NotApplicable
-from station.five_bar import Robot
+from station.five_bar import SCALE_SD_MM, Robot
 from station.plans import make_plan
-from station.records import CalibrationRequest, Reading, State, Stop, StudyDesign
+from station.records import CalibrationRequest, PlanName, Reading, State, Stop, StudyDesign
 from station.run_kinds import RUN_KINDS, gauge_study, station_gauge
 from station.service import Orchestrator
 from station.store import Store
 from station.studies.population.physics import PlainMachine
+from station.studies.simulation import SAMPLES
 from tests.station.asking import asked
 from tests.station.conftest import SETTINGS
 from tests.station.fakes import Rig
@@ -24,7 +24,7 @@ from tests.station.service.test_waiting import LIMIT_S, prompt_of
 DESIGN = StudyDesign(operators=2, mountings=2, repeats=2)
 STOPS = 6
 LIMIT_DEG = 0.5
-MOUNTING_SD_MM = 0.15
+MOUNTING_SD_MM = 0.5
 
 
 @pytest.fixture(autouse=True)
@@ -98,6 +98,8 @@ def readings_of(stops: tuple[Stop, ...], robot: Robot, seed: int, design: StudyD
         truth[10:] = np.array(robot.drm) + rng.normal(0.0, MOUNTING_SD_MM, 2)
         for repeat in range(design.repeats):
             taken = PlainMachine(robot, truth).read(stops, rng)
+            noise = rng.normal(0.0, SCALE_SD_MM, (len(stops), SAMPLES))
+            samples = taken.distance[:, None] + noise - noise.mean(axis=1, keepdims=True)
             readings += [
                 Reading(
                     len(readings) + k + 1,
@@ -107,24 +109,26 @@ def readings_of(stops: tuple[Stop, ...], robot: Robot, seed: int, design: StudyD
                     float(taken.distance[k]),
                     stop.position,
                     design.sequence_of(mounting, repeat),
+                    tuple(samples[k].tolist()),
                 )
                 for k, stop in enumerate(stops)
             ]
     return readings
 
 
-def kept(store: Store, serial: str, seed: int, design: StudyDesign = DESIGN, **more: Any) -> int:
+def kept(store: Store, serial: str, seed: int, design: StudyDesign = DESIGN, plan: PlanName = "full") -> int:
+    """A finished study, with the stops of a plan."""
     robot = Robot.default(serial)
-    request = CalibrationRequest(serial, "gauge_study", "ada", "gauge_study", study=design, **more)
+    request = CalibrationRequest(serial, "gauge_study", "ada", "gauge_study", study=design)
     run = store.create(request, robot)
     store.set_state(run, State.RUNNING)
-    store.add_readings(run, readings_of(make_plan("full", robot).stops, robot, seed, design))
+    store.add_readings(run, readings_of(make_plan(plan, robot).stops, robot, seed, design))
     store.finish(run, State.SUCCEEDED, judged=False)
     return run
 
 
 def test_what_the_scatter_comes_from(store: Store) -> None:
-    """Mountings that differ by 0.15 mm scatter far more than readout, drives and solver do."""
+    """Mountings that differ by 0.5 mm scatter far more than readout, drives and solver do."""
     runs = [kept(store, f"R{k}", k) for k in range(2)]
     found = station_gauge(store, runs, LIMIT_DEG)
     assert found.joints[0].against == "robots" and found.joints[0].pv == pytest.approx(0.3 / 2**0.5, rel=0.1)
@@ -141,8 +145,8 @@ def test_what_the_scatter_comes_from(store: Store) -> None:
 
 
 def test_runs_that_are_no_study_together(store: Store) -> None:
-    one, same = kept(store, "R1", 1), kept(store, "R1", 2)
-    other = kept(store, "R2", 3, StudyDesign(operators=3))
+    one, same = kept(store, "R1", 1, plan="rapid"), kept(store, "R1", 2, plan="rapid")
+    other = kept(store, "R2", 3, StudyDesign(operators=3), "rapid")
     for runs, why in (([one, same], "Robot R1 is in two"), ([one, other], "differ in operators")):
         with pytest.raises(NotApplicable, match=why):
             station_gauge(store, runs, LIMIT_DEG)

@@ -1,6 +1,6 @@
 """What the station takes and answers.  Made by `make reference`; do not edit.
 
-From schemas with SHA-256 e2a1efd95722e0117cc2dc8bce0e8bce868dfc701aab795f1801837fc98c023b.
+From schemas with SHA-256 5ba744345d52f1d17a250eaaee4288fe8392d97a8988f764d643c720a5b7956f.
 """
 
 from __future__ import annotations
@@ -31,6 +31,16 @@ class MountingError(BaseModel):
     kind: Literal["drm_x", "drm_y"]
     value_mm: float
     sd_mm: float
+
+
+class StudyDesign(BaseModel):
+    """
+    Every operator mounts the mechanism several times; each mounting is calibrated several times.
+    """
+
+    operators: int | None = 3
+    mountings: int | None = 2
+    repeats: int | None = 2
 
 
 class Quantity(BaseModel):
@@ -670,7 +680,9 @@ class CalibrationBody(BaseModel):
     """
 
     robot_serial: str
-    plan: Literal["paper", "rapid", "full", "diagnostic", "adaptive", "check", "reference", "two_mounts"]
+    plan: Literal[
+        "paper", "rapid", "full", "diagnostic", "adaptive", "check", "reference", "two_mounts", "gauge_study"
+    ]
     operator: str
     work_order: str | None = None
     metadata: dict[str, Any] | None = None
@@ -687,6 +699,11 @@ class CalibrationBody(BaseModel):
     until_mm: float | None = None
     """
     the same, and plan `adaptive` ends as soon as it is reached
+    """
+
+    study: StudyDesign | None = None
+    """
+    how often plan `gauge_study` calibrates; for that plan alone
     """
 
 

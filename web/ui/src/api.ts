@@ -166,6 +166,12 @@ export const separate = (id: number, operator: string, key: string) =>
     body: JSON.stringify({ operator }),
   });
 
+export const resume = (id: number, operator: string, key: string) =>
+  call<Summary>("POST", `/calibrations/${id}/resume`, {
+    headers: { "Content-Type": "application/json", "Idempotency-Key": key },
+    body: JSON.stringify({ operator }),
+  });
+
 export const calibrations = (query: URLSearchParams) =>
   call<CalibrationList>("GET", `/calibrations?${query}`);
 

@@ -267,6 +267,7 @@ export const de: Messages = {
     method: "Verfahren",
     diagnosis: "Diagnose",
     robotHistory: "Historie dieses Roboters",
+    gaugeStudy: (form) => `Messsystemanalyse (${form})`,
     certificate: (form) => `Zertifikat (${form})`,
     run: "Lauf, Plan, Bediener und Zeiten",
     pending: "Das Ergebnis folgt auf die letzte Messung.",
@@ -305,6 +306,7 @@ export const de: Messages = {
       roll_back: ", und seine Antriebe erhalten ihre alten Nullpunkte.",
       start: " über seinen ganzen Arbeitsraum.",
       separate: " über seinen Arbeitsraum.",
+      resume: " über seinen Arbeitsraum.",
     },
     next: {
       watch: { button: "Lauf anzeigen", text: "Der Lauf ist im Gang." },
@@ -330,6 +332,11 @@ export const de: Messages = {
         button: "Zur Station",
         text: "Beseitigen Sie die Ursache, dann starten Sie neu an der Station.",
       },
+      resume: {
+        button: "Studie fortsetzen",
+        text: "Die abgeschlossenen Anbauten bleiben erhalten. Setzen Sie mit dem nächsten fort.",
+      },
+      gauge: { text: "Nichts zu tun. Der Bericht unten zeigt, woher die Streuung kommt." },
       inside: { button: "Zur Station", text: "Kalibrieren Sie den Roboter." },
       look: { text: "Lesen Sie die Begründung oben." },
       recalibrate: {

@@ -293,6 +293,7 @@ export const en = {
     method: "Method",
     diagnosis: "Diagnosis",
     robotHistory: "History of this robot",
+    gaugeStudy: (form: string) => `Gauge study (${form})`,
     certificate: (form: string) => `Certificate (${form})`,
     run: "Run, plan, operator and times",
     pending: "The result follows the last reading.",
@@ -331,6 +332,7 @@ export const en = {
       roll_back: ", and its drives receive their old zeros.",
       start: " over its whole workspace.",
       separate: " over its workspace.",
+      resume: " over its workspace.",
     },
     /** By what the step is for. */
     next: {
@@ -354,6 +356,11 @@ export const en = {
         button: "Go to the station",
         text: "Remove the cause, then start again at the station.",
       },
+      resume: {
+        button: "Go on with the study",
+        text: "The mountings that were finished are kept. Go on with the next one.",
+      },
+      gauge: { text: "Nothing to do. The report below shows what the scatter comes from." },
       inside: { button: "Go to the station", text: "Calibrate the robot." },
       look: { text: "Read the reason above." },
       recalibrate: {
