@@ -83,6 +83,8 @@ class Robot:
     """What was measured of the mechanism and, in one run, of the joints, by other instruments."""
     accuracy_mm: float | None = None
     """Largest position error that is wanted of a calibration; None where nobody said."""
+    type: str | None = None
+    """Type designation; None where nobody said."""
     tolerances: Tolerances = field(default_factory=Tolerances)
     workspace_x: Pair = (-240.0, 240.0)
     workspace_y: Pair = (-782.0, -632.0)
@@ -124,6 +126,7 @@ class Robot:
         return {
             "robot": {
                 "serial": self.serial,
+                **({} if self.type is None else {"type": self.type}),
                 **({} if self.accuracy_mm is None else {"accuracy_mm": self.accuracy_mm}),
                 "e": self.e,
                 "L": self.L,
@@ -252,6 +255,8 @@ class _RobotSection(Section):
     """Serial number of the robot."""
     model: Literal["five-bar"] = "five-bar"
     """Kind of machine."""
+    type: Annotated[str, Field(min_length=1, max_length=64)] | None = None
+    """Type designation of the robot; quality and trend are shown by type."""
     accuracy_mm: Positive | None = None
     """Largest position error over the workspace that is wanted of a calibration, mm."""
     e: tuple[tuple[Finite, Finite], tuple[Finite, Finite]] = Robot.e
@@ -330,6 +335,7 @@ class RobotFile(Section):
             sign=self.joints.sign if isinstance(self.joints.sign, tuple) else (self.joints.sign,) * 2,
             feedback_sd_deg=self.joints.feedback_sd_deg,
             accuracy_mm=self.robot.accuracy_mm,
+            type=self.robot.type,
         )
         try:
             robot = robot.informed(self.mechanism.reference)

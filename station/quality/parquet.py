@@ -27,8 +27,8 @@ RUNS_AT_ONCE = 2000
 TABLES = ("findings", "readings", "runs")
 _FILE = re.compile(r"runs-(\d+)-(\d+)\.parquet")
 _TEXT = {
-    "uid", "robot_serial", "kind", "plan", "operator", "work_order", "state", "verdict", "outcome",
-    "reason_code", "reason", "run_uid", "position", "mount", "effect", "part", "parameter", "unit",
+    "uid", "robot_serial", "robot_type", "kind", "plan", "operator", "work_order", "state", "verdict",
+    "outcome", "reason_code", "reason", "run_uid", "position", "mount", "effect", "part", "parameter", "unit",
 }  # fmt: skip
 _WHOLE = {"id", "run_id", "reading", "sequence", "approach1", "approach2", "joint"}
 _TIMES = {"created_at", "started_at", "ended_at"}

@@ -36,7 +36,7 @@ from station.store.logs import Logs
 from station.store.outbox import Outbox
 from station.store.people import People
 from station.store.provenance import Provenance
-from station.store.robots import Memories, RobotFile
+from station.store.robots import Memories, RobotFile, type_of
 from station.store.rows import (
     LIST_COLUMNS,
     READING_COLUMNS,
@@ -117,11 +117,13 @@ class Store(
         with self._writing() as db:
             created_ms = now_ms()
             cursor = db.execute(
-                "INSERT INTO calibrations (robot_id, robot_serial, kind, plan, operator, work_order,"
-                " metadata, of_id, state, created_ms, uid) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                "INSERT INTO calibrations (robot_id, robot_serial, robot_type, kind, plan, operator,"
+                " work_order, metadata, of_id, state, created_ms, uid)"
+                " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
                 [
                     robot_id,
                     robot.serial,
+                    type_of(robot.to_json()),
                     request.kind,
                     request.label,
                     request.operator,
@@ -256,7 +258,7 @@ class Store(
             if ended and result is not None:
                 db.execute(
                     "INSERT INTO results (calibration_id, zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg,"
-                    " result, diagnosis) VALUES (?, ?, ?, ?, ?, ?, ?)",
+                    " position_error_mm, result, diagnosis) VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
                     [calibration_id, *result_row(result), pack_document(result.diagnosis)],
                 )
                 if end.verdict == "pass" and result.lasting is not None:
@@ -332,6 +334,7 @@ class Store(
         order: Order = "newest",
         search: str | None = None,
         robot_serial: str | None = None,
+        robot_type: str | None = None,
         state: str | None = None,
         verdict: str | None = None,
         plan: str | None = None,
@@ -344,7 +347,9 @@ class Store(
 
         :raises InputRefused: a cursor that is none.
         """
-        filters = Filters(search, robot_serial, state, verdict, plan, work_order, since, until, ended_since)
+        filters = Filters(
+            search, robot_serial, robot_type, state, verdict, plan, work_order, since, until, ended_since
+        )
         conditions, values = filters.conditions(self._or_unstored, few_found=self._finds_few(search))
         if cursor is not None:
             conditions.append("id < ?" if order == "newest" else "id > ?")

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 from station.records import State
 from station.store.kept_file import KeptFile
-from station.store.trends import POSITION_ERROR
 
 Columns = dict[str, tuple[object, ...]]
 """By name, all equally long."""
@@ -19,6 +18,7 @@ RUNS = {
     "id": "id",
     "uid": "uid",
     "robot_serial": "robot_serial",
+    "robot_type": "robot_type",
     "kind": "kind",
     "plan": "plan",
     "operator": "operator",
@@ -35,7 +35,7 @@ RUNS = {
     "dtheta1_sd_deg": "zero1_sd_deg",
     "dtheta2_deg": "zero2_deg",
     "dtheta2_sd_deg": "zero2_sd_deg",
-    "position_error_mm": POSITION_ERROR,
+    "position_error_mm": "position_error_mm",
 }
 READINGS = {
     "run_id": "calibration_id",

@@ -9,11 +9,6 @@ from station.records import TrendPoint
 from station.store.kept_file import KeptFile
 from station.store.rows import millis, moment
 
-POSITION_ERROR = """CASE WHEN json_extract(result, '$.after.fresh_reading_rms_mm') IS NOT NULL THEN coalesce(
-    json_extract(result, '$.accuracy.bound_95_mm'),
-    json_extract(result, '$.after.predicted_position_error_mm.bound_95'),
-    json_extract(result, '$.after.predicted_position_error_mm.max')) END"""
-
 
 class Trends(KeptFile):
     """What process control asks for."""
@@ -23,6 +18,7 @@ class Trends(KeptFile):
         *,
         limit: int,
         robot_serial: str | None = None,
+        robot_type: str | None = None,
         since: datetime | None = None,
         kinds: tuple[str, ...] = ("calibrate",),
     ) -> list[TrendPoint]:
@@ -33,15 +29,16 @@ class Trends(KeptFile):
         places = ", ".join("?" * len(kinds))
         conditions, values = [f"kind IN ({places})", "ended_ms IS NOT NULL"], [*kinds]
         bounds: list[int] = []
-        if robot_serial is not None:
-            conditions.append("robot_serial = ?")
-            values.append(robot_serial)
+        for column, wanted in (("robot_serial", robot_serial), ("robot_type", robot_type)):
+            if wanted is not None:
+                conditions.append(f"{column} = ?")
+                values.append(wanted)
         if since is not None:
             conditions.append("ended_ms >= ?")
             bounds.append(millis(since))
         rows = self._readers.all(
             "SELECT id, uid, robot_serial, kind, plan, state, verdict, outcome, reason_code, ended_ms,"
-            f" zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg, {POSITION_ERROR} AS position_error_mm,"
+            " zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg, position_error_mm,"
             " json_extract(what, '$.software') AS software"
             " FROM calibrations LEFT JOIN results ON calibration_id = id LEFT JOIN made_by ON run_id = id"
             f" WHERE {' AND '.join(conditions)} ORDER BY id DESC LIMIT ?",

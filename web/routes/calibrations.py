@@ -66,6 +66,7 @@ def _filters(
         str | None, Query(max_length=64, description="how the serial begins, in any case")
     ] = None,
     robot_serial: str | None = None,
+    robot_type: Annotated[str | None, Query(max_length=64, description="`type` of the robot file")] = None,
     state: State | None = None,
     verdict: Literal["pass", "fail"] | None = None,
     plan: Annotated[str | None, Query(description="as in the run, also `apply` or `dataset`")] = None,
@@ -74,7 +75,9 @@ def _filters(
     until: Annotated[Moment | None, Query(description="created before")] = None,
     ended_since: Annotated[Moment | None, Query(description="ended at or after")] = None,
 ) -> Filters:
-    return Filters(search, robot_serial, state, verdict, plan, work_order, since, until, ended_since)
+    return Filters(
+        search, robot_serial, robot_type, state, verdict, plan, work_order, since, until, ended_since
+    )
 
 
 TheFilters = Annotated[Filters, Depends(_filters)]
