@@ -10,7 +10,6 @@ from station.records import TrendPoint
 from station.store.kept_file import KeptFile
 from station.store.rows import millis, moment
 
-
 _COLUMNS = {
     **{name: name for name in ("id", "uid", "robot_serial", "kind", "plan", "state")},
     **{name: name for name in ("verdict", "outcome", "reason_code")},
