@@ -83,7 +83,7 @@ def _squares(mean: Real, apart: Real) -> Real:
     """(B, DRAWS) squares of errors that differ from the mean (B, 2) by so much (B, 2, DRAWS)."""
     error = apart + mean[:, :, None]
     error *= error
-    return np.add(error[:, 0], error[:, 1], out=error[:, 0])
+    return np.asarray(np.add(error[:, 0], error[:, 1], out=error[:, 0]))
 
 
 def _drawn(jacobian: Real, covariance: Real) -> Iterator[tuple[slice, Real]]:
