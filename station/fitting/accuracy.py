@@ -76,7 +76,7 @@ def largest_error_bounds(means: Sequence[Real], jacobian: Real, covariance: Real
 def error_bounds(mean: Real, jacobian: Real, covariance: Real) -> Real:
     """(G,) the same for each place alone."""
     squares = (_squares(mean[places], apart) for places, apart in _drawn(jacobian, covariance))
-    return np.sqrt(np.concatenate([np.quantile(of_places, 0.95, axis=1) for of_places in squares]))
+    return np.asarray(np.sqrt(np.concatenate([np.quantile(of, 0.95, axis=1) for of in squares])))
 
 
 def _squares(mean: Real, apart: Real) -> Real:
