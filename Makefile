@@ -7,7 +7,7 @@ PAGE := $(shell find web/ui \( -name node_modules -o -name tests -o -name api-ty
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 NPM := $(BIN)/python deploy/node.py
 
-.PHONY: run test coverage record lint format bench security mutate reference lock bundle clean
+.PHONY: run test coverage record lint format bench security mutate reference lock bundle check-bundle clean
 
 run: $(VENV)/installed  ## install and start the service on the emulated rig; prints the address
 	$(BIN)/station serve
@@ -63,6 +63,9 @@ lock: $(VENV)/installed-for-tests  ## newest versions that fit, with hashes
 
 bundle: $(VENV)/installed-for-tests  ## dist/bundle, which installs on a computer without internet
 	deploy/bundle $(BIN) dist/bundle
+
+check-bundle: bundle  ## installs it in a clean Debian tree without a network; as root, needs debootstrap (minutes)
+	deploy/check-bundle dist/bundle
 
 clean:
 	rm -rf $(VENV) dist web/static web/ui/node_modules
