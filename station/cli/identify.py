@@ -73,6 +73,11 @@ def _print(found: Identification[AnyMechanism], document: IdentificationDocument
         console.print(f"Reference {reference_line(use)}")
     for outlier in found.outliers:
         console.print(f"Left out: reading {outlier.reading}, {outlier.reason}.")
+    if document.jump:
+        console.print(
+            f"Warning: {document.jump.text} The zero offsets are not those of the machine as it is now; "
+            "`station diagnose` tells more."
+        )
     if not found.solution.complete:
         console.print(f"Warning: the fit {found.solution.message}; each uncertainty includes that step.")
     if found.sd_factor > 1.0:

@@ -209,7 +209,8 @@ def _mistake_shown_by(found: ExplanationSet, files: _Files) -> Mistake | None:
         rows = tuple(i for i, t in zip(files.sequence.ids, files.sequence.t_s, strict=True) if t >= moment)
         text = (
             f"From reading {rows[0]} on both joints are shifted, by {sizes}: zeros were written to the "
-            "drives during the measurement sequence; measure again with one set of zeros."
+            "drives during the measurement sequence, or a collision shifted both joints; measure again "
+            "with one set of zeros."
         )
         return Mistake("zeros_written", text, rows, "refused")
     return None

@@ -24,7 +24,13 @@ from station.fitting.noise import (
     pure_error,
     specified_noise,
 )
-from station.fitting.outliers import Outlier, check_outlier_share, find_outliers, outliers_of_fit
+from station.fitting.outliers import (
+    Outlier,
+    check_outlier_share,
+    few_enough,
+    find_outliers,
+    outliers_of_fit,
+)
 from station.fitting.prior import tolerance_prior
 from station.fitting.separability import describe_separability
 
@@ -45,6 +51,7 @@ __all__ = [
     "describe_separability",
     "error_bounds",
     "estimate_noise",
+    "few_enough",
     "find_outliers",
     "lack_of_fit",
     "largest_error_bound",

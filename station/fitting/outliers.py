@@ -1,13 +1,15 @@
 """Readings that disagree with all others: found, named, left out with a reason, never silently.
 
 A reading is an outlier only when it also disagrees with the other readings of its own place: an
-effect at a place (a dent, a cable) shows in all of them and must not be thrown away.
+effect at a place (a dent, a cable) shows in all of them and must not be thrown away.  Nor are the first
+or the last few in time together outliers: there the machine was another one, and it must be said.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
+from itertools import takewhile
 
 import numpy as np
 from scipy.special import ndtri
@@ -15,7 +17,7 @@ from scipy.special import ndtri
 from station.errors import InputRefused
 from station.fitting.least_squares import Solution
 from station.mechanism import Mechanism, axis_of_row
-from station.records import Index, OutlierNote, Real
+from station.records import Index, Measurements, OutlierNote, Real
 
 SIGNIFICANCE = 1e-3
 """For the whole set of readings (Bonferroni)."""
@@ -91,11 +93,27 @@ def _named(mechanism: Mechanism, residual: Real, t: Real, scale: float, row_sd: 
     for k in suspects[np.argsort(np.abs(t[suspects]))]:
         if _apart(mechanism, residual, int(k), suspects) > limit:
             worst[int(mechanism.reading_of_row[k])] = int(k)
+    for reading in _at_an_end(mechanism.measurements, {reading: residual[k] for reading, k in worst.items()}):
+        del worst[reading]
     ids = mechanism.measurements.ids
     return tuple(
         Outlier(ids[reading], float(residual[k] * row_sd[k]), float(abs(t[k]) / scale))
         for reading, k in sorted(worst.items())
     )
+
+
+def _at_an_end(measurements: Measurements, off: Mapping[int, float]) -> set[int]:
+    """Those of readings that are off that follow one another up to an end of the sequence in time.
+
+    A slip or a step between readings leaves all of one side of it off; two to different sides are chance.
+    """
+    in_time = [int(k) for k in np.argsort(measurements.t_s, kind="stable")]
+    found: set[int] = set()
+    for way in (in_time, in_time[::-1]):
+        run = list(takewhile(off.__contains__, way))
+        if len(run) > 2 or (len(run) == 2 and off[run[0]] * off[run[1]] > 0.0):
+            found |= set(run)
+    return found
 
 
 def _left(solution: Solution) -> Real:
@@ -128,9 +146,14 @@ def _apart(mechanism: Mechanism, residual: Real, k: int, suspects: Index) -> flo
     return float(np.abs(residual[k] - residual[sound if sound.size else companions].mean()))
 
 
+def few_enough(left_out: tuple[Outlier, ...], readings: int) -> bool:
+    """At most a tenth of the readings, or one: more are something that the model lacks."""
+    return len(left_out) <= max(1, int(LARGEST_SHARE * readings))
+
+
 def check_outlier_share(left_out: tuple[Outlier, ...], readings: int) -> None:
     """:raises InputRefused: more than a tenth of the readings (at least one) would be left out."""
-    if len(left_out) > max(1, int(LARGEST_SHARE * readings)):
+    if not few_enough(left_out, readings):
         names = ", ".join(str(o.reading) for o in left_out)
         raise InputRefused(
             f"Readings {names} disagree with the rest, more than a tenth of {readings}; "

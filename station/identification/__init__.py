@@ -7,8 +7,8 @@ from station.identification.bound import PLAN_ENDED, accuracy_of, bounds_mm, wit
 from station.identification.document import gate_record, identification_document, position_error_map
 from station.identification.error_map import error_fields, fresh_readings
 from station.identification.estimate import Gate, Identification, identify
+from station.identification.jump import without_jump
 from station.identification.memory import GATE_P, Memory
-from station.identification.readout_jump import without_jump
 from station.identification.sequential import Innovation, Known
 from station.identification.verification import (
     Verification,

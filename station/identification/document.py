@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
+from station.five_bar import FiveBar
 from station.identification.estimate import Gate, Identification
+from station.identification.jump import find_jump
 from station.machines import AnyMechanism
 from station.records import (
     Convergence,
     DataSource,
     GateOfMemory,
     IdentificationDocument,
+    JumpNote,
     PositionErrorAt,
     PredictedAccuracy,
     ResidualSummary,
@@ -25,6 +28,7 @@ def identification_document(
     errors, quantities = found.errors_mm, found.quantities()
     joints = len(found.dtheta)
     has_workspace = bool(len(found.mechanism.workspace))
+    jump = jump_of(found)
     return IdentificationDocument(
         data=data,
         noise=found.noise.record(),
@@ -40,13 +44,14 @@ def identification_document(
             rms_mm=float(np.sqrt(np.mean(errors**2))),
             max_mm=float(errors.max()),
             lack_of_fit_p=found.lack_of_fit_p,
-            adequate=found.adequate,
+            adequate=found.adequate and jump is None,
         ),
         sd_factor=found.sd_factor,
         before=PredictedAccuracy(predicted_position_error_mm=found.position_error(False)),
         after=PredictedAccuracy(predicted_position_error_mm=found.position_error(True)),
         position_error_map=position_error_map(found),
         outliers=tuple(o.record() for o in found.outliers),
+        jump=jump,
         references=found.references,
         memory=None if found.gate is None else gate_record(found.gate),
         convergence=Convergence(
@@ -56,6 +61,15 @@ def identification_document(
             gain_left=found.solution.gain_left,
         ),
     )
+
+
+def jump_of(found: Identification[AnyMechanism]) -> JumpNote | None:
+    """What jumped between readings of a five-bar that are in the order in which they were taken."""
+    mechanism = found.mechanism
+    if not isinstance(mechanism, FiveBar) or np.any(np.diff(found.measurements.t_s) < 0.0):
+        return None
+    jump = find_jump(mechanism)
+    return None if jump is None else jump.note(found.measurements.ids[jump.index])
 
 
 def position_error_map(found: Identification[AnyMechanism]) -> tuple[PositionErrorAt, ...]:

@@ -20,6 +20,7 @@ from station.fitting import (
     Solution,
     check_outlier_share,
     estimate_noise,
+    few_enough,
     find_outliers,
     lack_of_fit,
     position_error_field,
@@ -214,7 +215,10 @@ def _identify(everything: M, memory: Memory | None) -> Identification[M]:
         lambda sd: (plain if sd is specified else _fit(everything, prior, sd)).solution,
         specified,
     )
-    check_outlier_share(left_out, len(everything.measurements))
+    if everything.needs_repeats:
+        check_outlier_share(left_out, len(everything.measurements))
+    elif not few_enough(left_out, len(everything.measurements)):
+        left_out = ()  # its uncertainty grows by what the model leaves
     mechanism, first = everything, plain
     if left_out:
         mechanism = _without(everything, left_out)

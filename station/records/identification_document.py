@@ -65,6 +65,18 @@ class Convergence(Record):
     """Reduction of the cost that one more step promised."""
 
 
+class JumpNote(Record):
+    """What jumped between two readings: the readout, or a joint's zero."""
+
+    reading: int | str
+    """The first one after it."""
+    thing: Literal["readout", "joint 1", "joint 2"] | None
+    """null: the readings do not say which."""
+    size_mm: float | None = None
+    size_deg: float | None = None
+    text: str
+
+
 class IdentificationDocument(Record):
     """Everything that one fit of the measurement model says."""
 
@@ -89,6 +101,8 @@ class IdentificationDocument(Record):
     after: PredictedAccuracy
     position_error_map: tuple[PositionErrorAt, ...]
     outliers: tuple[OutlierNote, ...]
+    jump: JumpNote | None = None
+    """Then the zero offsets are not those of the machine as it is now, and `adequate` is false."""
     references: tuple[ReferenceUse, ...] = ()
     """What other instruments measured, and how well it agrees with the rest."""
     memory: GateOfMemory | None

@@ -21,14 +21,25 @@ def open_station(page: Page, station: Station) -> None:
 
 SCANNER_MS = 5
 """From one key of a scanner to the next."""
+CODES = {"Enter": 13, "Tab": 9}
 HOLD_MS = 1200
 """Longer than what confirms has to be held."""
 
 
 def scan(page: Page, code: str, *, end: str = "Enter", delay: float = SCANNER_MS) -> None:
-    """As a barcode scanner does: key after key, then Enter, into whatever has the focus."""
-    page.keyboard.type(code, delay=delay)
-    page.keyboard.press(end)
+    """As a barcode scanner does: key after key, then Enter, into whatever has the focus.
+
+    Each event carries the time at which the scanner sends it, however loaded this computer is.
+    """
+    keys = page.context.new_cdp_session(page)
+    at_s = time.time()
+    for key in (*code, end):
+        text = "\r" if key == "Enter" else key if len(key) == 1 else ""
+        down = {"key": key, "windowsVirtualKeyCode": CODES.get(key, 0), "text": text}
+        keys.send("Input.dispatchKeyEvent", {"type": "keyDown", "timestamp": at_s, **down})
+        keys.send("Input.dispatchKeyEvent", {"type": "keyUp", "timestamp": at_s + 0.001, "key": key})
+        at_s += delay / 1e3
+    keys.detach()
 
 
 def confirm(page: Page, within: Locator | None = None) -> None:

@@ -15,6 +15,8 @@ from tests.browser.conftest import LARGE, ROOT, SMALL, Serve, Station
 from tests.browser.steps import add_run, confirm, violations
 from tests.station.simulated import Drawn, to_csv
 
+pytestmark = pytest.mark.long
+
 RIGS = ROOT / "drivers/emulated/rigs"
 FAST = 1000.0
 SEQUENCE_LIMIT_MS = 80_000

@@ -16,6 +16,8 @@ import pytest
 
 from tests.docs.pages import ROOT, Block, blocks, with_code
 
+pytestmark = pytest.mark.long
+
 TREES = ("station", "drivers", "web", "tests")
 COMMANDS = {
     "station": "import runpy, sys; sys.argv[0] = 'station'; runpy.run_module('station', run_name='__main__')",

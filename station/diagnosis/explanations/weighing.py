@@ -155,9 +155,8 @@ def _weighed(
             c, one = _wandering(at, families, index, noise, reference)
             candidates[c.key], settled[c.key] = c, one
             posterior[c.key] = c.log_posterior
-    total = float(logsumexp(list(posterior.values())))
-    shares = {key: float(np.exp(posterior[key] - total)) for key in settled}
-    known = sum(shares.values())
+    # of those that were settled: the others stand on the tangent, which may promise far too much
+    total = float(logsumexp([posterior[key] for key in settled]))
     order = sorted(settled, key=lambda key: -posterior[key])
     return Weighing(
         mechanism,
@@ -168,7 +167,7 @@ def _weighed(
         bank,
         candidates,
         posterior,
-        tuple(Weighed(settled[key], posterior[key], shares[key] / known) for key in order),
+        tuple(Weighed(settled[key], posterior[key], float(np.exp(posterior[key] - total))) for key in order),
         settled,
     )
 

@@ -20,7 +20,7 @@ from station.fitting import (
     NotConvergedError,
     Outlier,
     Solution,
-    check_outlier_share,
+    few_enough,
     find_outliers,
     solve,
     tolerance_prior,
@@ -122,8 +122,7 @@ def _been(part: ModelDocument, readings: Measurements, joint: int) -> NDArray[np
 def _off(mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelDocument) -> tuple[Outlier, ...]:
     frozen = _Frozen(mechanism, terms, part)
     found = find_outliers(mechanism, frozen.solved, mechanism.row_sd)
-    check_outlier_share(found, len(mechanism.measurements))
-    return found
+    return found if few_enough(found, len(mechanism.measurements)) else ()
 
 
 def _both(

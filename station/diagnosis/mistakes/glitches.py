@@ -13,6 +13,8 @@ LARGEST_SHARE = 0.12
 FAR_SDS = 8.0
 CURED = 5.0
 """Times that leaving them out has to reduce the scatter of the rest."""
+RUN, ALIKE = 3, 2.0
+"""So many in a row, off to one side and alike within this factor, are something that happened."""
 
 
 def glitches(robot: Robot, m: Measurements, base: Fitted | None, agreed: Rough, file: str) -> Mistake | None:
@@ -40,7 +42,7 @@ def glitches(robot: Robot, m: Measurements, base: Fitted | None, agreed: Rough, 
         return None
     if found.noise > 2.0:
         return None  # a machine with something else wrong: its diagnosis decides
-    if _one_place(m, far):
+    if _one_place(m, far) or _happened(m, far, found.residual_mm):
         return None
     rows = ids(m, np.flatnonzero(far))
     largest = float(np.abs(found.residual_mm[far]).max())
@@ -65,3 +67,16 @@ def _one_place(m: Measurements, far: np.ndarray) -> bool:
         companions += len(near)
         bad += int(far[near].sum())
     return companions > 0 and bad > 0.5 * companions
+
+
+def _happened(m: Measurements, far: np.ndarray, residual_mm: np.ndarray) -> bool:
+    """Whether most of them stand in runs of like deviations: a slip or a step, before it or after."""
+    order = np.argsort(m.t_s, kind="stable")
+    off = np.where(far, residual_mm, 0.0)[order]
+    in_runs = np.zeros(len(off), dtype=bool)
+    for k in range(len(off) - RUN + 1):
+        some = off[k : k + RUN]
+        size = np.abs(some)
+        if abs(np.sign(some).sum()) == RUN and size.max() <= ALIKE * size.min():
+            in_runs[k : k + RUN] = True
+    return bool(2 * in_runs.sum() > far.sum())

@@ -152,6 +152,8 @@ def zeroings(robot: Robot, m: Measurements, agreed: Rough) -> Zeroings | None:
     start[len(start) - len(m.mounts) :] -= level[0]
     level -= level[0]
     others = [float(v) for v in dict.fromkeys(level) if abs(v) > AGREES_MM]
+    if not others:
+        return None
     return Zeroings(
         tuple(np.flatnonzero(level == v) for v in others), tuple(others), start, mean_cost(residual)
     )

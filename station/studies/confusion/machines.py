@@ -67,7 +67,7 @@ def draw(robot: Robot, kinds: tuple[str, ...], seed: int) -> Drawn:
     for kind in kinds:
         make = errors(kind, rng)
         size = float(np.exp(rng.uniform(np.log(SMALLEST_UM), np.log(LARGEST_UM))))
-        amplitude = _scaled(partial(left, make), size)
+        amplitude = scaled(partial(left, make), size)
         made = make(amplitude)
         tables += made
         truth_of |= causes(kind, made)
@@ -77,15 +77,15 @@ def draw(robot: Robot, kinds: tuple[str, ...], seed: int) -> Drawn:
     return Drawn(sequence, fresh, kinds, frozenset(truth_of), tuple(sizes), machine)
 
 
-def _scaled(left_um: Callable[[float], float], size_um: float) -> float:
-    """The amplitude of which so much is left."""
+def scaled(left_um: Callable[[float], float], size_um: float) -> float:
+    """The amplitude of which so much is left, as near as `LARGEST_TIMES` allows."""
     amplitude = 1.0
     for _ in range(3):
         left = left_um(amplitude)
-        amplitude *= size_um / max(left, 1e-6)
+        amplitude = min(amplitude * size_um / max(left, 1e-6), LARGEST_TIMES)
         if abs(left / size_um - 1.0) < 0.05:
             break
-    return min(amplitude, LARGEST_TIMES)
+    return amplitude
 
 
 def _left_um(robot: Robot, measured: Measurements) -> float:

@@ -13,6 +13,7 @@ from station.diagnosis.report.traced_findings import TracedFindings
 from station.diagnosis.tests_of_fit.cross_validation import without_a_quarter
 from station.diagnosis.traced_loop import traced
 from station.errors import InputRefused
+from station.identification import identify
 from station.records import Real
 from tests.station.serial_arm.simulated import CRAIG_SEVEN, UR_LIKE, random_arm, random_poses
 
@@ -113,3 +114,12 @@ def test_a_log_at_one_position_cannot_be_divided() -> None:
     m = random_arm(UR_LIKE, 12).log(np.repeat(random_poses(6, 1, 12), 40, axis=0), 12)
     with pytest.raises(InputRefused, match="40 readings at 1 positions cannot be divided"):
         without_a_quarter(m)
+
+
+def test_readings_that_an_effect_moves_are_no_reason_to_refuse_a_log() -> None:
+    arm = random_arm(UR_LIKE, 7, j1=lambda theta: np.radians(0.0157) * np.sin(theta + 1.0))
+    arm.noise_mm = 0.005
+    fit = identify(arm.robot, arm.log(random_poses(6, 300, 7), 7))
+    assert fit.outliers == ()
+    assert not fit.adequate
+    assert fit.sd_factor > 2.0

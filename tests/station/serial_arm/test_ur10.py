@@ -25,7 +25,7 @@ LOGS = DATA / "ur10"
 ROBOT = Path(__file__).parents[3] / "docs/examples/ur10.toml"
 
 # thousands of readings of six joints: half a minute on a quiet machine, several on a busy one
-pytestmark = [needs_data, pytest.mark.timeout(400)]
+pytestmark = [needs_data, pytest.mark.long, pytest.mark.timeout(400)]
 
 
 def robot() -> AnyRobot:

@@ -13,6 +13,8 @@ from station.five_bar import Robot
 from station.records import CalibrationRequest, PlanName, State
 from station.simulation.plant import Plant
 
+pytestmark = pytest.mark.long
+
 ROBOT = Robot.default()
 SPEC = MachineSpec(seed=3, zero_offsets_deg=(0.7, -0.4), drm_mm=(1.1, 0.4))
 

@@ -13,7 +13,7 @@ from station.diagnosis.weighed_loop import weighed
 from station.five_bar.robot_file import Robot
 from station.studies.confusion.claims import judge
 from station.studies.confusion.errors import before_and_after
-from station.studies.confusion.machines import draw
+from station.studies.confusion.machines import LARGEST_TIMES, draw, scaled
 
 ROBOT = Robot.default()
 
@@ -46,3 +46,14 @@ def test_machines_of_several_kinds_make_a_page(tmp_path: Path) -> None:
     assert page.count("| backlash+drift |") == 2
     assert "1 machines of each kind, seed 1" in page
     assert "| clean: nothing blamed | 1 of 1, 100.0 % |" in page
+
+
+def test_no_machine_is_drawn_with_more_than_four_times_the_usual_size() -> None:
+    tried: list[float] = []
+
+    def left_um(amplitude: float) -> float:
+        tried.append(amplitude)
+        return 0.1 * amplitude
+
+    assert scaled(left_um, 30.0) == LARGEST_TIMES
+    assert max(tried) <= LARGEST_TIMES

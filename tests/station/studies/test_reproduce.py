@@ -22,7 +22,7 @@ BEFORE_MM = {
 
 
 # the whole study runs once for all of them
-pytestmark = pytest.mark.timeout(400)
+pytestmark = [pytest.mark.long, pytest.mark.timeout(400)]
 
 
 @pytest.fixture(scope="module")

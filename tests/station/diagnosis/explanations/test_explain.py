@@ -142,3 +142,13 @@ def test_commands_bring_the_platform_where_the_set_says() -> None:
     assert np.allclose(theta, nominal)
     error = found.mixture.position_error(theta, place)
     assert error.rms < 0.6 < error.bound_95
+
+
+def test_two_large_slips_of_which_the_tangent_promises_too_much() -> None:
+    found = explained(
+        4,
+        effect(kind="count_slip", joint=1, step_deg=-0.1364, from_stop=114),
+        effect(kind="count_slip", joint=2, step_deg=0.1613, from_stop=126),
+    )
+    assert {(f.part.effect, f.part.joint) for f in found.findings} == {("count_slip", 1), ("count_slip", 2)}
+    assert sum(w.probability for w in found.weighing.settled) == pytest.approx(1.0)

@@ -8,7 +8,9 @@ import numpy as np
 import pytest
 
 from station.diagnosis.mistakes import find_mistake
-from station.five_bar.robot_file import Robot
+from station.diagnosis.mistakes.fitting import Rough
+from station.diagnosis.mistakes.gross import zeroings
+from station.five_bar import FiveBar, Robot
 from station.studies.confusion.machines import draw
 from station.studies.confusion.mistakes import MORE, VARIANTS
 from station.studies.confusion.spoiling import Measured, Variant, measured, spoiled
@@ -92,3 +94,19 @@ def test_what_is_explained_is_not_searched_for_small_entries() -> None:
 def test_few_readings_are_not_judged() -> None:
     files = machine(False).files
     assert find_mistake(files.robot, files.sequence.take(np.arange(6))) is None
+
+
+@pytest.mark.parametrize("seed", [9000027140, 9000027191])
+def test_readings_before_a_slip_are_no_glitches(seed: int) -> None:
+    slipped = draw(Robot.default(), ("count_slip",), seed)
+    assert find_mistake(Robot.default(), slipped.sequence, slipped.fresh, explained=True) is None
+
+
+def test_readings_that_are_all_off_alike_were_not_zeroed_in_between() -> None:
+    robot, sequence = Robot.default(), machine(False).files.sequence
+    start = FiveBar(robot, sequence).start
+    off = Rough(start, np.full(len(sequence), 0.7))
+    assert zeroings(robot, sequence, off) is None
+    off.residual_mm[40:] = 1.5
+    found = zeroings(robot, sequence, off)
+    assert found is not None and found.steps_mm == pytest.approx((0.8,))

@@ -21,6 +21,8 @@ from station.studies.confusion.kinds import OUTSIDE
 from station.studies.confusion.machines import draw
 from tests.station.simulated import ROBOT, Drawn
 
+pytestmark = pytest.mark.long
+
 TIMES = 200
 
 

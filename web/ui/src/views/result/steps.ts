@@ -98,6 +98,8 @@ function afterCalibration(result: Calibration): Step {
     case "readout_too_coarse":
       return start("too_coarse", THOROUGH);
     case "readout_jumped":
+    case "joint_slipped":
+    case "something_jumped":
     case "reference_contradicted":
     case "mu_too_large":
     case "offset_impossible":
