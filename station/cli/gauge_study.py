@@ -13,6 +13,7 @@ from station.cli.kept import config_option, kept
 from station.errors import InputRefused
 from station.quality import GaugeStudy, gauge_study
 from station.records import read_table
+from station.report import as_pdf
 from station.run_kinds import StationGauge, gauge_page, judgement, station_gauge
 from station.settings import load_settings
 
@@ -51,7 +52,7 @@ def gauge_study_command(
         if html_file:
             write_text(html_file, page.to_html())
         if pdf_file:
-            write_bytes(pdf_file, page.to_pdf())
+            write_bytes(pdf_file, as_pdf(page))
         _show_station(found)
         if json_file:
             write_json(json_file, found)

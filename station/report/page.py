@@ -47,10 +47,3 @@ class Page:
 
     def to_html(self) -> str:
         return environment().get_template("page.html.j2").render(page=self)
-
-    def to_pdf(self) -> bytes:
-        """Without the charts."""
-        # here, because the library takes a second to load and few ask for it
-        from station.report.pdf import pdf_of
-
-        return pdf_of(self)

@@ -16,12 +16,12 @@ from station.run_kinds.arm_log import ArmLog, import_log, import_measured
 from station.run_kinds.check import check_run
 from station.run_kinds.diagnose import diagnosed
 from station.run_kinds.error_maps import error_map
-from station.run_kinds.gauge_page import gauge_page, judgement
+from station.run_kinds.gauge_evaluation import JointStudied, StationGauge, station_gauge
+from station.run_kinds.gauge_report import gauge_page, judgement
 from station.run_kinds.import_file import Upload, import_dataset
 from station.run_kinds.kind import RUN_KINDS, Continued, RunKind, Start, kind_of_plan, request_of
 from station.run_kinds.lock import calibration_holds, check_not_locked, clear_failed_check
 from station.run_kinds.separate import planned
-from station.run_kinds.station_gauge import JointStudied, StationGauge, station_gauge
 from station.run_kinds.translate import change_of, translated
 from station.run_kinds.zero_state import application
 

@@ -8,6 +8,7 @@ from fastapi import Depends, Query, Response
 
 from station.people import Permission
 from station.records import LARGEST_ID, Actor, CalibrationSummary
+from station.report import as_pdf
 from station.run_kinds import StationGauge, gauge_page, station_gauge
 from web.bodies import ApplyBody
 from web.guarded import Router, needs
@@ -79,7 +80,7 @@ def gauge_study_page(study: TheStudy) -> Response:
 )
 def gauge_study_pdf(study: TheStudy) -> Response:
     """The report without its charts."""
-    page = gauge_page(study).to_pdf()
+    page = as_pdf(gauge_page(study))
     headers = {"Content-Disposition": f'inline; filename="gauge-study-{study.runs[0]}.pdf"'}
     return Response(page, media_type="application/pdf", headers=headers)
 

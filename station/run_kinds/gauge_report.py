@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from station.report import Chart, Page, Section, Series, Table, bar, scatter
-from station.run_kinds.station_gauge import JointStudied, StationGauge
+from station.run_kinds.gauge_evaluation import JointStudied, StationGauge
 
 GOOD, BAD = 10.0, 30.0
 """Percent of the total variation below which a gauge is good, and above which it is not fit (AIAG)."""
