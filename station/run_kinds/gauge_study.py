@@ -1,7 +1,7 @@
 """Gauge study: operators in turn mount the mechanism once more, and the station calibrates each time.
 
-What it says of the station is found from its readings (`gauge_evaluation`); it says nothing of the robot, so it
-has no verdict.  A study that was interrupted goes on after the last mounting that it finished.
+What it says of the station is found from its readings (`gauge_evaluation`); it says nothing of the robot, so
+it has no verdict.  A study that was interrupted goes on after the last mounting that it finished.
 """
 
 from __future__ import annotations
