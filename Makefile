@@ -8,7 +8,7 @@ PIP := $(BIN)/python -m pip --disable-pip-version-check
 NPM := $(BIN)/python deploy/node.py
 TESTS := $(BIN)/pytest --numprocesses 3 --dist loadfile --no-loadscope-reorder
 
-.PHONY: run test coverage record pictures lint format bench security mutate reference lock bundle clean
+.PHONY: run test coverage record pictures lint format bench security mutate reference lock bundle check-bundle clean
 
 run: $(VENV)/installed  ## install and start the service on the emulated rig; prints the address
 	$(BIN)/station serve
@@ -69,6 +69,9 @@ lock: $(VENV)/installed-for-tests  ## newest versions that fit, with hashes
 
 bundle: $(VENV)/installed-for-tests  ## dist/bundle, which installs on a computer without internet
 	deploy/bundle $(BIN) dist/bundle
+
+check-bundle: bundle  ## installs it in a clean Debian tree without a network; as root, needs debootstrap (minutes)
+	deploy/check-bundle dist/bundle
 
 clean:
 	rm -rf $(VENV) dist web/static web/ui/node_modules

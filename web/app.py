@@ -30,6 +30,7 @@ from web.routes import (
     emulator,
     error_maps,
     events,
+    gauge_studies,
     health,
     keys,
     live,
@@ -64,8 +65,8 @@ JSON_BYTES = 1_000_000
 NOTE_USE_S = 60.0
 ROUTES = (
     station, audit, backups, calibrations, certificates, datasets, devices, diagnoses, emulator, error_maps,
-    events, keys, plans, quality, readings, retract, robots, run_table, scans, sessions, stop, training,
-    users, versions, wire,
+    events, gauge_studies, keys, plans, quality, readings, retract, robots, run_table, scans, sessions, stop,
+    training, users, versions, wire,
 )  # fmt: skip
 LIVE_ROUTES = (live,)
 PROVIDER_ROUTES = (openid,)

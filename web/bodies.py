@@ -11,7 +11,9 @@ from pydantic import (
     Field,
     JsonValue,
     StringConstraints,
+    ValidationInfo,
     WithJsonSchema,
+    field_validator,
 )
 
 from drivers.strict_numbers import StrictNumbers
@@ -27,6 +29,7 @@ from station.records import (
     Reading,
     Record,
     Sections,
+    StudyDesign,
     TaughtPosition,
     TranslatedPosition,
     checked_name,
@@ -96,6 +99,18 @@ class CalibrationBody(Body):
     until_mm: Positive | None = Field(
         default=None, description="the same, and plan `adaptive` ends as soon as it is reached"
     )
+    study: StudyDesign | None = Field(
+        default=None, description="how often plan `gauge_study` calibrates; for that plan alone"
+    )
+
+    @field_validator("study")
+    @classmethod
+    def _study_belongs_to_its_plan(
+        cls, study: StudyDesign | None, info: ValidationInfo
+    ) -> StudyDesign | None:
+        if study is not None and info.data.get("plan") != "gauge_study":
+            raise ValueError("belongs to plan gauge_study; leave it out or choose that plan")
+        return study
 
 
 class DatasetFields(Body):

@@ -30,8 +30,8 @@ class Order(StrictNumbers):
 
     faults: tuple[FaultOrder, ...] | None = None
     effects: tuple[AnyEffect, ...] | None = None
-    mount: tuple[float, float] | None = None
-    """Where the mechanism is mounted from now on, mm."""
+    mount: tuple[float, float, int] | None = None
+    """Where the mechanism is mounted from now on, mm, and the number of this mounting there."""
 
 
 def main() -> int:
@@ -74,7 +74,8 @@ def _ordered(rig: EmulatedRig, line: str) -> str:
     if order.effects is not None:
         rig.machine.replace_effects(order.effects)
     if order.mount is not None:
-        rig.machine.remount(order.mount)
+        x, y, mounting = order.mount
+        rig.machine.remount((x, y), mounting)
     return order.model_dump_json()
 
 

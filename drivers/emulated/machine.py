@@ -242,12 +242,13 @@ class Machine:
                 axis.zero_pulses = zero
             self._start_memories()
 
-    def remount(self, c_mm: Point) -> None:
-        """Mount the mechanism elsewhere; every place has a mounting error of its own, always the same one."""
+    def remount(self, c_mm: Point, mounting: int = 0) -> None:
+        """Mount the mechanism there; every place, and every mounting from 1 on, has its own error, always the
+        same one."""
         with self._lock:
-            own = Random(f"{self._seed} mount {c_mm}")
+            own = Random(f"{self._seed} mount {c_mm}" + (f" {mounting}" if mounting else ""))
             error = self._mounted.drm_mm
-            if c_mm != self._mounted.c_mm:
+            if mounting or c_mm != self._mounted.c_mm:
                 error = (own.gauss(error[0], _REMOUNT_SD_MM), own.gauss(error[1], _REMOUNT_SD_MM))
             self._spec = self._mounted.model_copy(update={"c_mm": c_mm, "drm_mm": error})
 

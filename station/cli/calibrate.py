@@ -12,9 +12,34 @@ from station.cli.one_run import one_run
 from station.cli.references import LENGTH, references_option
 from station.five_bar import Robot
 from station.plans import PLANS
-from station.records import AnyReference, CalibrationRequest, PlanName, checked_name, checked_serial
+from station.records import (
+    LARGEST_ID,
+    AnyReference,
+    CalibrationRequest,
+    PlanName,
+    StudyDesign,
+    checked_name,
+    checked_serial,
+)
 from station.run_kinds import kind_of_plan
 from station.service import Runtime, Submitted
+
+
+class Study(click.ParamType[StudyDesign]):
+    """3x2x2."""
+
+    name = "OxMxC"
+
+    def convert(
+        self, value: str | StudyDesign, param: click.Parameter | None, ctx: click.Context | None
+    ) -> StudyDesign:
+        if isinstance(value, StudyDesign):
+            return value
+        try:
+            operators, mountings, repeats = (int(part) for part in value.split("x"))
+            return StudyDesign(operators=operators, mountings=mountings, repeats=repeats)
+        except ValueError:
+            self.fail(f"{value} is not three numbers from 2 to 10, as 3x2x2.", param, ctx)
 
 
 @click.command("calibrate")
@@ -30,6 +55,17 @@ from station.service import Runtime, Submitted
     type=LENGTH,
     help="Largest position error that is wanted, 0.2mm; plan adaptive ends when it is reached.",
 )
+@click.option(
+    "--study",
+    type=Study(),
+    help="Of plan gauge_study: operators x mountings of each x calibrations of each. [default: 3x2x2]",
+)
+@click.option(
+    "--resume",
+    type=click.IntRange(1, LARGEST_ID),
+    metavar="RUN",
+    help="Go on with this gauge study, which was interrupted.",
+)
 @machine_options
 @click.pass_obj
 def calibrate_command(
@@ -41,6 +77,8 @@ def calibrate_command(
     work_order: str | None,
     references: tuple[AnyReference, ...],
     until_mm: float | None,
+    study: StudyDesign | None,
+    resume: int | None,
     config: Path | None,
     emulate: Path | None,
     speed: float | None,
@@ -53,6 +91,8 @@ def calibrate_command(
             f"--serial {serial} is not the robot of {robot_file}, which is {robot.serial}."
         )
 
+    if study is not None and (plan != "gauge_study" or resume is not None):
+        raise click.UsageError("--study belongs to a new run of --plan gauge_study.")
     named, who = checked_serial(serial or robot.serial), checked_name(operator or getpass.getuser())
     if work_order is not None:
         checked_name(work_order)
@@ -60,6 +100,8 @@ def calibrate_command(
     def submit(runtime: Runtime) -> Submitted:
         if robot_file:
             runtime.store.save_robot(robot)
+        if resume is not None:
+            return runtime.orchestrator.follow("gauge_study", resume, who)
         return runtime.orchestrator.submit(
             CalibrationRequest(
                 named,
@@ -69,6 +111,7 @@ def calibrate_command(
                 work_order,
                 references=references,
                 until_mm=until_mm,
+                study=study,
             )
         )
 

@@ -65,7 +65,12 @@ def write_json(path: Path, content: Record | Mapping[str, object]) -> None:
 
 def write_text(path: Path, text: str) -> None:
     """:raises click.UsageError: the file cannot be written."""
+    write_bytes(path, text.encode("utf-8"))
+
+
+def write_bytes(path: Path, content: bytes) -> None:
+    """:raises click.UsageError: the file cannot be written."""
     try:
-        path.write_text(text, encoding="utf-8")
+        path.write_bytes(content)
     except OSError as error:
         raise click.UsageError(f"{path} cannot be written: {error.strerror}.") from error

@@ -1,4 +1,4 @@
-"""`station gauge-study`: repeatability and reproducibility from a table of repeated measurements."""
+"""`station gauge-study`: how much of the scatter is the gauge, from a file or from runs of the station."""
 
 from __future__ import annotations
 
@@ -8,9 +8,14 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station.cli.files import check_folders, content_of, existing, write_json
+from station.cli.files import check_folders, content_of, existing, write_bytes, write_json, write_text
+from station.cli.kept import config_option, kept
+from station.errors import InputRefused
 from station.quality import GaugeStudy, gauge_study
 from station.records import read_table
+from station.report import as_pdf
+from station.run_kinds import StationGauge, gauge_page, judgement, station_gauge
+from station.settings import load_settings
 
 COLUMNS = ("part", "operator", "trial", "value")
 NAMES = {
@@ -22,11 +27,47 @@ NAMES = {
 
 
 @click.command("gauge-study")
-@click.argument("data", type=existing)
+@click.argument("data", nargs=-1, required=True, metavar="DATA.csv | RUN...")
 @click.option("--json", "json_file", type=existing, help="Write every figure here.")
-def gauge_study_command(data: Path, json_file: Path | None) -> None:
-    """Crossed gauge study of a CSV file with the columns part, operator, trial and value."""
-    check_folders(json_file)
+@click.option("--html", "html_file", type=existing, help="Write the report of runs here.")
+@click.option("--pdf", "pdf_file", type=existing, help="Write the report of runs here, without its charts.")
+@config_option
+@click.pass_obj
+def gauge_study_command(
+    home: Path,
+    data: tuple[str, ...],
+    json_file: Path | None,
+    html_file: Path | None,
+    pdf_file: Path | None,
+    config: Path | None,
+) -> None:
+    """Crossed gauge study of a CSV file with the columns part, operator, trial and value, or of the finished
+    runs of plan gauge_study, one of each robot."""
+    check_folders(json_file, html_file, pdf_file)
+    if all(text.isdecimal() for text in data):
+        limit_deg = load_settings(config).quality.zero_offset_deg
+        with kept(home, config) as store:
+            found = station_gauge(store, [int(text) for text in data], limit_deg)
+        page = gauge_page(found)
+        if html_file:
+            write_text(html_file, page.to_html())
+        if pdf_file:
+            write_bytes(pdf_file, as_pdf(page))
+        _show_station(found)
+        if json_file:
+            write_json(json_file, found)
+        return
+    if len(data) > 1:
+        raise InputRefused("Give one file, or the numbers of runs.")
+    if html_file or pdf_file:
+        raise click.UsageError("--html and --pdf write the report of runs; a file has none.")
+    study = _of_file(Path(data[0]))
+    if json_file:
+        write_json(json_file, study)
+    _show(study)
+
+
+def _of_file(data: Path) -> GaugeStudy:
     table = read_table(content_of(data), COLUMNS, (), data.name)
     seen: dict[tuple[str, str, str], int] = {}
     part, operator, trial = (table.text(name) for name in COLUMNS[:3])
@@ -37,10 +78,22 @@ def gauge_study_command(data: Path, json_file: Path | None) -> None:
         if cell in seen:
             raise table.refuse(k, "trial", f"this trial was given in row {table.lines[seen[cell]]} already.")
         seen[cell] = k
-    study = gauge_study(part, operator, table.numbers("value"))
-    if json_file:
-        write_json(json_file, study)
-    _show(study)
+    return gauge_study(part, operator, table.numbers("value"))
+
+
+def _show_station(study: StationGauge) -> None:
+    console = Console(highlight=False)
+    table = Table("joint", "repeat", "mounting", "operators", "gauge", "95 % interval")
+    for joint in study.joints:
+        of = joint.intervals["grr"]
+        table.add_row(
+            str(joint.joint),
+            *(f"{sd:.5f}°" for sd in (joint.repeat, joint.mounting, joint.av, joint.grr)),
+            f"{of.low:.5f}° to {of.high:.5f}°",
+        )
+    console.print(table)
+    for joint in study.joints:
+        console.print(judgement(joint), soft_wrap=True)
 
 
 def _show(study: GaugeStudy) -> None:

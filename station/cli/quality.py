@@ -23,6 +23,7 @@ NAMES = {
 
 @click.command("quality")
 @click.option("--robot", "serial", help="Of this robot only.")
+@click.option("--type", "robot_type", help="Of robots of this type only: `type` of the robot file.")
 @click.option(
     "--since", type=click.DateTime(["%Y-%m-%d", "%Y-%m-%dT%H:%M:%S"]), help="Ended then or later, UTC."
 )
@@ -32,6 +33,7 @@ NAMES = {
 def quality_command(
     home: Path,
     serial: str | None,
+    robot_type: str | None,
     since: datetime | None,
     json_file: Path | None,
     config: Path | None,
@@ -40,7 +42,7 @@ def quality_command(
     check_folders(json_file)
     limits = load_settings(config).quality
     with kept(home, config) as store:
-        points = store.trend(limit=limits.runs, robot_serial=serial, since=since)
+        points = store.trend(limit=limits.runs, robot_serial=serial, robot_type=robot_type, since=since)
     found = quality(
         points, zero_offset_deg=limits.zero_offset_deg, position_error_mm=limits.position_error_mm
     )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -34,6 +35,8 @@ def position_error_field(mean: Real, jacobian: Real, covariance: Real) -> Real:
 
 DRAWS = 2000
 """The bound then has a standard error of 0.4 %."""
+BLOCK = 8
+"""Places at once."""
 
 
 @dataclass(frozen=True)
@@ -58,24 +61,43 @@ def largest_error_bound(mean: Real, jacobian: Real, covariance: Real) -> float:
     mean (G, 2) error at the posterior mean, jacobian (G, 2, P), covariance (P, P); what has no finite
     variance must not move anything.
     """
-    return float(expected_largest_error_bound(mean[None], jacobian, covariance))
+    return largest_error_bounds((mean,), jacobian, covariance)[0]
+
+
+def largest_error_bounds(means: Sequence[Real], jacobian: Real, covariance: Real) -> list[float]:
+    """The same for several errors at the posterior mean, each (G, 2)."""
+    largest = np.zeros((len(means), DRAWS))
+    for places, apart in _drawn(jacobian, covariance):
+        for so_far, mean in zip(largest, means, strict=True):
+            for square in _squares(mean[places], apart):
+                np.maximum(so_far, square, out=so_far)
+    return [float(np.sqrt(np.quantile(squares, 0.95))) for squares in largest]
 
 
 def expected_largest_error_bound(means: Real, jacobian: Real, covariance: Real) -> float:
     """The mean of that bound over several error fields (M, G, 2) that the posterior mean may have, mm."""
-    spread = _drawn(jacobian, covariance)
-    return float(np.mean([np.sqrt(np.quantile(_squared(m, spread).max(axis=0), 0.95)) for m in means]))
+    return float(np.mean(largest_error_bounds(tuple(means), jacobian, covariance)))
 
 
 def error_bounds(mean: Real, jacobian: Real, covariance: Real) -> Real:
     """(G,) the same for each place alone."""
-    return np.asarray(np.sqrt(np.quantile(_squared(mean, _drawn(jacobian, covariance)), 0.95, axis=1)))
+    squares = (_squares(mean[places], apart) for places, apart in _drawn(jacobian, covariance))
+    return np.asarray(np.sqrt(np.concatenate([np.quantile(of, 0.95, axis=1) for of in squares])))
 
 
-def _drawn(jacobian: Real, covariance: Real) -> Real:
-    """(G, 2, DRAWS) errors of machines drawn from a posterior about its mean, always the same ones.
+def _squares(mean: Real, apart: Real) -> Real:
+    """(B, DRAWS) squares of errors that differ from the mean (B, 2) by so much (B, 2, DRAWS)."""
+    error = apart + mean[:, :, None]
+    error *= error
+    return np.asarray(np.add(error[:, 0], error[:, 1], out=error[:, 0]))
 
-    The largest of many correlated lengths has no closed form.
+
+def _drawn(jacobian: Real, covariance: Real) -> Iterator[tuple[slice, Real]]:
+    """By how much machines drawn from a posterior differ from its mean at some places (B, 2, DRAWS), block by
+    block; always the same machines.
+
+    The largest of many correlated lengths has no closed form.  In blocks, because what is computed for one
+    stays in the processor's cache; the array is used again for the next.
     """
     finite = np.isfinite(np.diag(covariance))
     sd = np.sqrt(np.diag(covariance)[finite])
@@ -83,20 +105,23 @@ def _drawn(jacobian: Real, covariance: Real) -> Real:
     root = sd[:, None] * vectors * np.sqrt(np.maximum(values, 0.0))
     errors = (jacobian[:, :, finite] @ root).reshape(-1, len(sd))
     # the largest error is nearly a function of one direction: along the principal ones strata pay most
-    errors = errors @ np.linalg.eigh(errors.T @ errors)[1]
-    return np.asarray((errors @ _normal(len(sd))).reshape(*jacobian.shape[:2], DRAWS))
+    by_draw = (errors @ np.linalg.eigh(errors.T @ errors)[1]).reshape(*jacobian.shape[:2], len(sd))
+    standard = _standard_normal(len(sd))
+    apart = np.empty((BLOCK, 2, DRAWS))
+    for first in range(0, len(by_draw), BLOCK):
+        of_block = by_draw[first : first + BLOCK]
+        out = apart[: len(of_block)]
+        np.matmul(of_block.reshape(-1, len(sd)), standard, out=out.reshape(-1, DRAWS))
+        yield slice(first, first + BLOCK), out
 
 
 @lru_cache(maxsize=8)
-def _normal(count: int) -> Real:
-    """(count, DRAWS) standard normal, in each row one from each of DRAWS strata (Latin hypercube)."""
-    strata = np.tile(np.arange(DRAWS), (count, 1))
-    return np.asarray(ndtri((np.random.default_rng(0).permuted(strata, axis=1) + 0.5) / DRAWS))
-
-
-def _squared(mean: Real, spread: Real) -> Real:
-    """(G, DRAWS) of errors mean (G, 2) + spread (G, 2, DRAWS)."""
-    return np.asarray(((spread + mean[:, :, None]) ** 2).sum(axis=1))
+def _standard_normal(size: int) -> Real:
+    """(size, DRAWS), in each row one from each of DRAWS strata (Latin hypercube)."""
+    strata = np.tile(np.arange(DRAWS), (size, 1))
+    drawn = np.asarray(ndtri((np.random.default_rng(0).permuted(strata, axis=1) + 0.5) / DRAWS))
+    drawn.setflags(write=False)
+    return drawn
 
 
 def common_sd_deg(covariance: Real) -> float:

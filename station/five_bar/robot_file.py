@@ -82,7 +82,7 @@ class Robot:
     references: tuple[AnyReference, ...] = ()
     """What was measured of the mechanism and, in one run, of the joints, by other instruments."""
     type: str | None = None
-    """Robots of one type learn from each other; None where this one shall not."""
+    """Type designation: robots of one type learn from each other, and are judged together; None: alone."""
     accuracy_mm: float | None = None
     """Largest position error that is wanted of a calibration; None where nobody said."""
     tolerances: Tolerances = field(default_factory=Tolerances)
@@ -256,7 +256,8 @@ class _RobotSection(Section):
     model: Literal["five-bar"] = "five-bar"
     """Kind of machine."""
     type: Annotated[str, Field(min_length=1, max_length=64)] | None = None
-    """Robots of one type learn from each other: the spread of their geometry is the prior of the next."""
+    """Type designation: the spread of geometry over robots of one type is the prior of the next; quality and
+    trend are shown by type."""
     accuracy_mm: Positive | None = None
     """Largest position error over the workspace that is wanted of a calibration, mm."""
     e: tuple[tuple[Finite, Finite], tuple[Finite, Finite]] = Robot.e

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from station.fitting import expected_largest_error_bound, largest_error_bound
+from station.fitting import expected_largest_error_bound, largest_error_bounds
 from station.five_bar import FiveBar
 from station.identification.estimate import Identification
 from station.records import AccuracyReached, CalibrationResult, Real, because
@@ -24,8 +24,7 @@ def bounds_mm(found: Identification[FiveBar], zeros: Real | None = None) -> tupl
     p = found.p.copy()
     p[:2] -= found.dtheta if zeros is None else zeros
     error, jacobian = found.mechanism.position_errors(p)
-    by_drives = largest_error_bound(error, jacobian, found.covariance)
-    by_model = largest_error_bound(np.zeros_like(error), jacobian, found.covariance)
+    by_drives, by_model = largest_error_bounds((error, np.zeros_like(error)), jacobian, found.covariance)
     return by_drives, by_model
 
 

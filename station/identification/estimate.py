@@ -210,23 +210,32 @@ def identify(
 def _identify(everything: M, memory: Memory | None) -> Identification[M]:
     _check_enough(everything)
     prior = tolerance_prior(everything)
-    left_out = find_outliers(everything, lambda sd: _fit(everything, prior, sd).solution, everything.row_sd)
+    specified = everything.row_sd
+    plain = _fit(everything, prior, specified)
+    left_out = find_outliers(
+        everything,
+        # that fit is made once: most readings have no outliers, and it is the answer's own beginning
+        lambda sd: (plain if sd is specified else _fit(everything, prior, sd)).solution,
+        specified,
+    )
     if everything.needs_repeats:
         check_outlier_share(left_out, len(everything.measurements))
     elif not few_enough(left_out, len(everything.measurements)):
         left_out = ()  # its uncertainty grows by what the model leaves
-    mechanism = everything
+    mechanism, first = everything, plain
     if left_out:
         mechanism = _without(everything, left_out)
         _check_enough(mechanism)
-    found = _at_noise(mechanism, prior, left_out)
+        first = _fit(mechanism, prior, mechanism.row_sd)
+    found = _at_noise(mechanism, first, prior, left_out)
     if memory is not None:
         held = memory.references
         reference_p = 1.0
         if isinstance(mechanism, FiveBar):
             memory, reference_p = memory.informed(mechanism.robot)
         remembered = memory.prior(mechanism.parameters)
-        with_memory = _at_noise(mechanism, remembered, left_out)
+        first = _fit(mechanism, remembered, mechanism.row_sd)
+        with_memory = _at_noise(mechanism, first, remembered, left_out)
         p_value = min(contradiction_p(with_memory.solution, remembered, mechanism.parameters), reference_p)
         if p_value < GATE_P:
             found = replace(found, gate=Gate(False, p_value))
@@ -261,14 +270,16 @@ def _check_enough(mechanism: AnyMechanism) -> None:
         )
 
 
-def _at_noise(mechanism: M, prior: Prior, left_out: tuple[Outlier, ...]) -> Identification[M]:
-    """The fit at the noise that the repeats show, where there are enough of them."""
-    found = _fit(mechanism, prior, mechanism.row_sd)
+def _at_noise(mechanism: M, found: Fit, prior: Prior, left_out: tuple[Outlier, ...]) -> Identification[M]:
+    """The fit at the noise that the repeats show, where there are enough of them.
+
+    :param found: the fit at the specified noise
+    """
     noise = specified_noise(mechanism.row_sd)
     if mechanism.needs_repeats:
         noise = estimate_noise(mechanism.measurements, found.solution.residual, mechanism.row_sd)
     if noise.source == "repeats":
-        found = _fit(mechanism, prior, noise.row_sd)
+        found = _fit(mechanism, prior, noise.row_sd, found.x)
     p_value, ratio = lack_of_fit(found.solution, noise, prior.free, mechanism.measurements)
     return Identification(
         mechanism=mechanism,
@@ -281,9 +292,9 @@ def _at_noise(mechanism: M, prior: Prior, left_out: tuple[Outlier, ...]) -> Iden
     )
 
 
-def _fit(mechanism: AnyMechanism, prior: Prior, row_sd: Real) -> Fit:
+def _fit(mechanism: AnyMechanism, prior: Prior, row_sd: Real, start: Real | None = None) -> Fit:
     try:
-        return fit(Model(mechanism, reference_of(mechanism.measurements)), prior, row_sd)
+        return fit(Model(mechanism, reference_of(mechanism.measurements)), prior, row_sd, start)
     except NotConvergedError as error:
         raise InputRefused(
             f"The identification cannot start: {error}; check the robot file and that angles and readings "

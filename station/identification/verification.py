@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy.linalg import null_space
@@ -46,19 +47,24 @@ def fresh_stops_of(
     robot: Robot, dtheta: Real, seed: int, count: int = FRESH_PLACES, label: str = "V"
 ) -> tuple[Stop, ...]:
     """The same for zero offsets (2,) rad, however they were identified."""
-    from scipy.stats import qmc  # here, because it takes a second to load and only a run needs it
-
-    low = (robot.workspace_x[0] + FRESH_INSET_MM, robot.workspace_y[0] + FRESH_INSET_MM)
-    high = (robot.workspace_x[1] - FRESH_INSET_MM, robot.workspace_y[1] - FRESH_INSET_MM)
+    low = np.array([robot.workspace_x[0], robot.workspace_y[0]]) + FRESH_INSET_MM
+    high = np.array([robot.workspace_x[1], robot.workspace_y[1]]) - FRESH_INSET_MM
     # a new set each run, so that no place is ever learned by heart
-    sequence = qmc.Sobol(2, rng=seed)
-    points = qmc.scale(sequence.random(count), low, high)
+    points = low + _spread(seed, count) * (high - low)
     places = points[:, 0] + 1j * points[:, 1]
     theta = np.degrees(inverse(robot.geometry, places) - dtheta)
     return tuple(
         Stop(f"{label}{k + 1}", (float(r.real), float(r.imag)), (float(t[0]), float(t[1])))
         for k, (r, t) in enumerate(zip(places, theta, strict=True))
     )
+
+
+@lru_cache(maxsize=64)
+def _spread(seed: int, count: int) -> Real:
+    """(count, 2) points spread evenly over the unit square; studies ask for the same ones again and again."""
+    from scipy.stats import qmc  # here, because it takes a second to load and only a run needs it
+
+    return np.asarray(qmc.Sobol(2, rng=seed).random(count))
 
 
 @dataclass(frozen=True)

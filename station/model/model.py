@@ -68,6 +68,8 @@ class Model:
 
     def prior(self, base: Prior) -> Prior:
         """Of all unknowns, from that of the base parameters."""
+        if not self.terms:
+            return base
         amplitudes = Prior.independent(np.zeros(len(self.spread)), self.spread)
         return Prior(np.concatenate([base.mean, amplitudes.mean]), block_diag(base.root, amplitudes.root))
 

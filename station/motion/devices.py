@@ -25,8 +25,9 @@ class Devices:
     emulated: bool = False
     read_register: Callable[[int, int], int] | None = None
     """A holding register of a unit on the line of the drives; None where they are on no such line."""
-    remount: Callable[[tuple[float, float]], None] | None = None
-    """Mounts the mechanism of the emulated machine; None where a person does it."""
+    remount: Callable[[tuple[float, float], int], None] | None = None
+    """Mounts the mechanism of the emulated machine at a point, with the number of the mounting there; None
+    where a person does it."""
     speed: float = 1.0
     """How much faster than real time the machine lives; 1 for a real one."""
 

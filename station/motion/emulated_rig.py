@@ -102,9 +102,12 @@ class EmulatedRig:
         self.effects = tuple(self._order("effects", list(effects)))
         return self.effects
 
-    def remount(self, c: tuple[float, float]) -> None:
-        """Mount the mechanism at c, mm.  :raises InputRefused: as `order`."""
-        self._say("mount", list(c))
+    def remount(self, c: tuple[float, float], mounting: int = 0) -> None:
+        """Mount the mechanism at c, mm; `mounting` numbers those at one point.
+
+        :raises InputRefused: as `order`.
+        """
+        self._say("mount", [*c, mounting])
 
     def _order(self, what: str, tables: list[EffectTable]) -> list[EffectTable]:
         ordered: list[EffectTable] = self._say(what, tables)

@@ -212,10 +212,13 @@ class Machine:
                 if status.alarm is not None or not status.enabled:
                     axis.enable()
 
-    def mounted_at(self, c: tuple[float, float]) -> None:
-        """Somebody has mounted the mechanism there, mm; with the emulated machine this does it."""
+    def mounted_at(self, c: tuple[float, float], mounting: int = 0) -> None:
+        """Somebody has mounted the mechanism there, mm; with the emulated machine this does it.
+
+        :param mounting: 1, 2, ... where it is mounted there once more
+        """
         if self.devices.remount is not None:
-            self.devices.remount(c)
+            self.devices.remount(c, mounting)
 
     # Stopping ------------------------------------------------------------------------------------
 

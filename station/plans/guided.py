@@ -1,4 +1,5 @@
-"""Plans that need a person once: `reference` (an angle is read) and `two_mounts` (the mechanism is moved)."""
+"""Plans that need a person: `reference` (an angle is read), `two_mounts` (the mechanism is moved) and
+`gauge_study` (operators in turn mount it once more, and the stops of plan `full` are measured each time)."""
 
 from __future__ import annotations
 
@@ -6,7 +7,7 @@ import numpy as np
 
 from station.five_bar import HOME, Robot, forward, inverse
 from station.plans.boundary import on_the_boundary
-from station.plans.full import full_positions
+from station.plans.full import chosen_by_exchange, full_positions
 from station.plans.plan import PlanDesign, Visits, each_once, register
 from station.plans.tour import sweeps
 
@@ -27,3 +28,4 @@ def both_sides_once(robot: Robot) -> Visits:
 
 REFERENCE = register(PlanDesign("reference", boundary_and_home))
 TWO_MOUNTS = register(PlanDesign("two_mounts", both_sides_once))
+GAUGE_STUDY = register(PlanDesign("gauge_study", chosen_by_exchange, run_kind="gauge_study"))

@@ -7,6 +7,7 @@ from station.quality.control_chart import RULE_TEXTS
 from station.quality.crossed_anova import GaugeStudy, gauge_study
 from station.quality.parquet import Exported, export_parquet
 from station.quality.process import Figure, Quality, Trend, quality, trend
+from station.quality.station_study import JointGauge, gauge_sd, joint_gauge
 
 __all__ = [
     "K95",
@@ -14,12 +15,15 @@ __all__ = [
     "Exported",
     "Figure",
     "GaugeStudy",
+    "JointGauge",
     "Limits",
     "Quality",
     "Trend",
     "cpk",
     "export_parquet",
+    "gauge_sd",
     "gauge_study",
+    "joint_gauge",
     "ppk",
     "quality",
     "trend",

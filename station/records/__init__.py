@@ -162,6 +162,7 @@ from station.records.sections import (
     sections_of_toml,
     sections_to_toml,
 )
+from station.records.study_design import StudyDesign
 from station.records.taught import TaughtPosition, TranslatedPosition, read_taught, translated_to_csv
 from station.records.training import (
     Blamed,
@@ -337,6 +338,7 @@ __all__ = [
     "Step",
     "Stop",
     "StoredEvent",
+    "StudyDesign",
     "Submitted",
     "Table",
     "TaughtPosition",

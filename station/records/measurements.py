@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, fields, replace
+from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -82,7 +83,7 @@ class Measurements:
         """(K,) index into `setups`."""
         return np.zeros(len(self), dtype=np.intp) if self.setup is None else self.setup
 
-    @property
+    @cached_property
     def repeat_group(self) -> Index:
         """(K,) index of readings alike in place, approach, mount and set-up: their scatter is pure error."""
         keys = np.column_stack([self.position, self.approach, self.mount, self.setup_index])

@@ -12,6 +12,7 @@ from pydantic import Field
 
 from station.records.record import Record
 from station.records.sections import Finite, Positive, Section
+from station.records.study_design import StudyDesign
 
 
 class JointAngle(Section):
@@ -77,11 +78,12 @@ AnyReference = Annotated[JointAngle | MountingError, Field(discriminator="kind")
 
 
 class Asked(Record):
-    """What a start request says of accuracy and references."""
+    """What a start request says of accuracy, references and a gauge study."""
 
     references: tuple[AnyReference, ...] = ()
     until_mm: float | None = None
     accuracy_mm: float | None = None
+    study: StudyDesign | None = None
 
 
 class ReferenceUse(Record):

@@ -12,6 +12,7 @@ from typing import Any, Literal
 
 from station.errors import FieldRefused
 from station.records.references import AnyReference
+from station.records.study_design import StudyDesign
 
 
 class State(StrEnum):
@@ -60,6 +61,8 @@ class CalibrationRequest:
     """Bound on the largest position error at which plan `adaptive` ends."""
     accuracy_mm: float | None = None
     """Largest position error that is wanted."""
+    study: StudyDesign | None = None
+    """How often plan `gauge_study` calibrates; None: as usual."""
 
     @property
     def label(self) -> str:
@@ -119,6 +122,8 @@ class Ask:
     high: float = math.inf
     mounted_at: tuple[float, float] | None = None
     """Where the mechanism is mounted once this is confirmed, mm."""
+    mounting: int = 0
+    """1, 2, ... where it is mounted there once more: each time it has an error of its own."""
 
     def checked(self, value: float | None) -> float | None:
         """An answer that can be.  :raises FieldRefused: it is missing, or no such number can be."""

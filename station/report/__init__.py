@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from station.report.page import Chart, Page, Section, Table
+from station.report.printing import as_pdf
 from station.report.svg import Series, bar, line, place_map, scatter, standalone
 from station.report.templates import environment
 
@@ -12,6 +13,7 @@ __all__ = [
     "Section",
     "Series",
     "Table",
+    "as_pdf",
     "bar",
     "environment",
     "line",

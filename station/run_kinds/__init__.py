@@ -6,6 +6,7 @@ from station.run_kinds import (  # noqa: F401 - they register themselves
     apply,
     calibrate,
     diagnose,
+    gauge_study,
     import_file,
     retract,
     separate,
@@ -15,6 +16,8 @@ from station.run_kinds.arm_log import ArmLog, import_log, import_measured
 from station.run_kinds.check import check_run
 from station.run_kinds.diagnose import diagnosed
 from station.run_kinds.error_maps import error_map
+from station.run_kinds.gauge_evaluation import JointStudied, StationGauge, station_gauge
+from station.run_kinds.gauge_report import gauge_page, judgement
 from station.run_kinds.import_file import Upload, import_dataset
 from station.run_kinds.kind import RUN_KINDS, Continued, RunKind, Start, kind_of_plan, request_of
 from station.run_kinds.lock import calibration_holds, check_not_locked, clear_failed_check
@@ -27,8 +30,10 @@ __all__ = [
     "ArmLog",
     "Change",
     "Continued",
+    "JointStudied",
     "RunKind",
     "Start",
+    "StationGauge",
     "Upload",
     "adaptive_run",
     "application",
@@ -40,12 +45,15 @@ __all__ = [
     "diagnosed",
     "error_map",
     "fit_in_sequence",
+    "gauge_page",
     "import_dataset",
     "import_log",
     "import_measured",
+    "judgement",
     "kind_of_plan",
     "memory_test",
     "planned",
     "request_of",
+    "station_gauge",
     "translated",
 ]

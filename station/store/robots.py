@@ -216,6 +216,13 @@ def _sections(text: str) -> Sections:
     return sections
 
 
+def type_of(file: Sections) -> str | None:
+    """The type designation in a robot file; None where it has none."""
+    section = file.get("robot")
+    named = section.get("type") if isinstance(section, dict) else None
+    return None if named is None else str(named)
+
+
 def _model(file: Sections) -> str:
     section = file.get("robot")
     return str(section.get("model", FIVE_BAR_MODEL)) if isinstance(section, dict) else FIVE_BAR_MODEL

@@ -78,8 +78,8 @@ def row_id(cursor: int | str) -> int:
 
 def result_row(
     result: CalibrationResult,
-) -> tuple[float | None, float | None, float | None, float | None, str]:
-    """Zero offsets as columns for lists, and the whole as one JSON text that SQL can query."""
+) -> tuple[float | None, float | None, float | None, float | None, float | None, str]:
+    """Zero offsets and the position error as columns, and the whole as one JSON text that SQL can query."""
     zeros = {offset.name: offset for offset in result.zero_offsets}
     first, second = zeros.get("dtheta1"), zeros.get("dtheta2")
     parts = ResultParts.model_validate(dict(result)).model_dump(mode="json", by_alias=True)
@@ -91,8 +91,21 @@ def result_row(
     return (
         *((_finite(first.value), _finite(first.sd)) if first else (None, None)),
         *((_finite(second.value), _finite(second.sd)) if second else (None, None)),
+        _verified_error_mm(result),
         compact(_storable({"zero_offsets": offsets, **kept})),
     )
+
+
+def _verified_error_mm(result: CalibrationResult) -> float | None:
+    """95 % bound of the largest position error, where fresh readings verified it."""
+    after, accuracy = result.after, result.accuracy
+    if after is None or after.fresh_reading_rms_mm is None:
+        return None
+    predicted = after.predicted_position_error_mm
+    bounds = [accuracy.bound_95_mm] if accuracy else []
+    bounds += [predicted.bound_95, predicted.max] if predicted else []
+    bound = next((bound for bound in bounds if bound is not None), None)
+    return None if bound is None else _finite(bound)
 
 
 def pack_document(document: DiagnosisDocument | None) -> bytes | None:
@@ -167,11 +180,12 @@ def request_hash(request: CalibrationRequest) -> bytes:
 
 
 def asked_more(request: CalibrationRequest) -> dict[str, JsonValue]:
-    """What a request says of accuracy and references, if it says anything."""
+    """What a request says of accuracy, references and a gauge study, if it says anything."""
     more: dict[str, JsonValue] = {
         "references": [reference.model_dump() for reference in request.references],
         "until_mm": request.until_mm,
         "accuracy_mm": request.accuracy_mm,
+        "study": request.study.model_dump() if request.study else None,
     }
     return {key: value for key, value in more.items() if value}
 

@@ -7,6 +7,7 @@ wait for it.  Rows become records in `station.store.rows`.
 from __future__ import annotations
 
 import logging
+import sqlite3
 from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
@@ -36,7 +37,7 @@ from station.store.logs import Logs
 from station.store.outbox import Outbox
 from station.store.people import People
 from station.store.provenance import Provenance
-from station.store.robots import Memories, RobotFile
+from station.store.robots import Memories, RobotFile, type_of
 from station.store.rows import (
     LIST_COLUMNS,
     READING_COLUMNS,
@@ -117,11 +118,13 @@ class Store(
         with self._writing() as db:
             created_ms = now_ms()
             cursor = db.execute(
-                "INSERT INTO calibrations (robot_id, robot_serial, kind, plan, operator, work_order,"
-                " metadata, of_id, state, created_ms, uid) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+                "INSERT INTO calibrations (robot_id, robot_serial, robot_type, kind, plan, operator,"
+                " work_order, metadata, of_id, state, created_ms, uid)"
+                " VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
                 [
                     robot_id,
                     robot.serial,
+                    type_of(robot.to_json()),
                     request.kind,
                     request.label,
                     request.operator,
@@ -256,7 +259,7 @@ class Store(
             if ended and result is not None:
                 db.execute(
                     "INSERT INTO results (calibration_id, zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg,"
-                    " result, diagnosis) VALUES (?, ?, ?, ?, ?, ?, ?)",
+                    " position_error_mm, result, diagnosis) VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
                     [calibration_id, *result_row(result), pack_document(result.diagnosis)],
                 )
                 if end.verdict == "pass" and result.lasting is not None:
@@ -294,13 +297,7 @@ class Store(
 
     def calibration(self, calibration_id: int) -> Calibration:
         """One calibration with everything about it.  :raises NotFound:"""
-        row = self._readers.one(
-            f"SELECT {LIST_COLUMNS}, metadata, result FROM calibrations"
-            " LEFT JOIN results ON calibration_id = id WHERE id = ?",
-            [calibration_id],
-        )
-        if row is None:
-            raise NotFound(f"There is no calibration {calibration_id}.")
+        row = self._run_row(calibration_id, f"{LIST_COLUMNS}, metadata, result")
         return self._as_ended(calibration_from_row(row))
 
     def diagnosis(self, calibration_id: int) -> DiagnosisDocument:
@@ -316,13 +313,16 @@ class Store(
 
     def summary(self, calibration_id: int) -> CalibrationSummary:
         """One calibration as the list shows it.  :raises NotFound:"""
+        return self._as_ended(summary_from_row(self._run_row(calibration_id, LIST_COLUMNS)))
+
+    def _run_row(self, calibration_id: int, columns: str) -> sqlite3.Row:
         row = self._readers.one(
-            f"SELECT {LIST_COLUMNS} FROM calibrations LEFT JOIN results ON calibration_id = id WHERE id = ?",
+            f"SELECT {columns} FROM calibrations LEFT JOIN results ON calibration_id = id WHERE id = ?",
             [calibration_id],
         )
         if row is None:
             raise NotFound(f"There is no calibration {calibration_id}.")
-        return self._as_ended(summary_from_row(row))
+        return row
 
     def calibrations(
         self,
@@ -332,6 +332,7 @@ class Store(
         order: Order = "newest",
         search: str | None = None,
         robot_serial: str | None = None,
+        robot_type: str | None = None,
         state: str | None = None,
         verdict: str | None = None,
         plan: str | None = None,
@@ -344,7 +345,9 @@ class Store(
 
         :raises InputRefused: a cursor that is none.
         """
-        filters = Filters(search, robot_serial, state, verdict, plan, work_order, since, until, ended_since)
+        filters = Filters(
+            search, robot_serial, robot_type, state, verdict, plan, work_order, since, until, ended_since
+        )
         conditions, values = filters.conditions(
             self._or_unstored, few_found=self._finds_few(search), order=order
         )

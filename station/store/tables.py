@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 from station.records import State
 from station.store.kept_file import KeptFile
-from station.store.trends import POSITION_ERROR
 
 Columns = dict[str, tuple[object, ...]]
 """By name, all equally long."""
@@ -19,6 +16,7 @@ RUNS = {
     "id": "id",
     "uid": "uid",
     "robot_serial": "robot_serial",
+    "robot_type": "robot_type",
     "kind": "kind",
     "plan": "plan",
     "operator": "operator",
@@ -35,13 +33,13 @@ RUNS = {
     "dtheta1_sd_deg": "zero1_sd_deg",
     "dtheta2_deg": "zero2_deg",
     "dtheta2_sd_deg": "zero2_sd_deg",
-    "position_error_mm": POSITION_ERROR,
+    "position_error_mm": "position_error_mm",
 }
+SHARED = ("run_uid", "robot_serial", "created_at")
+OF_ITS_RUN = {"id": "id", "run_uid": "uid", "robot_serial": "robot_serial", "created_at": "created_ms"}
+"""Of a run, in each of its readings."""
 READINGS = {
     "run_id": "calibration_id",
-    "run_uid": "uid",
-    "robot_serial": "robot_serial",
-    "created_at": "created_ms",
     "reading": "reading",
     "sequence": "walk",
     "t_s": "t_s",
@@ -93,9 +91,12 @@ class Tables(KeptFile):
 
     def readings_table(self, first: int, last: int) -> Columns:
         """One row a reading, see `READINGS`."""
-        return self._columns(
-            READINGS, "readings JOIN calibrations ON id = calibration_id", "calibration_id", first, last
-        )
+        found = self._columns(READINGS, "readings", "calibration_id", first, last)
+        # what all readings of a run share is fetched once a run
+        runs = self._columns(OF_ITS_RUN, "calibrations", "id", first, last)
+        of_run = dict(zip(runs["id"], zip(*(runs[name] for name in SHARED), strict=True), strict=True))
+        shared = list(zip(*(of_run[run] for run in found["run_id"]), strict=True)) or [()] * len(SHARED)
+        return {"run_id": found["run_id"], **dict(zip(SHARED, shared, strict=True)), **found}
 
     def findings_table(self, first: int, last: int) -> Columns:
         """One row a parameter of an effect that was found, see `FINDINGS`."""
@@ -120,7 +121,7 @@ class Tables(KeptFile):
 
     def _columns(self, columns: dict[str, str], tables: str, run: str, first: int, last: int) -> Columns:
         shown = ", ".join(f"{source} AS {name}" for name, source in columns.items())
-        rows: Sequence[Sequence[object]] = self._readers.all(
+        found = self._readers.columns(
             f"SELECT {shown} FROM {tables} WHERE {run} BETWEEN ? AND ? ORDER BY {run}", [first, last]
         )
-        return dict(zip(columns, zip(*rows, strict=True) if rows else [()] * len(columns), strict=True))
+        return dict(zip(columns, found or [()] * len(columns), strict=True))

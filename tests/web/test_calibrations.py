@@ -93,7 +93,10 @@ def test_a_wrong_body_names_the_field(service: Service, changes: dict[str, Any],
 
 def test_every_plan_that_is_offered_is_accepted(service: Service) -> None:
     plans = service.client.get("/api/v1/station").json()["station"]["plans"]
-    assert plans == ["paper", "rapid", "full", "diagnostic", "adaptive", "check", "reference", "two_mounts"]
+    assert plans == [
+        *("paper", "rapid", "full", "diagnostic", "adaptive", "check"),
+        *("reference", "two_mounts", "gauge_study"),
+    ]
     for plan in plans:
         run = service.complete(plan=plan)
         assert service.client.get(f"{LIST}/{run}").json()["plan"] == plan

@@ -58,7 +58,7 @@ def start_calibration(
     """Start a run.  The same `Idempotency-Key` with the same body answers the same run."""
     request = CalibrationRequest(kind=kind_of_plan(body.plan), **dict(body))
     submitted = runtime.orchestrator.submit(request, idempotency_key=idempotency_key, by=by)
-    return _started(submitted, runtime, response)
+    return started(submitted, runtime, response)
 
 
 def _filters(
@@ -66,6 +66,7 @@ def _filters(
         str | None, Query(max_length=64, description="how the serial begins, in any case")
     ] = None,
     robot_serial: str | None = None,
+    robot_type: Annotated[str | None, Query(max_length=64, description="`type` of the robot file")] = None,
     state: State | None = None,
     verdict: Literal["pass", "fail"] | None = None,
     plan: Annotated[str | None, Query(description="as in the run, also `apply` or `dataset`")] = None,
@@ -74,7 +75,9 @@ def _filters(
     until: Annotated[Moment | None, Query(description="created before")] = None,
     ended_since: Annotated[Moment | None, Query(description="ended at or after")] = None,
 ) -> Filters:
-    return Filters(search, robot_serial, state, verdict, plan, work_order, since, until, ended_since)
+    return Filters(
+        search, robot_serial, robot_type, state, verdict, plan, work_order, since, until, ended_since
+    )
 
 
 TheFilters = Annotated[Filters, Depends(_filters)]
@@ -206,7 +209,7 @@ def apply_calibration(
     submitted = runtime.orchestrator.follow(
         "apply", calibration_id, body.operator, idempotency_key=idempotency_key, by=by
     )
-    return _started(submitted, runtime, response)
+    return started(submitted, runtime, response)
 
 
 @router.post(
@@ -224,7 +227,7 @@ def roll_back_calibration(
 ) -> CalibrationSummary:
     """Put the old zeros back; a run of its own.  Calling it again answers the run that did it."""
     submitted = runtime.orchestrator.follow("rollback", calibration_id, body.operator, by=by)
-    return _started(submitted, runtime, response)
+    return started(submitted, runtime, response)
 
 
 @router.post(
@@ -248,7 +251,7 @@ def separate(
     submitted = runtime.orchestrator.follow(
         "separate", calibration_id, body.operator, idempotency_key=idempotency_key, by=by
     )
-    return _started(submitted, runtime, response)
+    return started(submitted, runtime, response)
 
 
 def _check_own(runtime: Runtime, calibration_id: int, by: Actor) -> None:
@@ -263,6 +266,7 @@ def _check_own(runtime: Runtime, calibration_id: int, by: Actor) -> None:
             )
 
 
-def _started(submitted: Submitted, runtime: Runtime, response: Response) -> CalibrationSummary:
+def started(submitted: Submitted, runtime: Runtime, response: Response) -> CalibrationSummary:
+    """The run that a request started, with the way to it."""
     response.headers["Location"] = f"/api/v1/calibrations/{submitted.id}"
     return runtime.store.summary(submitted.id)

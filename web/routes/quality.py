@@ -14,6 +14,7 @@ from web.problems import documented
 from web.routes.parts import Moment, TheRuntime
 
 router = Router(tags=["quality"])
+RobotType = Annotated[str | None, Query(max_length=64, description="`type` of the robot file")]
 IN_TREND = ("calibrate", "apply", "rollback")
 
 
@@ -21,6 +22,7 @@ IN_TREND = ("calibrate", "apply", "rollback")
 def read_quality(
     runtime: TheRuntime,
     robot_serial: Serial | None = None,
+    robot_type: RobotType = None,
     since: Annotated[Moment | None, Query(description="ended then or later")] = None,
 ) -> Quality:
     """Capability, run rules and a Pareto of outcomes over the newest finished calibrations.
@@ -28,21 +30,24 @@ def read_quality(
     The limits and the number of runs are `[quality]` of the station file.
     """
     wanted = runtime.settings.quality
-    points = runtime.store.trend(limit=wanted.runs, robot_serial=robot_serial, since=since)
+    points = runtime.store.trend(
+        limit=wanted.runs, robot_serial=robot_serial, robot_type=robot_type, since=since
+    )
     return quality(points, zero_offset_deg=wanted.zero_offset_deg, position_error_mm=wanted.position_error_mm)
 
 
 @router.get("/trend", response_model=Trend, dependencies=[needs(Permission.READ)])
 def read_station_trend(
     runtime: TheRuntime,
+    robot_type: RobotType = None,
     since: Annotated[Moment | None, Query(description="ended then or later")] = None,
     limit: Annotated[int, Query(ge=1, le=5000)] = 200,
 ) -> Trend:
-    """The newest finished runs of all robots, oldest first, with control charts, of effects as well."""
+    """The newest finished runs of all robots, or of all of one type, oldest first, with control charts, of
+    effects as well."""
     store = runtime.store
-    return trend(
-        None, store.trend(limit=limit, since=since, kinds=IN_TREND), store.effects(limit=limit, since=since)
-    )
+    points = store.trend(limit=limit, robot_type=robot_type, since=since, kinds=IN_TREND)
+    return trend(None, points, store.effects(limit=limit, robot_type=robot_type, since=since))
 
 
 @router.get(

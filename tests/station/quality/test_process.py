@@ -2,17 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from contextlib import closing
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+from click.testing import CliRunner
+from scipy.special import erf
 
-from station.quality.capability import Index, Limits, cpk, ppk, with_confidence
-from station.quality.control_chart import RULE_TEXTS, Rule, ewma, ewma_limits, run_rules
+from station.cli import main
+from station.five_bar import Robot
+from station.quality.capability import Index as Capability
+from station.quality.capability import Limits, cpk, ppk, with_confidence
+from station.quality.control_chart import _RULES, RULE_TEXTS, Rule, ewma, ewma_limits, run_rules
 from station.quality.process import quality, trend
-from station.records import EffectPoint, Real, State, TrendPoint
+from station.records import CalibrationRequest, EffectPoint, Index, Real, State, TrendPoint
+from station.store import Store
+from tests.station.fakes import result_of
 
+LONGEST_PATTERN = 15
 QUIET = [0.5, -0.5, 0.6, 0.4, -0.6, -0.4, 0.3, 0.5, -0.2, -0.6, 0.2, 0.6]
 PATTERNS: dict[Rule, tuple[list[float], int]] = {
     "nelson_1": ([3.1], 0),
@@ -26,11 +36,24 @@ PATTERNS: dict[Rule, tuple[list[float], int]] = {
 }
 
 
-def first_broken(values: Real, *rules: Rule) -> int:
-    """Number of values up to the first alarm."""
-    broken = run_rules(values, 0.0, 1.0)
-    alarm = np.logical_or.reduce([broken[rule] for rule in rules])
-    return int(np.argmax(alarm)) + 1 if alarm.any() else len(values)
+def mean_run_length(values: Real, rules: Sequence[Rule]) -> float:
+    """Mean number of values up to an alarm, begun anew after each one.
+
+    A pattern that began before counts no more: what would complete one too soon is looked at again.
+    """
+
+    def alarms(part: Real) -> Index:
+        return np.flatnonzero(np.logical_or.reduce([_RULES[rule](part) for rule in rules]))
+
+    everywhere = alarms(values)
+    begin, k, lengths = 0, 0, []
+    while k < len(everywhere):
+        at = int(everywhere[k])
+        k += 1
+        if at >= begin + LONGEST_PATTERN or at - begin in alarms(values[begin : at + 1]):
+            lengths.append(at + 1 - begin)
+            begin = at + 1
+    return float(np.mean(lengths))
 
 
 @pytest.mark.parametrize("rule", PATTERNS)
@@ -45,28 +68,41 @@ def test_each_rule_by_hand(rule: Rule) -> None:
     assert rule in RULE_TEXTS
 
 
+INSIDE = float(erf(1.0 / np.sqrt(2.0)))
+"""Probability of a value within one standard deviation."""
+
+
 @pytest.mark.parametrize(
     ("rules", "textbook"),
     [
         (("nelson_1",), 370.4),
-        # Champ and Woodall 1987, with two of three, and with four of five
+        # Champ and Woodall, Technometrics 29 (1987), with two of three, and with four of five
         (("nelson_1", "nelson_5"), 225.44),
         (("nelson_1", "nelson_6"), 166.05),
+        # exact: nine tosses of a coin alike, and fifteen in a row of a probability (Feller 1968, XIII.7)
+        (("nelson_2",), 2.0**9 - 1.0),
+        (("nelson_7",), (1.0 - INSIDE**15) / ((1.0 - INSIDE) * INSIDE**15)),
     ],
 )
 def test_run_length_without_a_change(rules: tuple[Rule, ...], textbook: float) -> None:
-    rng = np.random.default_rng(11)
-    lengths = [first_broken(rng.normal(size=4000), *rules) for _ in range(3000)]
-    assert np.mean(lengths) == pytest.approx(textbook, rel=0.06)
+    values = np.random.default_rng(11).normal(size=3_000_000)
+    assert mean_run_length(values, rules) == pytest.approx(textbook, rel=0.05)
+
+
+@pytest.mark.parametrize(("shift", "textbook"), [(1.0, 43.89), (2.0, 6.30)])
+def test_run_length_after_a_shift(shift: float, textbook: float) -> None:
+    """Of individuals with limits at three standard deviations (Montgomery, chapter 9)."""
+    values = np.random.default_rng(13).normal(shift, 1.0, size=100_000)
+    assert mean_run_length(values, ("nelson_1",)) == pytest.approx(textbook, rel=0.05)
 
 
 def test_run_length_of_the_ewma() -> None:
     """Lucas and Saccucci 1990: 500 without a change."""
     rng = np.random.default_rng(12)
-    low, high = ewma_limits(6000, 0.0, 1.0)
-    outside = [(lambda e: (e < low) | (e > high))(ewma(rng.normal(size=6000), 0.0)) for _ in range(1500)]
-    lengths = [int(np.argmax(o)) + 1 if o.any() else 6000 for o in outside]
-    assert np.mean(lengths) == pytest.approx(500.0, rel=0.09)
+    low, high = ewma_limits(5000, 0.0, 1.0)
+    outside = [(lambda e: (e < low) | (e > high))(ewma(rng.normal(size=5000), 0.0)) for _ in range(4000)]
+    lengths = [int(np.argmax(o)) + 1 if o.any() else 5000 for o in outside]
+    assert np.mean(lengths) == pytest.approx(500.0, rel=0.05)
 
 
 def test_confidence_limits_by_hand() -> None:
@@ -76,7 +112,7 @@ def test_confidence_limits_by_hand() -> None:
 
 
 @pytest.mark.parametrize("of", [cpk, ppk])
-def test_confidence_limits_hold_the_truth(of: Callable[[Real, Limits], Index | None]) -> None:
+def test_confidence_limits_hold_the_truth(of: Callable[[Real, Limits], Capability | None]) -> None:
     limits = Limits(-10.0, 4.0)
     rng = np.random.default_rng(5)
     found = [of(rng.normal(size=30), limits) for _ in range(1500)]
@@ -134,3 +170,16 @@ def test_each_effect_has_its_own_chart_the_most_frequent_first() -> None:
         ("scale_gain", (2,), (0.1,)),
     ]
     assert [one.lines.centre for one in found.effects] == [pytest.approx(0.02), None]
+
+
+def test_runs_of_one_type(tmp_path: Path) -> None:
+    """The type of the robot file as it was when the run was made."""
+    with closing(Store(tmp_path / "station.db")) as store:
+        for serial, kind in (("R1", "FB-300"), ("R2", "FB-500"), ("R3", None)):
+            robot = Robot(serial=serial, type=kind)
+            assert Robot.from_dict(robot.to_json()).type == kind
+            store.add_run(CalibrationRequest(serial, "calibrate", "Ana"), robot, [], result_of([]))
+        assert [p.robot_serial for p in store.trend(limit=9, robot_type="FB-500")] == ["R2"]
+        assert [run.robot_serial for run in store.calibrations(robot_type="FB-300").items] == ["R1"]
+    said = CliRunner().invoke(main, ["--home", str(tmp_path), "quality", "--type", "FB-300"])
+    assert said.exit_code == 0 and "good" in said.output, said.output

@@ -41,7 +41,7 @@ def prompt_of(orchestrator: Orchestrator, run: int) -> Prompt:
 def test_it_waits_and_goes_on_with_the_answer(start: Start, store: Store, rig: Rig) -> None:
     orchestrator = start(asks)
     moved: list[Any] = []
-    object.__setattr__(rig.devices, "remount", moved.append)
+    object.__setattr__(rig.devices, "remount", lambda c, mounting: moved.append(c))
     run = orchestrator.submit(asked("FB-1", "full")).id
     first = prompt_of(orchestrator, run)
     assert (first.text, first.kind, first.unit) == ("Read the level.", "number", "deg")

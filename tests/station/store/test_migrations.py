@@ -74,12 +74,24 @@ def test_a_file_of_0_2_0_keeps_everything_and_gets_uids(tmp_path: Path) -> None:
     with closing(sqlite3.connect(file)) as old:
         columns = "id, kind, plan, state, verdict, outcome, reason_code, of_id, created_ms, ended_ms, step"
         before = old.execute(f"SELECT {columns} FROM calibrations ORDER BY id").fetchall()
-        results = old.execute("SELECT * FROM results ORDER BY calibration_id").fetchall()
+        kept = "calibration_id, zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg, result, diagnosis"
+        results = old.execute(f"SELECT {kept} FROM results ORDER BY calibration_id").fetchall()
         readings = old.execute("SELECT * FROM readings ORDER BY 1, 2").fetchall()
     with closing(Store(file)) as store, closing(sqlite3.connect(file)) as new:
         assert new.execute(f"SELECT {columns} FROM calibrations ORDER BY id").fetchall() == before
-        assert new.execute("SELECT * FROM results ORDER BY calibration_id").fetchall() == results
+        assert new.execute(f"SELECT {kept} FROM results ORDER BY calibration_id").fetchall() == results
         assert new.execute("SELECT * FROM readings ORDER BY 1, 2").fetchall() == readings
         for run in store.calibrations().items:
             assert uuid.UUID(run.uid).int >> 80 == round(run.created_at.timestamp() * 1000)
         assert (len(before), len(store.zero_writes("R1"))) == (6, 4)
+
+
+def test_position_errors_of_runs_that_are_there_get_a_column(migrated: Store) -> None:
+    """Of those that fresh readings verified, the largest that their record names."""
+    for point in migrated.trend(limit=10, kinds=("calibrate",)):
+        after, accuracy = (getattr(migrated.calibration(point.id), name) for name in ("after", "accuracy"))
+        predicted = after.predicted_position_error_mm
+        bounds = [accuracy and accuracy.bound_95_mm, predicted and predicted.max]
+        verified = after.fresh_reading_rms_mm is not None
+        wanted = next((bound for bound in bounds if bound is not None), None) if verified else None
+        assert point.position_error_mm == wanted

@@ -78,7 +78,8 @@ def test_every_column_of_a_run_from_its_creation_to_its_end(store: Store, clock:
     created = rows(store, "calibrations")[1]
     uid = created.pop("uid")
     assert created == {
-        "id": run, "robot_id": 1, "robot_serial": "R1", "kind": "apply", "plan": "apply", "operator": "ada",
+        "id": run, "robot_id": 1, "robot_serial": "R1", "robot_type": None, "kind": "apply",
+        "plan": "apply", "operator": "ada",
         "work_order": "WO-7", "metadata": '{"shift":"späť"}', "of_id": first, "state": "queued",
         "verdict": None, "outcome": None, "reason": None, "reason_code": None, "reason_params": None,
         "step": 0, "steps": 0, "created_ms": T0_MS + 1000, "started_ms": None, "ended_ms": None,

@@ -1,6 +1,6 @@
 """What the station takes and answers.  Made by `make reference`; do not edit.
 
-From schemas with SHA-256 3824c90ea05fcd4a3c21d1a18da9ace04ad9f60f0102fc5b00b83e5566949c37.
+From schemas with SHA-256 9c1ec92a0460fe679b3692d75682e37f0ba5d7b82175cca11242405d8f65c478.
 """
 
 from __future__ import annotations
@@ -31,6 +31,16 @@ class MountingError(BaseModel):
     kind: Literal["drm_x", "drm_y"]
     value_mm: float
     sd_mm: float
+
+
+class StudyDesign(BaseModel):
+    """
+    Every operator mounts the mechanism several times; each mounting is calibrated several times.
+    """
+
+    operators: int | None = 3
+    mountings: int | None = 2
+    repeats: int | None = 2
 
 
 class Quantity(BaseModel):
@@ -690,7 +700,9 @@ class CalibrationBody(BaseModel):
     """
 
     robot_serial: str
-    plan: Literal["paper", "rapid", "full", "diagnostic", "adaptive", "check", "reference", "two_mounts"]
+    plan: Literal[
+        "paper", "rapid", "full", "diagnostic", "adaptive", "check", "reference", "two_mounts", "gauge_study"
+    ]
     operator: str
     work_order: str | None = None
     metadata: dict[str, Any] | None = None
@@ -707,6 +719,11 @@ class CalibrationBody(BaseModel):
     until_mm: float | None = None
     """
     the same, and plan `adaptive` ends as soon as it is reached
+    """
+
+    study: StudyDesign | None = None
+    """
+    how often plan `gauge_study` calibrates; for that plan alone
     """
 
 

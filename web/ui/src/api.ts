@@ -166,6 +166,12 @@ export const separate = (id: number, operator: string, key: string) =>
     body: JSON.stringify({ operator }),
   });
 
+export const resume = (id: number, operator: string, key: string) =>
+  call<Summary>("POST", `/calibrations/${id}/resume`, {
+    headers: { "Content-Type": "application/json", "Idempotency-Key": key },
+    body: JSON.stringify({ operator }),
+  });
+
 export const calibrations = (query: URLSearchParams) =>
   call<CalibrationList>("GET", `/calibrations?${query}`);
 
@@ -173,11 +179,18 @@ export const countRuns = (query: URLSearchParams) =>
   call<{ count: number }>("GET", `/calibrations/count?${query}`);
 
 /** Outcomes of the newest runs of one robot, or of all. */
-export const quality = (serial: string | null) =>
-  call<Quality>("GET", `/quality${serial ? `?robot_serial=${encodeURIComponent(serial)}` : ""}`);
+/** Of one robot, of all of one type, or of all. */
+export const quality = (serial: string | null, type: string | null) =>
+  call<Quality>("GET", `/quality?${chosen({ robot_serial: serial, robot_type: type })}`);
 
-export const trend = (serial: string | null) =>
-  call<Trend>("GET", serial ? `/robots/${encodeURIComponent(serial)}/trend` : "/trend");
+export const trend = (serial: string | null, type: string | null) =>
+  call<Trend>(
+    "GET",
+    serial ? `/robots/${encodeURIComponent(serial)}/trend` : `/trend?${chosen({ robot_type: type })}`,
+  );
+
+const chosen = (filters: Record<string, string | null>) =>
+  new URLSearchParams(Object.entries(filters).flatMap(([name, value]) => (value ? [[name, value]] : [])));
 
 /** A key of its own for each confirmed start, so that pressing again after a lost answer is still one run. */
 export function newKey(): string {

@@ -270,6 +270,7 @@ export const de: Messages = {
     method: "Verfahren",
     diagnosis: "Diagnose",
     robotHistory: "Historie dieses Roboters",
+    gaugeStudy: (form) => `Messsystemanalyse (${form})`,
     certificate: (form) => `Zertifikat (${form})`,
     run: "Lauf, Plan, Bediener und Zeiten",
     pending: "Das Ergebnis folgt auf die letzte Messung.",
@@ -308,6 +309,7 @@ export const de: Messages = {
       roll_back: ", und seine Antriebe erhalten ihre alten Nullpunkte.",
       start: " über seinen ganzen Arbeitsraum.",
       separate: " über seinen Arbeitsraum.",
+      resume: " über seinen Arbeitsraum.",
     },
     next: {
       watch: { button: "Lauf anzeigen", text: "Der Lauf ist im Gang." },
@@ -333,6 +335,11 @@ export const de: Messages = {
         button: "Zur Station",
         text: "Beseitigen Sie die Ursache, dann starten Sie neu an der Station.",
       },
+      resume: {
+        button: "Studie fortsetzen",
+        text: "Die abgeschlossenen Anbauten bleiben erhalten. Setzen Sie mit dem nächsten fort.",
+      },
+      gauge: { text: "Nichts zu tun. Der Bericht unten zeigt, woher die Streuung kommt." },
       inside: { button: "Zur Station", text: "Kalibrieren Sie den Roboter." },
       look: { text: "Lesen Sie die Begründung oben." },
       recalibrate: {
@@ -673,6 +680,7 @@ export const de: Messages = {
     residualMax: "Restfehler, größter, µm",
     process: "Prozess",
     processOf: (serial) => `Prozess: Roboter ${serial}`,
+    processOfType: (type) => `Prozess: Roboter vom Typ ${type}`,
     processOfAll: "Prozess: alle Roboter dieser Station",
     pareto: (runs) => `Womit die neuesten ${runs} Kalibrierungen endeten`,
     share: "Anteil an allen",
@@ -698,6 +706,7 @@ export const de: Messages = {
       nelson_8: "acht Werte in Folge jenseits einer Standardabweichung auf beiden Seiten",
     },
     filter: "Filter",
+    type: "Robotertyp",
     serial: "Seriennummer des Roboters",
     state: "Zustand",
     verdict: "Urteil",

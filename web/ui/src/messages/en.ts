@@ -296,6 +296,7 @@ export const en = {
     method: "Method",
     diagnosis: "Diagnosis",
     robotHistory: "History of this robot",
+    gaugeStudy: (form: string) => `Gauge study (${form})`,
     certificate: (form: string) => `Certificate (${form})`,
     run: "Run, plan, operator and times",
     pending: "The result follows the last reading.",
@@ -334,6 +335,7 @@ export const en = {
       roll_back: ", and its drives receive their old zeros.",
       start: " over its whole workspace.",
       separate: " over its workspace.",
+      resume: " over its workspace.",
     },
     /** By what the step is for. */
     next: {
@@ -357,6 +359,11 @@ export const en = {
         button: "Go to the station",
         text: "Remove the cause, then start again at the station.",
       },
+      resume: {
+        button: "Go on with the study",
+        text: "The mountings that were finished are kept. Go on with the next one.",
+      },
+      gauge: { text: "Nothing to do. The report below shows what the scatter comes from." },
       inside: { button: "Go to the station", text: "Calibrate the robot." },
       look: { text: "Read the reason above." },
       recalibrate: {
@@ -690,6 +697,7 @@ export const en = {
     residualMax: "Residual, largest, µm",
     process: "Process",
     processOf: (serial: string) => `Process: robot ${serial}`,
+    processOfType: (type: string) => `Process: robots of type ${type}`,
     processOfAll: "Process: all robots of this station",
     pareto: (runs: number) => `What the newest ${runs} calibrations ended with`,
     share: "Share of all",
@@ -717,6 +725,7 @@ export const en = {
       nelson_8: "eight values in a row beyond one standard deviation on both sides",
     },
     filter: "Filter",
+    type: "Robot type",
     serial: "Robot serial",
     state: "State",
     verdict: "Verdict",

@@ -22,6 +22,16 @@ export function Filters() {
         />
       </p>
       <p class="field">
+        <label for="filter-type">{t.history.type}</label>
+        <input
+          id="filter-type"
+          value={filters.get("robot_type") ?? ""}
+          maxLength={64}
+          spellcheck={false}
+          onChange={(event) => set("robot_type", event.currentTarget.value.trim())}
+        />
+      </p>
+      <p class="field">
         <label for="filter-order">{t.history.workOrder}</label>
         <input
           id="filter-order"

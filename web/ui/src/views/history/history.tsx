@@ -34,7 +34,9 @@ export function HistoryView() {
       <h1 class="hidden">{t.history.title}</h1>
       <Filters />
       <Compare a={filters.get("a")} b={filters.get("b")} />
-      {charts && <Process serial={filters.get("robot_serial")} latest={latest} />}
+      {charts && (
+        <Process serial={filters.get("robot_serial")} type={filters.get("robot_type")} latest={latest} />
+      )}
       <section class="panel list">
         <p class="actions found">
           <strong role="status">{counted && t.history.found(counted.count)}</strong>

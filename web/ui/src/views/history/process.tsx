@@ -9,12 +9,19 @@ import { reasonName } from "../../reason";
 import type { ChartLines, Quality, Trend } from "../../types";
 import type { Charted } from "./trend-drawing";
 
-export function Process({ serial, latest }: { serial: string | null; latest: string }) {
-  const { value: ended } = useLoaded(`pareto ${serial} ${latest}`, () => quality(serial)).value;
-  const { value: moved, trouble } = useLoaded(`trend ${serial} ${latest}`, () => trend(serial)).value;
+interface Props {
+  serial: string | null;
+  type: string | null;
+  latest: string;
+}
+
+export function Process({ serial, type, latest }: Props) {
+  const of = `${serial} ${type} ${latest}`;
+  const { value: ended } = useLoaded(`pareto ${of}`, () => quality(serial, type)).value;
+  const { value: moved, trouble } = useLoaded(`trend ${of}`, () => trend(serial, type)).value;
   return (
     <section class="panel process" aria-label={t.history.process}>
-      <h2>{serial ? t.history.processOf(serial) : t.history.processOfAll}</h2>
+      <h2>{title(serial, type)}</h2>
       {ended && <Pareto ended={ended} />}
       {trouble && <p role="status">{t.history.trouble(trouble)}</p>}
       {moved && (
@@ -33,6 +40,11 @@ export function Process({ serial, latest }: { serial: string | null; latest: str
       )}
     </section>
   );
+}
+
+function title(serial: string | null, type: string | null): string {
+  if (serial) return t.history.processOf(serial);
+  return type ? t.history.processOfType(type) : t.history.processOfAll;
 }
 
 /** Outcomes with their reasons, the most frequent first. */

@@ -1,5 +1,5 @@
 /** The one next step: why, and its button. */
-import { apply, newKey, rollBack, separate, start } from "../../api";
+import { apply, newKey, resume, rollBack, separate, start } from "../../api";
 import { connected, station } from "../../live";
 import { t } from "../../messages";
 import { keepOperator, operator } from "../../operator";
@@ -90,6 +90,9 @@ async function carryOut(act: Moving, result: Calibration): Promise<void> {
       return;
     case "separate":
       navigate(`/result/${(await separate(result.id, who, newKey())).id}`);
+      return;
+    case "resume":
+      navigate(`/result/${(await resume(result.id, who, newKey())).id}`);
       return;
     case "start": {
       const { robot_serial, work_order, accuracy } = result;

@@ -49,7 +49,7 @@ export function RunFacts({ result }: { result: Calibration }) {
 
 /** From a result to everything else of its run and its robot. */
 export function Ways({
-  result: { id, of, method, robot_serial, verdict, ended_at, machine },
+  result: { id, of, kind, method, robot_serial, state, verdict, ended_at, machine },
 }: {
   result: Calibration;
 }) {
@@ -71,6 +71,13 @@ export function Ways({
           {t.shared.report}
         </a>
       )}
+      {kind === "gauge_study" &&
+        state === "succeeded" &&
+        ["html", "pdf", "json"].map((form) => (
+          <a key={form} class="button" href={`/api/v1/calibrations/${id}/gauge-study.${form}`}>
+            {t.result.gaugeStudy(form.toUpperCase())}
+          </a>
+        ))}
       {verdict &&
         ended_at &&
         machine === "five-bar" &&

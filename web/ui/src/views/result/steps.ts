@@ -10,6 +10,7 @@ export type Act =
   | { do: "apply" }
   | { do: "roll_back" }
   | { do: "separate" }
+  | { do: "resume" }
   | { do: "prepare"; plan: Plan }
   | { do: "open"; to: string };
 
@@ -61,6 +62,8 @@ export function nextStep(result: Calibration, experiments: readonly Experiment[]
       return afterWriting(result);
     case "retract":
       return open("inside", "/");
+    case "gauge_study":
+      return nothing("gauge");
     case "check":
       return afterCheck(result);
     case "calibrate":
@@ -72,6 +75,7 @@ export function nextStep(result: Calibration, experiments: readonly Experiment[]
 
 /** The same once more; what belongs to another run is started from there. */
 function again({ id, of, kind, plan }: Calibration): Step {
+  if (kind === "gauge_study") return { why: "resume", act: { do: "resume" }, more: "" };
   if (kind === "retract") return open("again_there", "/");
   if (of !== null) return open("back", `/result/${of}`);
   return PLANS.has(plan) ? start("again", plan as Plan) : nothing("look", `${id}`);

@@ -20,6 +20,19 @@ const told = ({ why, act }: Step) => [why, act && (act.do === "start" ? act.plan
 const stepAfter = (given: Partial<Calibration>, experiments: Experiment[] = []) =>
   told(nextStep(calibration({ plan: "full", ...given }), experiments));
 
+describe("the next step after a gauge study", () => {
+  const study = { kind: "gauge_study", plan: "gauge_study", verdict: null } as const;
+
+  it("is its report, or to go on where it was interrupted", () => {
+    expect(stepAfter({ ...study, outcome: "good" })).toEqual(["gauge", null]);
+    expect(stepAfter({ ...study, state: "aborted", outcome: "aborted" })).toEqual(["resume", "resume"]);
+    expect(stepAfter({ ...study, of: 3, state: "interrupted", outcome: "interrupted" })).toEqual([
+      "resume",
+      "resume",
+    ]);
+  });
+});
+
 describe("the next step after a calibration", () => {
   it.each([
     ["unwritten", {}, ["apply", "apply"]],
