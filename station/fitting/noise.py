@@ -56,6 +56,14 @@ def pure_error(measurements: Measurements, whitened: Real) -> tuple[float, int]:
     return float(np.sum((whitened - mean[group]) ** 2)), int(np.sum(counts - 1))
 
 
+def chance_of(square: float, count: int, dof: int) -> float:
+    """Probability of as large a sum of squares of `count` numbers, each by its standard deviation.
+
+    :param dof: degrees of freedom of the repeats that told the noise (F); 0: it is known (chi-square)
+    """
+    return float(fdtrc(count, dof, square / count)) if dof else float(chdtrc(count, square))
+
+
 def specified_noise(row_sd: Real) -> Noise:
     """Of rows (R,) that scatter as specified."""
     return Noise(row_sd, "specification", 0)

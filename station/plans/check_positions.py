@@ -7,8 +7,9 @@ from functools import lru_cache
 from itertools import combinations
 
 import numpy as np
-from scipy.special import chdtrc, chdtri, chndtrinc
+from scipy.special import chdtri, chndtrinc, fdtri, ncfdtrinc
 
+from station.fitting import chance_of
 from station.five_bar import Robot
 from station.plans.full import inset_grid
 from station.plans.plan import PlanDesign, Visits, each_once, register
@@ -39,6 +40,8 @@ class ShiftTest:
     """(R, 2) A, whitened, per rad."""
     covariance: Real
     """(R, R) of the whitened differences from the prediction, if nothing has shifted."""
+    dof: int = 0
+    """Degrees of freedom of the repeats that told the noise; 0: it is as specified."""
 
     @property
     def information(self) -> Real:
@@ -47,12 +50,12 @@ class ShiftTest:
 
     def smallest(self) -> Real:
         """(2,) rad: shift of each joint alone that is found with 99 % probability."""
-        return np.asarray(np.sqrt(_needed() / np.diag(self.information)))
+        return np.asarray(np.sqrt(_needed(self.dof) / np.diag(self.information)))
 
     def blind(self) -> tuple[Real, float]:
         """The direction (2,) of both zeros together that shows least, and the shift found along it."""
         values, vectors = np.linalg.eigh(self.information)
-        return vectors[:, 0], float(np.sqrt(_needed() / values[0]))
+        return vectors[:, 0], float(np.sqrt(_needed(self.dof) / values[0]))
 
     def shift(self, difference: Real) -> tuple[Real, float, float]:
         """Of whitened differences (R,): the shift (2,), p-value of no shift, p-value of what is left."""
@@ -62,12 +65,15 @@ class ShiftTest:
         explained = float(shift @ self.information @ shift)
         # one reading settles the offset of the readout
         left = len(difference) - 1 - len(shift)
-        rest_p = float(chdtrc(left, max(square - explained, 0.0))) if left > 0 else 1.0
-        return shift, float(chdtrc(len(shift), explained)), rest_p
+        rest_p = chance_of(max(square - explained, 0.0), left, self.dof) if left > 0 else 1.0
+        return shift, chance_of(explained, len(shift), self.dof), rest_p
 
 
-def _needed() -> float:
+@lru_cache(maxsize=64)
+def _needed(dof: int) -> float:
     """Noncentrality that is found with the stated probability."""
+    if dof:
+        return float(ncfdtrinc(2, dof, 1.0 - FOUND, float(fdtri(2, dof, 1.0 - SHIFT_P))))
     return float(chndtrinc(chdtri(2, SHIFT_P), 2, 1.0 - FOUND))
 
 

@@ -80,7 +80,8 @@ def check_run(fit: Identification[FiveBar], age_days: float, until: datetime) ->
     at = mechanism.observe(fit.p, mechanism.theta)
     sd = mechanism.row_sd * fit.lasting.noise_ratio * fit.sd_factor
     rows = at.by_parameter / sd[:, None]
-    test = ShiftTest(rows[:, :2], rows @ wandered(fit, age_days) @ rows.T + np.eye(len(rows)))
+    covariance = rows @ wandered(fit, age_days) @ rows.T + np.eye(len(rows))
+    test = ShiftTest(rows[:, :2], covariance, fit.noise.dof)
     difference = mechanism.measured - at.value
     difference = difference - difference.mean()
     shift, shift_p, rest_p = test.shift(difference / sd)
