@@ -12,8 +12,6 @@ from tests.browser.conftest import Serve, Station
 from tests.browser.steps import add_run, open_station, run_to_end, start, violations
 from tests.browser.test_stopping import ON_TOP
 
-pytestmark = pytest.mark.long
-
 SIDEWAYS = "document.documentElement.scrollWidth - document.documentElement.clientWidth"
 WATCH = """() => {
   window.seen = [];

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import pytest
 from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import Serve, Station
 from tests.browser.steps import HOLD_MS, add_run, confirm, open_station, run_to_end, scan, start
-
-pytestmark = pytest.mark.long
 
 
 def test_calibrate_confirm_result_and_history_after_a_restart(
