@@ -6,6 +6,7 @@ PAGE := $(shell find web/ui \( -name node_modules -o -name tests -o -name api-ty
 	web/openapi.json station/messages/en.json hatch_build.py deploy/node.py
 PIP := $(BIN)/python -m pip --disable-pip-version-check
 NPM := $(BIN)/python deploy/node.py
+PROGRAMS := chromium curl firefox-esr fonts-dejavu-core fonts-wqy-microhei mbpoll mosquitto nginx
 TESTS := $(BIN)/pytest --numprocesses 3 --dist loadfile --no-loadscope-reorder
 
 .PHONY: run test coverage record pictures lint format bench security mutate reference lock bundle check-bundle clean
@@ -17,11 +18,11 @@ test: $(VENV)/installed-for-tests  ## everything that can be checked
 	$(NPM) test
 	$(NPM) ci --prefix ../../tests/web/provider
 	$(NPM) ci --prefix ../../tests/browser/firefox
-	deploy/debian-packages chromium curl firefox-esr fonts-dejavu-core fonts-wqy-microhei mbpoll mosquitto nginx
+	deploy/debian-packages $(PROGRAMS)
 	$(TESTS)
 
 coverage: $(VENV)/installed-for-tests  ## the same tests, with the lines that none of them runs (slower)
-	deploy/debian-packages chromium curl firefox-esr fonts-dejavu-core fonts-wqy-microhei mbpoll mosquitto nginx
+	deploy/debian-packages $(PROGRAMS)
 	$(TESTS) --cov=station --cov=drivers --cov=web
 
 record: $(VENV)/installed-for-tests  ## the closed loop in the browser, recorded; prints the folder

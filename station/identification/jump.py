@@ -170,7 +170,7 @@ def _moment(mechanism: FiveBar, found: _Fitted, things: tuple[int, ...] = THINGS
     count = len(mechanism.row_sd)
     basis, _ = np.linalg.qr(found.by_parameter)
     later = np.tril(np.ones((count, count)))
-    by_thing = np.column_stack([np.ones(count), _by_joints(mechanism, found)]) / mechanism.row_sd[:, None]
+    by_thing = np.column_stack([1.0 / mechanism.row_sd, found.by_parameter[:count, :2]])
     jumps = np.zeros((len(found.left), count, len(things)))
     jumps[:count] = later[:, :, None] * by_thing[:, None, list(things)]
     flat = jumps.reshape(len(found.left), -1)
@@ -180,12 +180,6 @@ def _moment(mechanism: FiveBar, found: _Fitted, things: tuple[int, ...] = THINGS
     gains = np.einsum("kt,kt->k", along, np.linalg.solve(square, along[:, :, None])[:, :, 0])
     gains[0] = 0.0  # a jump before the first reading is the unknown offset
     return int(np.argmax(gains))
-
-
-def _by_joints(mechanism: FiveBar, found: _Fitted) -> Real:
-    """(K, 2) mm per rad."""
-    count = len(mechanism.row_sd)
-    return np.asarray(found.by_parameter[:count, :2] * mechanism.row_sd[:, None])
 
 
 def _shift_mm(mechanism: FiveBar, found: _Fitted, moment: int) -> float:

@@ -41,21 +41,13 @@ class Trends(KeptFile):
 
         :param since: ended then or later; a time without a zone is UTC.
         """
+        finished, values = _finished(robot_serial, robot_type, since)
         places = ", ".join("?" * len(kinds))
-        conditions, values = [f"kind IN ({places})", "ended_ms IS NOT NULL"], [*kinds]
-        bounds: list[int] = []
-        for column, wanted in (("robot_serial", robot_serial), ("robot_type", robot_type)):
-            if wanted is not None:
-                conditions.append(f"{column} = ?")
-                values.append(wanted)
-        if since is not None:
-            conditions.append("ended_ms >= ?")
-            bounds.append(millis(since))
         rows = self._readers.all(
             f"SELECT {', '.join(f'{source} AS {name}' for name, source in _COLUMNS.items())}"
             " FROM calibrations LEFT JOIN results ON calibration_id = id LEFT JOIN made_by ON run_id = id"
-            f" WHERE {' AND '.join(conditions)} ORDER BY id DESC LIMIT ?",
-            [*values, *bounds, limit],
+            f" WHERE kind IN ({places}) AND {finished} ORDER BY id DESC LIMIT ?",
+            [*kinds, *values, limit],
         )
         found = [dict(zip(_COLUMNS, row, strict=True)) for row in reversed(rows)]
         for one in found:
@@ -74,17 +66,9 @@ class Trends(KeptFile):
 
         :param since: ended then or later; a time without a zone is UTC.
         """
-        conditions: list[str] = ["ended_ms IS NOT NULL"]
-        values: list[str | int] = []
-        for column, wanted in (("robot_serial", robot_serial), ("robot_type", robot_type)):
-            if wanted is not None:
-                conditions.append(f"{column} = ?")
-                values.append(wanted)
-        if since is not None:
-            conditions.append("ended_ms >= ?")
-            values.append(millis(since))
+        finished, values = _finished(robot_serial, robot_type, since)
         rows = self._readers.all(
-            f"WITH newest AS (SELECT id FROM calibrations WHERE {' AND '.join(conditions)}"
+            f"WITH newest AS (SELECT id FROM calibrations WHERE {finished}"
             " ORDER BY id DESC LIMIT ?)"
             " SELECT newest.id AS run, finding.value ->> '$.effect' AS effect,"
             " finding.value ->> '$.joint' AS joint, finding.value ->> '$.part' AS part,"
@@ -97,3 +81,19 @@ class Trends(KeptFile):
             [*values, limit],
         )
         return [EffectPoint(**{key: row[key] for key in row.keys()}) for row in rows]  # noqa: SIM118
+
+
+def _finished(
+    robot_serial: str | None, robot_type: str | None, since: datetime | None
+) -> tuple[str, list[str | int]]:
+    """Condition on finished runs, and its values."""
+    conditions, values = ["ended_ms IS NOT NULL"], list[str | int]()
+    for condition, wanted in (
+        ("robot_serial = ?", robot_serial),
+        ("robot_type = ?", robot_type),
+        ("ended_ms >= ?", None if since is None else millis(since)),
+    ):
+        if wanted is not None:
+            conditions.append(condition)
+            values.append(wanted)
+    return " AND ".join(conditions), values
