@@ -104,7 +104,7 @@ def _error(kind: str, rng: np.random.Generator) -> Callable[[Real], Real]:
     shapes: dict[str, Callable[[Real], Real]] = {
         "ripple": lambda theta: np.sin(per_turn * theta + phase),
         "sag": lambda theta: np.sin(theta + phase),
-        "play": lambda theta: np.sign(np.diff(theta, prepend=theta[0] - 1.0)),
-        "lag": lambda theta: np.diff(theta, prepend=theta[0]),
+        "play": lambda theta: -np.sign(np.diff(theta, prepend=theta[0] - 1.0)),
+        "lag": lambda theta: -np.diff(theta, prepend=theta[0]),
     }
     return lambda theta: np.asarray(size * shapes[kind](theta))
