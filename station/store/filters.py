@@ -15,6 +15,8 @@ BY_SERIAL: tuple[Order, ...] = ("serial", "serial_down")
 Conditions = tuple[list[str], list[str | int]]
 FEW = 2000
 """So many matches of a search are sorted; of more, some are soon met going through all runs in order."""
+MOST_COUNTED = 10_000
+"""More are not counted: nobody reads the digits, and a million take a quarter of a second."""
 _AFTER_ALL = "\U0010ffff"
 
 
