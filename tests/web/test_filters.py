@@ -62,7 +62,7 @@ def test_runs_are_found_by_how_their_serial_begins_counted_and_written_as_a_tabl
     assert ids(service, order="serial", cursor=by_serial[1], limit=2) == by_serial[2:4]
     assert ids(service, order="serial_down", cursor=by_serial[1], search="fb") == by_serial[:1]
     count = service.client.get(f"{RUNS}/count", params={"search": "fb-", "work_order": "WO-7"})
-    assert count.json() == {"count": 3}
+    assert count.json() == {"count": 3, "more": False}
     answer = service.client.get(f"{RUNS}.csv", params={"search": "fb-1"})
     table = list(csv.DictReader(io.StringIO(answer.text)))
     assert [row["robot_serial"] for row in table] == ["fb-11", "FB-10"]
