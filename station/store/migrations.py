@@ -340,9 +340,12 @@ def findings(db: Database) -> None:
 
 
 @migrations()
-def plans(db: Database) -> None:
-    """Runs are found by their plan."""
+def counts(db: Database) -> None:
+    """Runs are found by their plan, and counted by serial and what they ended with."""
     db.execute("CREATE INDEX calibrations_plan ON calibrations (plan)")
+    db.execute(
+        "CREATE INDEX calibrations_found ON calibrations (robot_serial COLLATE NOCASE, state, verdict, plan)"
+    )
 
 
 def _expand(blob: bytes) -> bytes:

@@ -360,18 +360,19 @@ class Store(
 
     def count(self, filters: Filters) -> tuple[int, bool]:
         """How many runs these filters let through, `MOST_COUNTED` at most; whether there are more."""
-        conditions, values = filters.conditions(self._or_unstored)
-        found = self._up_to(MOST_COUNTED + 1, conditions, values)
+        conditions, values = filters.conditions(self._or_unstored, order=None)
+        index = " INDEXED BY calibrations_found" if filters.indexed else ""
+        found = self._up_to(MOST_COUNTED + 1, f"calibrations{index}{where(conditions)}", values)
         return min(found, MOST_COUNTED), found > MOST_COUNTED
 
     def _finds_few(self, search: str | None) -> bool:
         conditions, values = Filters(search=search).conditions(self._or_unstored)
         if not search:
             return True
-        return self._up_to(FEW + 1, conditions, values) <= FEW
+        return self._up_to(FEW + 1, f"calibrations{where(conditions)}", values) <= FEW
 
-    def _up_to(self, most: int, conditions: list[str], values: list[str | int]) -> int:
-        some = f"SELECT 1 FROM calibrations{where(conditions)} LIMIT {most}"
+    def _up_to(self, most: int, runs: str, values: list[str | int]) -> int:
+        some = f"SELECT 1 FROM {runs} LIMIT {most}"
         row = self._readers.one(f"SELECT count(*) AS n FROM ({some})", values)
         return 0 if row is None else int(row["n"])
 
