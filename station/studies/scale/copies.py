@@ -51,7 +51,7 @@ def lengthen(database: Path, runs: int, *, readings: bool) -> None:
                     (
                         (
                             k,
-                            whole[k % len(whole)],
+                            whole[(k - first - 1) % len(whole)],
                             uid7(),
                             f"R{rng.randint(1, ROBOTS)}",
                             (k - first) * A_MINUTE_MS,
