@@ -16,16 +16,16 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from random import Random
-from typing import TypeVar
+from typing import ParamSpec, TypeVar
 
-from drivers.emulated.el7 import EL7, EL7Drive
+from drivers.emulated.drive import EmulatedDrive
 from drivers.emulated.faults import Faults
 from drivers.emulated.machine import Machine
-from drivers.emulated.nd280 import ND280
 from drivers.emulated.orders import Orders
 from drivers.emulated.spec import MachineSpec
 from drivers.emulated.spoiled import ReadoutOnLine, SpoiledDrive
-from drivers.lines import open_port
+from drivers.lines import NetAddress, Port, SerialAddress, open_port
+from station.identification import identify
 from station.outbox import Folder
 from station.service import Orchestrator, Runtime
 from station.settings import Settings
@@ -33,19 +33,16 @@ from station.simulation.clocks import Clocks, DrawnSecrets, dates
 from station.simulation.disk import CutOff, Disk
 from station.simulation.receiver import Receiver
 from station.simulation.scheduler import Process, Scheduler
+from station.simulation.site import Site
 from station.simulation.substitution import substituted
 from station.simulation.threads import Threads
 from station.simulation.wires import Wires
 
 T = TypeVar("T")
+P = ParamSpec("P")
 
 START_LIMIT_S = 60.0
 END_LIMIT_S = 60.0
-_STATION = {
-    "name": "Simulated station",
-    "scale": {"protocol": "heidenhain-nd", "url": "serial:///dev/scale?baud=9600&format=7E2"},
-    "servo": {"profile": "leadshine-el7", "url": "modbus+tcp://10.0.0.2:502"},
-}
 
 
 class NotRunning(Exception):
@@ -55,9 +52,12 @@ class NotRunning(Exception):
 class Plant:
     """Everything that is outside the station's process; a context manager."""
 
-    def __init__(self, home: Path, specs: list[MachineSpec], random: Random) -> None:
+    def __init__(
+        self, home: Path, specs: list[MachineSpec], random: Random, site: Site | None = None
+    ) -> None:
         """:param specs: the robots, of which one at a time is at the station"""
         self.home = home
+        self.site = site or Site()
         self.random = random
         self.scheduler = Scheduler(Random(random.random()))
         self.clocks = Clocks(self.scheduler)
@@ -69,7 +69,7 @@ class Plant:
         """True zero offsets before any zero was written."""
         self.receiver = Receiver(self.scheduler, Random(random.random()))
         self.settings = Settings.model_validate(
-            {**_STATION, "outbox": {"folder": [{"path": "told", "events": ["run.ended"]}]}}
+            {**self.site.settings, "outbox": {"folder": [{"path": "told", "events": ["run.ended"]}]}}
         )
         self.runtime: Runtime | None = None
         self.refusal: str | None = None
@@ -77,7 +77,8 @@ class Plant:
         self._process: Process | None = None
         self._ending = False
         self._mounted = 0
-        self._wires = self._wired(self.machines[0])
+        self._drives: tuple[EmulatedDrive, ...] = ()
+        self._wires: Wires | None = None
 
     @contextmanager
     def entered(self) -> Iterator[None]:
@@ -97,10 +98,21 @@ class Plant:
             threading.get_ident: threads.get_ident,
             queue.Queue: threads.Queue,
             Folder: self.receiver.connected,
-            open_port: lambda address, xonxoff: self._wires.open_port(address, xonxoff),
+            open_port: self._open_port,
+            identify: self._computed(identify),
         }
         with substituted(replacements):
+            self._switch_on()
             yield
+
+    def _computed(self, function: Callable[P, T]) -> Callable[P, T]:
+        """The same, which takes as long as on the computer of this site."""
+
+        def takes_time(*args: P.args, **kwargs: P.kwargs) -> T:
+            self.scheduler.wait(seconds=self.site.computing_s)
+            return function(*args, **kwargs)
+
+        return takes_time
 
     # The machine -----------------------------------------------------------------------------------
 
@@ -117,17 +129,31 @@ class Plant:
     def bring(self, number: int) -> None:
         """Put another robot at the station; only while the station is off."""
         self._mounted = number
-        self._wires = self._wired(self.machine)
+        self._switch_on()
 
-    def _wired(self, machine: Machine) -> Wires:
-        faults = Faults()
-        display = ReadoutOnLine(ND280(machine.head_mm, faults), self.orders)
-        drives = {
-            joint: SpoiledDrive(EL7Drive(machine, joint, faults, EL7), joint, self.orders) for joint in (1, 2)
-        }
-        return Wires(
-            self.scheduler, display.receive, {joint: drive.answer for joint, drive in drives.items()}
+    def _switch_on(self) -> None:
+        """Readout and drives of the robot at the station."""
+        for drive in self._drives:
+            drive.close()
+        faults, machine = Faults(), self.machine
+        self._drives = tuple(self.site.drive(machine, joint, faults) for joint in (1, 2))
+        readout = self.site.readout(machine, faults, self.clocks.monotonic)
+        gateway = self.site.line == "tcp"
+        spoiled = [
+            SpoiledDrive(drive, joint, self.orders, behind_gateway=gateway)
+            for joint, drive in enumerate(self._drives, start=1)
+        ]
+        self._wires = Wires(
+            self.scheduler,
+            self.site,
+            ReadoutOnLine(readout, self.orders).receive,
+            {joint: drive.answer for joint, drive in enumerate(spoiled, start=1)},
+            self._drives[0].check_sum_exception,
         )
+
+    def _open_port(self, address: SerialAddress | NetAddress, xonxoff: bool) -> Port:
+        assert self._wires is not None
+        return self._wires.open_port(address, xonxoff)
 
     # The station -----------------------------------------------------------------------------------
 

@@ -10,6 +10,8 @@ import hashlib
 import math
 from dataclasses import dataclass, field
 
+from pydantic_core import to_json
+
 from station.motion import LiveEvent
 from station.records import Calibration, CalibrationSummary, RunBrief, RunReading, State
 from station.simulation.plant import Plant
@@ -94,7 +96,7 @@ class Witness:
     def heard(self, event: LiveEvent) -> None:
         """Listener of the running station."""
         data = event.data
-        self._happens(f"{event.type} {data}")
+        self._happens(f"{event.type} {to_json(data).decode()}")
         if isinstance(data, RunBrief):
             self._current = data
         elif isinstance(data, RunReading) and self._current is not None:

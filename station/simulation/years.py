@@ -18,6 +18,7 @@ from station.five_bar import Robot
 from station.simulation.days import DEEDS, TROUBLES, Days
 from station.simulation.keeper import Keeper, Stranded
 from station.simulation.plant import Plant
+from station.simulation.site import Site
 from station.simulation.witness import Violation, Witness
 
 MONTHS_A_YEAR = 12
@@ -64,7 +65,8 @@ def live(
     """
     random = Random(seed)
     with TemporaryDirectory() as folder, prepared():
-        plant = Plant(Path(folder) / "home", [_machine(random) for _ in range(_ROBOTS)], random)
+        machines = [_machine(random) for _ in range(_ROBOTS)]
+        plant = Plant(Path(folder) / "home", machines, random, Site.drawn(random))
         keeper = Keeper(plant, Witness(plant))
         life = Days(keeper, Random(random.random()), deeds, troubles)
         lived = 0
