@@ -116,7 +116,8 @@ def _station(seed: str = "") -> Iterator[Keeper]:
         calibrated, taken = _calibrated()
         shutil.copytree(calibrated.name, home)
         plant = Plant(home, [_SPEC], Random(seed))
-        plant.receiver.taken = list(taken)
+        for receiver in plant.receivers.values():
+            receiver.taken = list(taken)
         with plant.entered():
             yield Keeper(plant, Witness(plant))
             plant.scheduler.end()
@@ -137,7 +138,7 @@ def _calibrated() -> tuple[TemporaryDirectory[str], tuple[tuple[int, str], ...]]
         keeper.come_to_rest()
         keeper.end()
         plant.scheduler.end()
-    return folder, tuple(plant.receiver.taken)
+    return folder, tuple(plant.receivers["plant"].taken)
 
 
 def _in_order(keeper: Keeper, case: Order) -> None:

@@ -12,11 +12,13 @@ import secrets
 import sqlite3
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from contextlib import contextmanager
 from pathlib import Path
 from random import Random
-from typing import ParamSpec, TypeVar
+from typing import Any, ParamSpec, Protocol, TypeVar
+
+from fastapi import FastAPI
 
 from drivers.emulated.drive import EmulatedDrive
 from drivers.emulated.faults import Faults
@@ -31,18 +33,33 @@ from station.service import Orchestrator, Runtime
 from station.settings import Settings
 from station.simulation.clocks import Clocks, DrawnSecrets, dates
 from station.simulation.disk import CutOff, Disk
+from station.simulation.loops import VirtualLoop, threads_of_requests
 from station.simulation.receiver import Receiver
 from station.simulation.scheduler import Process, Scheduler
 from station.simulation.site import Site
 from station.simulation.substitution import substituted
 from station.simulation.threads import Threads
 from station.simulation.wires import Wires
+from web.app import create_app
 
 T = TypeVar("T")
 P = ParamSpec("P")
 
 START_LIMIT_S = 60.0
 END_LIMIT_S = 60.0
+
+
+class Exchange(Protocol):
+    """The client's end of a request."""
+
+    done: bool
+    """Whether its answer has come."""
+
+    async def receive(self) -> dict[str, Any]:
+        """What the client sends next."""
+
+    async def send(self, message: Mapping[str, Any]) -> None:
+        """What comes back."""
 
 
 class NotRunning(Exception):
@@ -67,14 +84,20 @@ class Plant:
         self.serials = [f"SIM-{number}" for number in range(1, len(specs) + 1)]
         self.first_offsets_deg = [spec.zero_offsets_deg for spec in specs]
         """True zero offsets before any zero was written."""
-        self.receiver = Receiver(self.scheduler, Random(random.random()))
+        self.receivers = {
+            name: Receiver(self.scheduler, Random(random.random()), name) for name in ("plant", "office")
+        }
         self.settings = Settings.model_validate(
-            {**self.site.settings, "outbox": {"folder": [{"path": "told", "events": ["run.ended"]}]}}
+            {
+                **self.site.settings,
+                "outbox": {"folder": [{"path": name, "events": ["run.ended"]} for name in self.receivers]},
+            }
         )
         self.runtime: Runtime | None = None
         self.refusal: str | None = None
         """Why the last start failed."""
         self._process: Process | None = None
+        self._app: FastAPI | None = None
         self._ending = False
         self._mounted = 0
         self._drives: tuple[EmulatedDrive, ...] = ()
@@ -97,11 +120,11 @@ class Plant:
             threading.Condition: threads.Condition,
             threading.get_ident: threads.get_ident,
             queue.Queue: threads.Queue,
-            Folder: self.receiver.connected,
+            Folder: lambda settings: self.receivers[str(settings.path)],
             open_port: self._open_port,
             identify: self._computed(identify),
         }
-        with substituted(replacements):
+        with substituted(replacements), threads_of_requests(self.scheduler):
             self._switch_on()
             yield
 
@@ -214,9 +237,29 @@ class Plant:
             raise NotRunning
         return answers[0]
 
+    def serve(self, scope: MutableMapping[str, Any], exchange: Exchange) -> None:
+        """Let the station's application serve a request; returns when it is answered, or never will be.
+
+        :raises NotRunning: the station does not run
+        """
+        process, app = self._process, self._app
+        if not self.runs or process is None or app is None:
+            raise NotRunning
+
+        def serving() -> None:
+            loop = VirtualLoop(self.scheduler)
+            try:
+                loop.run_until_complete(app(scope, exchange.receive, exchange.send))
+            finally:
+                loop.close()
+
+        task = self.scheduler.spawn(serving, f"request {scope['path']}", process)
+        self.scheduler.wait(lambda: exchange.done or task.ended)
+
     def _live(self) -> None:
         try:
             with Runtime.open(self.settings, self.home) as runtime:
+                self._app = create_app(runtime)
                 self.runtime = runtime
                 self.scheduler.wait(lambda: self._ending)
         except Exception as error:  # noqa: BLE001 - boundary of the process: what it says at its end

@@ -11,7 +11,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from types import ModuleType
 
-ROOTS = ("station", "drivers")
+ROOTS = ("station", "drivers", "web")
 """Packages whose names are replaced."""
 OWN = "station.simulation"
 
