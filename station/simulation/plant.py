@@ -259,7 +259,10 @@ class Plant:
     def _live(self) -> None:
         try:
             with Runtime.open(self.settings, self.home) as runtime:
-                self._app = create_app(runtime)
+                app = create_app(runtime)
+                if self._app is not None:  # its routes are ready, which takes as long as a run
+                    self._app.state = app.state
+                self._app = self._app or app
                 self.runtime = runtime
                 self.scheduler.wait(lambda: self._ending)
         except Exception as error:  # noqa: BLE001 - boundary of the process: what it says at its end
