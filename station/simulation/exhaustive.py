@@ -22,6 +22,7 @@ from station.records import CalibrationRequest
 from station.simulation.disk import FOR_GOOD, DiskTrouble
 from station.simulation.keeper import Keeper, Stranded
 from station.simulation.plant import Plant
+from station.simulation.site import Site
 from station.simulation.witness import Violation, Witness
 from station.simulation.years import prepared
 
@@ -115,7 +116,7 @@ def _station(seed: str = "") -> Iterator[Keeper]:
         home = Path(folder) / "home"
         calibrated, taken = _calibrated()
         shutil.copytree(calibrated.name, home)
-        plant = Plant(home, [_SPEC], Random(seed))
+        plant = Plant(home, [_SPEC], Random(seed), Site.instant())
         for receiver in plant.receivers.values():
             receiver.taken = list(taken)
         with plant.entered():
@@ -130,7 +131,7 @@ def _calibrated() -> tuple[TemporaryDirectory[str], tuple[tuple[int, str], ...]]
     Made once in each process; the folder is deleted at its end.
     """
     folder = TemporaryDirectory(prefix="calibrated-")
-    plant = Plant(Path(folder.name), [_SPEC], Random(1))
+    plant = Plant(Path(folder.name), [_SPEC], Random(1), Site.instant())
     keeper = Keeper(plant, Witness(plant))
     with plant.entered():
         keeper.start()

@@ -80,7 +80,7 @@ class Plant:
         self.clocks = Clocks(self.scheduler)
         self.disk = Disk(self.scheduler)
         self.orders = Orders(clock=lambda: self.scheduler.now_s)
-        self.machines = [Machine(spec, lambda: self.scheduler.now_s) for spec in specs]
+        self.machines = [Machine(spec, lambda: self.scheduler.now_s, speed=self.site.haste) for spec in specs]
         self.serials = [f"SIM-{number}" for number in range(1, len(specs) + 1)]
         self.first_offsets_deg = [spec.zero_offsets_deg for spec in specs]
         """True zero offsets before any zero was written."""

@@ -40,6 +40,8 @@ class Site:
     speed_deg_s: float = 30.0
     samples: int = 5
     """Of a reading."""
+    haste: float = 1.0
+    """How much faster than real arms the arms move."""
 
     @classmethod
     def drawn(cls, random: Random) -> Site:
@@ -53,6 +55,11 @@ class Site:
             speed_deg_s=random.choice((30.0, 60.0, 120.0)),
             samples=random.choice((2, 3, 5)),
         )
+
+    @classmethod
+    def instant(cls) -> Site:
+        """Devices that answer and arrive almost at once, for cases by the thousand."""
+        return cls(trip_s=0.001, computing_s=0.01, speed_deg_s=120.0, samples=2, haste=50.0)
 
     @property
     def settings(self) -> dict[str, Any]:
