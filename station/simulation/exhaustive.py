@@ -18,7 +18,7 @@ from typing import Literal, get_args
 
 from drivers.emulated.orders import FaultOrder
 from drivers.emulated.spec import MachineSpec
-from station.records import CalibrationRequest
+from station.records import CalibrationRequest, PlanName
 from station.simulation.disk import FOR_GOOD, DiskTrouble
 from station.simulation.keeper import Keeper, Stranded
 from station.simulation.plant import Plant
@@ -175,8 +175,9 @@ def _let_happen(keeper: Keeper, event: Event, key: str) -> None:
             pass
 
 
-def _measure(keeper: Keeper, key: str) -> None:
-    request = CalibrationRequest(keeper.plant.serials[0], "calibrate", "ada", "paper")
+def _measure(keeper: Keeper, key: str, kind: Literal["calibrate", "check"] = "calibrate") -> None:
+    plan: PlanName = "paper" if kind == "calibrate" else "check"
+    request = CalibrationRequest(keeper.plant.serials[0], kind, "ada", plan)
     keeper.witness.started(
         key, keeper.plant.ask(lambda station: station.submit(request, idempotency_key=key).id)
     )
@@ -211,7 +212,7 @@ def _settled(keeper: Keeper) -> None:
     keeper.come_to_rest()
     plant.orders.replace(())
     with keeper.answered():
-        _measure(keeper, "last")
+        _measure(keeper, "last", "check")
     if (run := keeper.orchestrator.running) is None:
         keeper.witness.fails("idle", "at rest, and no run may start")
         return
