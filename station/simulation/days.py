@@ -16,8 +16,8 @@ from typing import Any, TypeVar
 from drivers.emulated.orders import KINDS, Device, FaultOrder
 from station.five_bar import Robot
 from station.records import PlanName
-from station.simulation.clients import Client
 from station.simulation.disk import FOR_GOOD, DiskTrouble
+from station.simulation.jobs import WHOLE, Job, Request, Script
 from station.simulation.keeper import RUN_LIMIT_S, Keeper, Stranded
 from station.simulation.people import People
 from station.simulation.plant import Plant
@@ -63,44 +63,25 @@ _NEW_KEY, _STRANGER = 0.05, 0.3
 _CLOCK_STEPS_S = (-3600.0, -60.0, 90.0, 3600.0, 315_360_000.0)
 
 
-@dataclass(frozen=True)
-class Request:
-    """For a run."""
-
-    client: Client
-    path: str
-    body: Mapping[str, Any]
-    action: str
-    """What the audit calls it."""
-    key: str | None
-
-    def send(self, witness: Witness) -> int:
-        """The number of the run that was started, or 0; the witness hears of the answer.
-
-        :raises NotRunning: the station was killed before it answered, or does not run
-        """
-        answer = self.client.send("POST", self.path, self.body, key=self.key)
-        witness.answered(answer)
-        if answer.run:
-            witness.started_by(self.client.name, self.action, answer.run)
-            if self.key is not None:
-                witness.started(self.key, answer.run)
-        return answer.run
-
-
 @dataclass
 class Days:
     """Lives at one plant."""
 
     keeper: Keeper
-    random: Random
+    seed: str
     deeds: Mapping[str, float]
     troubles: Mapping[str, float]
+    script: Script = WHOLE
     happened: Counter[str] = field(default_factory=Counter)
-    _key: int = 0
+    jobs: list[Job] = field(default_factory=list)
+    """Those that came about."""
+    _day: int = -1
+    _first: bool = True
 
     def __post_init__(self) -> None:
-        self.people = People(self.plant, self.random)
+        self.random = Random(self.seed)
+        """Of the day, or of the job that is under way."""
+        self.people = People(self.plant, Random(f"{self.seed} people"))
 
     @property
     def plant(self) -> Plant:
@@ -112,30 +93,41 @@ class Days:
 
     def day(self) -> None:
         """From one morning to the next."""
-        plant, random = self.plant, self.random
+        plant = self.plant
+        self._day += 1
+        self.random = random = Random(f"{self.seed} day {self._day}")
         if random.random() < 0.3:
             plant.bring(random.randrange(len(plant.machines)))
+        if self.script.has_day(self._day):
+            self._open(random)
+        plant.clocks.set_s += _NIGHT_S
+
+    def _open(self, random: Random) -> None:
+        """The station is on."""
+        plant = self.plant
         for receiver in plant.receivers.values():
             receiver.fails = random.choice((0.0, 0.0, 0.0, 0.3, 0.8))
         self.keeper.start()
         self._people_come()
-        for _ in range(random.randint(*_RUNS_A_DAY)):
-            self._job(_drawn(random, self.deeds), _drawn(random, self.troubles))
-        if random.random() < _KILLED_AT_NIGHT:
+        killed_after_s = random.uniform(1.0, 20.0) if random.random() < _KILLED_AT_NIGHT else None
+        for number in range(random.randint(*_RUNS_A_DAY)):
+            if self.script.keeps(self._day, number):
+                self._job(number)
+        if killed_after_s is not None:
             self.happened["kill"] += 1
             plant.kill()
-            self.keeper.restart(random.uniform(1.0, 20.0))
+            self.keeper.restart(killed_after_s)
         self.keeper.deliver_all()
         self.witness.pulled(self.people.pull())
         self.witness.all_pulled(self.keeper.store)
         self.keeper.end()
-        plant.clocks.set_s += _NIGHT_S
 
     def _people_come(self) -> None:
-        if not self._key:
+        if self._first:
             self.people.begin()
         elif self.random.random() < _NEW_KEY:
             self.people.renew_key()
+        self._first = False
         if self.random.random() < _STRANGER:
             self.happened["stranger"] += 1
             order = {"robot_serial": "SIM-1", "plan": "check", "operator": "nobody"}
@@ -144,10 +136,14 @@ class Days:
 
     # One job -------------------------------------------------------------------------------------------
 
-    def _job(self, deed: str, trouble: str) -> None:
+    def _job(self, number: int) -> None:
         """Somebody asks for a run; something happens meanwhile; it ends, and the station is looked at."""
-        self._key += 1
-        key = f"job {self._key}"
+        key = f"job {self._day}.{number}"
+        self.random = Random(f"{self.seed} {key}")
+        deed, trouble = _drawn(self.random, self.deeds), _drawn(self.random, self.troubles)
+        if (self._day, number) in self.script.calm:
+            trouble = "none"
+        self.jobs.append(Job(self._day, number, deed, trouble))
         self.happened[deed] += 1
         if trouble != "none":
             self.happened[trouble] += 1
