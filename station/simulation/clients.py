@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, MutableMapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
+
+from starlette.types import Message, Scope
 
 from station.simulation.plant import NotRunning, Plant
 
@@ -41,7 +43,7 @@ class Client:
         self,
         method: str,
         path: str,
-        body: Mapping[str, Any] | None = None,
+        body: Mapping[str, object] | None = None,
         *,
         key: str | None = None,
         query: str = "",
@@ -55,7 +57,7 @@ class Client:
         headers = {**self.headers, **({"Idempotency-Key": key} if key else {})}
         if body is not None:
             headers |= {"Content-Type": "application/json", "Content-Length": str(len(content))}
-        scope: MutableMapping[str, Any] = {
+        scope: Scope = {
             "type": "http",
             "asgi": {"version": "3.0", "spec_version": "2.3"},
             "http_version": "1.1",
@@ -82,18 +84,18 @@ class _Exchange:
 
     def __init__(self, content: bytes) -> None:
         self._content: bytes | None = content
-        self._start: Mapping[str, Any] = {}
+        self._start: Message = {}
         self._received = b""
         self.done = False
         """Whether the whole answer has come; what the server does afterwards the client does not see."""
 
-    async def receive(self) -> dict[str, Any]:
+    async def receive(self) -> Message:
         if self._content is None:
             return {"type": "http.disconnect"}
         content, self._content = self._content, None
         return {"type": "http.request", "body": content, "more_body": False}
 
-    async def send(self, message: Mapping[str, Any]) -> None:
+    async def send(self, message: Message) -> None:
         if message["type"] == "http.response.start":
             self._start = message
         elif message["type"] == "http.response.body":

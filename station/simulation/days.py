@@ -11,7 +11,7 @@ from collections import Counter
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from random import Random
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from drivers.emulated.orders import KINDS, Device, FaultOrder
 from station.five_bar import Robot
@@ -190,7 +190,7 @@ class Days:
         passed = self._last_pass(serial)
         if deed == "measure" or (deed != "retract" and passed is None):
             plan = _drawn(self.random, _PLANS)
-            order: dict[str, Any] = {"robot_serial": serial, "plan": plan, "operator": "Ada"}
+            order: dict[str, object] = {"robot_serial": serial, "plan": plan, "operator": "Ada"}
             if plan == "adaptive":
                 order["until_mm"] = 0.3
             client = self.random.choice((people.mes, people.operator))

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from station.simulation.clients import Client
 from station.simulation.witness import Witness
@@ -48,7 +47,7 @@ class Request:
 
     client: Client
     path: str
-    body: Mapping[str, Any]
+    body: Mapping[str, object]
     action: str
     """What the audit calls it."""
     key: str | None

@@ -26,7 +26,7 @@ class Operator(Client):
         self,
         method: str,
         path: str,
-        body: Mapping[str, Any] | None = None,
+        body: Mapping[str, object] | None = None,
         *,
         key: str | None = None,
         query: str = "",
@@ -70,7 +70,7 @@ class People:
         _, key = self._administration().add_key(_ROOT, self.mes.name, "mes")
         self.mes.headers["Authorization"] = f"Bearer {key}"
 
-    def try_without_right(self, order: Mapping[str, Any], passed: int | None) -> Answer:
+    def try_without_right(self, order: Mapping[str, object], passed: int | None) -> Answer:
         """Somebody without a key, with a revoked one, or with one that may not do this, asks for motion."""
         start = ("POST", "/calibrations", order)
         stranger = Client(self.plant, "nobody", address="10.0.0.66")

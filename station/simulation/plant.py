@@ -12,13 +12,14 @@ import secrets
 import sqlite3
 import threading
 import time
-from collections.abc import Callable, Iterator, Mapping, MutableMapping
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from random import Random
-from typing import Any, ParamSpec, Protocol, TypeVar
+from typing import ParamSpec, Protocol, TypeVar
 
 from fastapi import FastAPI
+from starlette.types import Message, Scope
 
 from drivers.emulated.drive import EmulatedDrive
 from drivers.emulated.faults import Faults
@@ -55,10 +56,10 @@ class Exchange(Protocol):
     done: bool
     """Whether its answer has come."""
 
-    async def receive(self) -> dict[str, Any]:
+    async def receive(self) -> Message:
         """What the client sends next."""
 
-    async def send(self, message: Mapping[str, Any]) -> None:
+    async def send(self, message: Message) -> None:
         """What comes back."""
 
 
@@ -237,7 +238,7 @@ class Plant:
             raise NotRunning
         return answers[0]
 
-    def serve(self, scope: MutableMapping[str, Any], exchange: Exchange) -> None:
+    def serve(self, scope: Scope, exchange: Exchange) -> None:
         """Let the station's application serve a request; returns when it is answered, or never will be.
 
         :raises NotRunning: the station does not run

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from random import Random
-from typing import Any, Literal
+from typing import Literal
 
 from drivers.emulated.blvr import BLVRDrive
 from drivers.emulated.drive import EmulatedDrive
@@ -62,16 +62,16 @@ class Site:
         return cls(trip_s=0.001, computing_s=0.01, speed_deg_s=120.0, samples=2, haste=50.0)
 
     @property
-    def settings(self) -> dict[str, Any]:
+    def settings(self) -> dict[str, object]:
         """Of its station file."""
-        scale: dict[str, Any] = {
+        scale: dict[str, object] = {
             "protocol": self.scale,
             "url": f"serial:///dev/scale?baud={SCALE_BAUD[self.scale]}&format={_SCALE_FORMAT[self.scale]}",
         }
         if self.scale == "siko":
             scale["resolution_mm"] = _SIKO_MM
         rtu = f"modbus+rtu://{SERVO_PORT}?baud={SERVO_BAUD}&format=8N2"
-        servo: dict[str, Any] = {
+        servo: dict[str, object] = {
             "profile": self.servo,
             "url": rtu if self.line == "rtu" else "modbus+tcp://10.0.0.2:502",
         }
