@@ -4,7 +4,7 @@ import { now, station } from "../../src/live";
 import { Header } from "../../src/parts/header";
 import { navigate } from "../../src/router";
 import type { Device, Station } from "../../src/types";
-import { interlock, run, stationNow } from "../samples";
+import { interlock, run, stationNow, stopClock } from "../samples";
 
 const device = (state: Device["state"]): Device => ({
   name: "scale",
@@ -26,7 +26,7 @@ const status = (given: Partial<Station> | null) => {
 };
 
 beforeEach(() => {
-  now.value = performance.now();
+  stopClock();
 });
 
 describe("the state of the station", () => {
