@@ -1,5 +1,6 @@
 /** The REST calls, the same that the MES uses. */
 import { t } from "./messages";
+import { said } from "./messages/said";
 import type {
   Calibration,
   CalibrationBody,
@@ -54,7 +55,7 @@ export async function call<T>(
   if (!response.ok && !(accepted === response.status && body)) {
     const problem = body as Partial<Problem> | null;
     throw new Refused(
-      problem?.detail ?? t.refusals.status(response.status),
+      problem?.detail ? said(problem.detail) : t.refusals.status(response.status),
       problem?.field ?? null,
       response.status,
     );

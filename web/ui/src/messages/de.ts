@@ -1,6 +1,7 @@
 /** Alle Texte der Seite auf Deutsch. */
 import shared from "../../../../station/messages/de.json";
 import { maintenance, training } from "./de-maintenance";
+import { reports } from "./de-reports";
 import { sentences } from "./de-sentences";
 import type { Messages } from "./index";
 
@@ -9,7 +10,7 @@ export const de: Messages = {
   title: "Kalibrierstation",
   listed: (parts) => parts.join(", "),
 
-  sentences,
+  sentences: { ...sentences, ...reports },
   effects: shared.effects,
   effectAt: {
     joint: (effect, joint) => `${effect} von Gelenk ${joint}`,

@@ -2,6 +2,7 @@
 import shared from "../../../../station/messages/zh.json";
 import type { Messages } from "./index";
 import { maintenance, training } from "./zh-maintenance";
+import { reports } from "./zh-reports";
 import { sentences } from "./zh-sentences";
 
 export const zh: Messages = {
@@ -9,7 +10,7 @@ export const zh: Messages = {
   title: "标定工作站",
   listed: (parts) => parts.join("、"),
 
-  sentences,
+  sentences: { ...sentences, ...reports },
   effects: shared.effects,
   effectAt: {
     joint: (effect, joint) => `关节 ${joint} 的${effect}`,

@@ -5,6 +5,8 @@ import { Refused, stop } from "../api";
 import { timeOfDay } from "../format";
 import { clock, connected, offline, station } from "../live";
 import { t } from "../messages";
+import { said } from "../messages/said";
+import { deviceName } from "../names";
 
 const report = signal<{ text: string; failed: boolean; at: string } | null>(null);
 
@@ -16,7 +18,7 @@ async function press(): Promise<void> {
   try {
     const { axes, confirmed } = await stop();
     const troubles = Object.entries(axes).flatMap(([axis, trouble]) =>
-      trouble ? [`${axis}: ${trouble}`] : [],
+      trouble ? [`${deviceName(axis)}: ${said(trouble)}`] : [],
     );
     report.value = confirmed
       ? { text: t.stop.stopped(at), failed: false, at }

@@ -1,5 +1,6 @@
 import { station } from "../../live";
 import { t } from "../../messages";
+import { said } from "../../messages/said";
 
 /** A failed check locks calibrated work; the operator must see it before anything else. */
 export function CalibrationHolds() {
@@ -10,7 +11,7 @@ export function CalibrationHolds() {
         <>
           <h2>{t.station.locked}</h2>
           <p class="alarm act">
-            ▲ {holds.robot_serial}: {holds.text}
+            ▲ {holds.robot_serial}: {said(holds.text)}
           </p>
         </>
       )}
