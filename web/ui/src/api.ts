@@ -21,6 +21,8 @@ import type {
   Stopped,
   Summary,
   Target,
+  TaughtPosition,
+  TranslatedPosition,
   Trend,
 } from "./types";
 
@@ -153,6 +155,12 @@ export const solve = (id: number, targets: Target[]) =>
   call<Solution>("POST", `/calibrations/${id}/solve`, {
     headers: { "Content-Type": "application/json" },
     body: JSON.stringify({ targets }),
+  });
+
+export const translate = (id: number, positions: TaughtPosition[], back: boolean) =>
+  call<{ items: TranslatedPosition[] }>("POST", `/calibrations/${id}/translate`, {
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify({ positions, back }),
   });
 
 export const diagnosis = (id: number) => call<Diagnosis>("GET", `/calibrations/${id}/diagnosis`);

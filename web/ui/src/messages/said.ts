@@ -82,7 +82,7 @@ function whole(text: string): string | undefined {
 
 /** A number, a device, or again something that the station says. */
 function value(text: string): string {
-  if (IS_NUMBER.test(text)) return local(text);
+  if (IS_NUMBER.test(text)) return local(text).replace("-", "−");
   if (text === "deg") return "°";
   const device = text.charAt(0).toLowerCase() + text.slice(1);
   return (Object.hasOwn(t.deviceNames, device) && deviceNames[device]) || inPieces(text);

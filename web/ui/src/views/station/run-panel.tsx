@@ -23,7 +23,11 @@ export function RunPanel() {
           <p>{run && t.station.runLine(run.robot_serial, run.id, run.operator)}</p>
           <progress aria-label={t.station.progress} value={run?.progress ?? 0} max={1} />
           <p>{run ? t.shared.stepOf(step, steps || "?") : ""}</p>
-          <p>{run && remainingS.value !== null ? t.station.remaining(duration(remainingS.value)) : ""}</p>
+          <p>
+            {run && run.state !== "waiting" && remainingS.value !== null
+              ? t.station.remaining(duration(remainingS.value))
+              : ""}
+          </p>
         </div>
         <AbortButton />
       </div>
