@@ -56,7 +56,7 @@ describe("what the station says in English only", () => {
       "驱动器 1 在 127.0.0.1:4001 上没有应答；请检查电缆、电源和地址。" +
         "驱动器 2 在 127.0.0.1:4001 上没有应答；请检查电缆、电源和地址。",
     );
-    expect(said("drive 2: 602Ch position, pulses = -1234")).toBe("位置，脉冲 = −1234（寄存器 602Ch）");
+    expect(said("drive 2: 602Ch position, pulses = -1234")).toBe("−1234（寄存器 602Ch）");
   });
 
   it("has one unit for an angle, also in English", async () => {

@@ -492,8 +492,8 @@ export const reports: Record<string, string> = {
   "The temperature is within its window": "Die Temperatur liegt im erlaubten Bereich",
   "The reference check is valid": "Die Referenzprüfung gilt",
   // what crosses the wires
-  "drive {unit}: {address}h {name} = {value}": "{name} = {value} (Register {address}h)",
-  "drive {unit}: {address}h = {value}": "Register {address}h = {value}",
+  "drive {unit}: {address}h {name} = {value}": "{value} (Register {address}h)",
+  "drive {unit}: {address}h = {value}": "{value} (Register {address}h)",
   "drive {unit}: {address}h {name} on = {bytes}": "{name} und folgende = {bytes} (Register {address}h)",
   "drive {unit}: {address}h on = {bytes}": "Register {address}h und folgende = {bytes}",
   "drive {unit}: done": "ausgeführt",

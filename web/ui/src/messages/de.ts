@@ -171,6 +171,7 @@ export const de: Messages = {
     connected: "verbunden",
     connecting: "wird verbunden …",
     notConnected: "VERBINDET",
+    signInFirst: "NICHT ANGEMELDET",
     notReady: "◆ NICHT BEREIT",
     ready: "BEREIT",
     device: (name, state) => `▲ ${name}: ${state}`,

@@ -195,6 +195,7 @@ export const en = {
     connected: "connected",
     connecting: "connecting …",
     notConnected: "CONNECTING",
+    signInFirst: "NOT SIGNED IN",
     notReady: "◆ NOT READY",
     ready: "READY",
     device: (name: string, state: string) => `▲ ${name}: ${state}`,

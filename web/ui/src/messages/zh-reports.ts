@@ -442,8 +442,8 @@ export const reports: Record<string, string> = {
   "The temperature is within its window": "温度在允许范围内",
   "The reference check is valid": "参考检查有效",
   // what crosses the wires
-  "drive {unit}: {address}h {name} = {value}": "{name} = {value}（寄存器 {address}h）",
-  "drive {unit}: {address}h = {value}": "寄存器 {address}h = {value}",
+  "drive {unit}: {address}h {name} = {value}": "{value}（寄存器 {address}h）",
+  "drive {unit}: {address}h = {value}": "{value}（寄存器 {address}h）",
   "drive {unit}: {address}h {name} on = {bytes}": "{name}及其后 = {bytes}（寄存器 {address}h）",
   "drive {unit}: {address}h on = {bytes}": "寄存器 {address}h 及其后 = {bytes}",
   "drive {unit}: done": "已执行",

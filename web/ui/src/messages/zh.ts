@@ -149,6 +149,7 @@ export const zh: Messages = {
     connected: "已连接",
     connecting: "正在连接 …",
     notConnected: "连接中",
+    signInFirst: "未登录",
     notReady: "◆ 未就绪",
     ready: "就绪",
     device: (name, state) => `▲ ${name}：${state}`,
