@@ -20,7 +20,7 @@ from playwright.sync_api import Page
 PICTURES = Path(__file__).parent / "pictures"
 SPOILED = (Path(__file__).parent / "spoiled.js").read_text()
 MAKE = "STATION_PICTURES"
-"""Environment variable: reference pictures are written, not compared; a folder takes them in full size to be looked at."""
+"""Environment variable: reference pictures are written, not compared; a folder takes them in full size."""
 CELL_PX, GREYS = 8, 16
 SAME = 32
 """Of 255: two cells that differ less look the same from afar."""
@@ -52,9 +52,8 @@ WORDS = r"""besides => {
   }
   return [...new Set(words)];
 }"""
-SAME_EVERYWHERE = frozenset(
-    "ada csv fb http json mes min mqtt new osc pdf pin rms stop utc".split()  # names, units, file formats
-)
+SAME_EVERYWHERE = frozenset({"ada", "csv", "fb", "http", "json", "mes", "min", "new", "pdf", "pin", "utc"})
+"""Names, units and file formats."""
 Cells = NDArray[np.float64]
 
 
