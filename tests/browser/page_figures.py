@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import sys
 import time
 from contextlib import closing
 from pathlib import Path
@@ -78,8 +79,8 @@ def kept_open(page: Page, port: int) -> tuple[list[float], list[tuple[float, int
             if number == RUNS:
                 break
             body = {"robot_serial": "B-1", "plan": "paper", "operator": "bench"}
-            run = _json(http, "POST", "/api/v1/calibrations", body)["id"]
-            while _json(http, "GET", f"/api/v1/calibrations/{run}")["state"] in ("queued", "running"):
+            _json(http, "POST", "/api/v1/calibrations", body)
+            while _json(http, "GET", "/api/v1/station")["run"] is not None:
                 time.sleep(0.01)
     return page.evaluate("window.taken"), memory
 
@@ -114,33 +115,45 @@ def spread(times: list[float]) -> str:
     return f"median {median(times):.0f} ms, best {min(times):.0f}, worst {max(times):.0f}"
 
 
-def main() -> None:
+def start(browser: Browser) -> None:
+    with TemporaryDirectory() as folder, service(Path(folder)) as port:
+        times = cold_starts(browser, f"http://127.0.0.1:{port}/")
+    row(f"from the request to READY, nothing in the cache, {COLD_STARTS} starts", spread(times), "400 ms")
+
+
+def tab(browser: Browser) -> None:
+    with TemporaryDirectory() as folder, service(Path(folder)) as port:
+        page = browser.new_context(viewport=SMALL).new_page()  # type: ignore[arg-type]
+        page.add_init_script(f"({WATCH_EVENTS})()")
+        page.goto(f"http://127.0.0.1:{port}/")
+        page.wait_for_function(READY)
+        taken, memory = kept_open(page, port)
+        page.context.close()
+    taken.sort()
+    events = f"median {median(taken):.1f} ms, 95th percentile {taken[int(0.95 * len(taken))]:.1f} ms"
+    row(f"from an event of the live feed to the changed page, {len(taken)} events", events, "10 ms")
+    (first, nodes), (last, nodes_last) = memory[1], memory[-1]
+    grown = f"{first:.2f} MB after {EVERY} runs, {last:.2f} after {RUNS}; nodes {nodes}, {nodes_last}"
+    row(f"JavaScript heap after collection, {RUNS} runs in one tab", grown, "flat")
+
+
+def history(browser: Browser) -> None:
+    for count in (SHORT, LONG):
+        name = f"from the press of History to its rows and their count, {count:,} runs"
+        row(name, spread(with_history(browser, count)), "the same")
+
+
+PARTS = {"start": start, "tab": tab, "history": history}
+
+
+def main(parts: list[str]) -> None:
     print("| figure | measured | wanted | 1-minute load |\n|---|---|---|---|")
-    begun = time.process_time()
-    with sync_playwright() as playwright, TemporaryDirectory() as folder:
+    with sync_playwright() as playwright:
         browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), args=FLAGS)
-        with service(Path(folder)) as port:
-            url = f"http://127.0.0.1:{port}/"
-            row(f"from the request to READY, nothing in the cache, {COLD_STARTS} starts",
-                spread(cold_starts(browser, url)), "400 ms")  # fmt: skip
-            page = browser.new_context(viewport=SMALL).new_page()  # type: ignore[arg-type]
-            page.add_init_script(f"({WATCH_EVENTS})()")
-            page.goto(url)
-            page.wait_for_function(READY)
-            taken, memory = kept_open(page, port)
-            page.context.close()
-        taken.sort()
-        events = f"median {median(taken):.1f} ms, 95th percentile {taken[int(0.95 * len(taken))]:.1f} ms"
-        row(f"from an event of the live feed to the changed page, {len(taken)} events", events, "10 ms")
-        (first, nodes), (last, nodes_last) = memory[1], memory[-1]
-        grown = f"{first:.2f} MB after {EVERY} runs, {last:.2f} after {RUNS}; nodes {nodes}, {nodes_last}"
-        row(f"JavaScript heap after collection, {RUNS} runs in one tab", grown, "flat")
-        for count in (SHORT, LONG):
-            name = f"from the press of History to its rows and their count, {count:,} runs"
-            row(name, spread(with_history(browser, count)), "the same")
+        for part in parts or list(PARTS):
+            PARTS[part](browser)
         browser.close()
-    print(f"\nProcessor time of this program: {time.process_time() - begun:.0f} s")
 
 
 if __name__ == "__main__":
-    main()
+    main(sys.argv[1:])
