@@ -41,6 +41,8 @@ VIEWS = {
     "training": ("/maintenance?part=training", "select"),
 }
 """Address, and what is there last but for what says that it is loading."""
+LAST_MS = 15_000
+"""A plan is made, a chart loaded."""
 PHONE = ViewportSize(width=390, height=844)
 SMALL = ViewportSize(width=1024, height=768)
 GO = """to => { history.pushState(null, "", to); dispatchEvent(new PopStateEvent("popstate")); }"""
@@ -71,7 +73,7 @@ def test_every_view_looks_as_in_its_picture(page: Page, lived: Station, language
     found: list[str | None] = []
     for name, (address, last) in VIEWS.items():
         page.evaluate(GO, address)
-        expect(page.locator(last).first).to_be_visible()
+        expect(page.locator(last).first).to_be_visible(timeout=LAST_MS)
         expect(page.locator("main")).not_to_contain_text(WORDS[language][3])
         found += violations(page) if language == "en" else []
         found += foreign_words(page, "code, td") if language == "zh" else []

@@ -18,6 +18,7 @@ import type {
   SignedIn,
   SignInWays,
   Solution,
+  Station,
   Stopped,
   Summary,
   Target,
@@ -162,6 +163,9 @@ export const translate = (id: number, positions: TaughtPosition[], back: boolean
     headers: { "Content-Type": "application/json" },
     body: JSON.stringify({ positions, back }),
   });
+
+export const calibrationHolds = async () =>
+  (await call<Pick<Station, "calibration">>("GET", "/station")).calibration;
 
 export const diagnosis = (id: number) => call<Diagnosis>("GET", `/calibrations/${id}/diagnosis`);
 
