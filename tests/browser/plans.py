@@ -126,6 +126,7 @@ def adapted(operator: Operator) -> None:
     page = operator.page
     operator.run("FB-7", "adaptive", "1.2")
     expect(page.locator(".decision")).to_contain_text("GOOD")
+    expect(page.locator(".maps figure")).to_have_count(2)
     operator.picture("adaptive")
     page.locator("nav").get_by_role("link", name="Station").click()
     expect(page.get_by_text("Locked: check")).to_be_hidden()
@@ -144,7 +145,7 @@ def referenced(operator: Operator, run: int) -> None:
     operator.start("FB-7", "reference")
     said = operator.asked("Put the level")
     operator.picture("reference")
-    drive = re.search(r"says ([−\d.]+)°", said)
+    drive = re.search(r"says ([−\d.-]+)°", said)
     assert drive, said
     # the emulated arm has no level on it: what it would show, as the run before knows
     level = float(drive[1].replace("−", "-")) + zeros[0]["value_deg"]

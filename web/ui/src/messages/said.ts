@@ -9,6 +9,7 @@ const PLACE = /\{(\w*)\}/g;
 const NUMBER = "([+-]?\\d+(?:\\.\\d+)?)";
 const WORDS = "((?:(?![.?!] [A-Z]).)+?)";
 const SENTENCES = "(.+?)";
+const ANGLE = /([\d.]) deg\b/g;
 const IS_NUMBER = /^[+-]?\d+(?:\.\d+)?$/;
 /** A sentence with fewer letters of its own could be any text: one of its values has to be known as well. */
 const FEW_LETTERS = 4;
@@ -44,7 +45,7 @@ const answers = new Map<string, string>();
 export function said(text: string): string {
   let answer = answers.get(text);
   if (answer === undefined) {
-    answer = inPieces(text).replace(/ deg\b/g, "°");
+    answer = inPieces(text).replace(ANGLE, "$1°").replace(/(^|[ (])-(?=[\d.]+°)/g, "$1−");
     answers.set(text, answer);
   }
   return answer;
