@@ -52,7 +52,9 @@ WORDS = r"""besides => {
   }
   return [...new Set(words)];
 }"""
-SAME_EVERYWHERE = frozenset({"ada", "csv", "fb", "html", "http", "json", "mes", "min", "new", "pdf", "pin", "utc"})
+SAME_EVERYWHERE = frozenset(
+    {"ada", "csv", "fb", "html", "http", "json", "mes", "min", "new", "pdf", "pin", "utc"}
+)
 """Names, units and file formats."""
 Cells = NDArray[np.float64]
 

@@ -22,7 +22,7 @@ export function RunPanel() {
           <h2>{run ? (run.walk ? said(run.walk.title) : t.shared.waiting) : t.station.noRun}</h2>
           <p>{run && t.station.runLine(run.robot_serial, run.id, run.operator)}</p>
           <progress aria-label={t.station.progress} value={run?.progress ?? 0} max={1} />
-          <p>{run ? t.shared.stepOf(step, steps || "?") : ""}</p>
+          <p>{run && steps > 0 ? t.shared.stepOf(step, steps) : ""}</p>
           <p>
             {run && run.state !== "waiting" && remainingS.value !== null
               ? t.station.remaining(duration(remainingS.value))
