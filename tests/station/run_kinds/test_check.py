@@ -50,7 +50,7 @@ def test_machines_that_did_not_change_pass() -> None:
     assert found.valid_until == TOMORROW
     judged = [one for result in results for one in result.residuals]
     assert all(0.001 < (one.limit_mm or 0.0) < 1.0 for one in judged)
-    assert sum(abs(one.residual_mm) > (one.limit_mm or 0.0) for one in judged) <= 1
+    assert sum(abs(one.residual_mm or 0.0) > (one.limit_mm or 0.0) for one in judged) <= 1
 
 
 @pytest.mark.parametrize("joint", [0, 1])
