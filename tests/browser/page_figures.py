@@ -18,7 +18,7 @@ from playwright.sync_api import Browser, Page, sync_playwright
 
 from station.settings import database_path
 from station.studies.bench.served import SETTINGS, service
-from station.studies.bench.service import _connected, _fill, _json, _run_times
+from station.studies.bench.service import connected, _fill, _json, _run_times
 from tests.browser.conftest import FLAGS, SMALL
 
 COLD_STARTS, RUNS, LOOKS = 20, 500, 20
@@ -69,7 +69,7 @@ def kept_open(page: Page, port: int) -> tuple[list[float], list[tuple[float, int
     """ms from each event to the changed page, and (MB, nodes) after collection, every `EVERY` runs."""
     collector = page.context.new_cdp_session(page)
     memory = []
-    with closing(_connected(port)) as http:
+    with closing(connected(port)) as http:
         for number in range(RUNS + 1):
             if number % EVERY == 0:
                 collector.send("HeapProfiler.collectGarbage")
