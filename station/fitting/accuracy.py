@@ -65,13 +65,22 @@ def largest_error_bound(mean: Real, jacobian: Real, covariance: Real) -> float:
 
 
 def largest_error_bounds(means: Sequence[Real], jacobian: Real, covariance: Real) -> list[float]:
-    """The same for several errors at the posterior mean, each (G, 2)."""
-    largest = np.zeros((len(means), DRAWS))
+    """The same for several errors at the posterior mean, each (G, 2).
+
+    |m + a|^2 of all means m and draws a at a place is one product, (2 m, 1, |m|^2) (a, |a|^2, 1)'.
+    """
+    mean = np.stack(means, axis=1)
+    of_means = np.dstack([2.0 * mean, np.ones(mean.shape[:2]), np.sum(mean**2, axis=2)])
+    of_draws = np.ones((BLOCK, 4, DRAWS))
+    largest, squares = np.zeros((2, len(means), DRAWS))
     for places, apart in _drawn(jacobian, covariance):
-        for so_far, mean in zip(largest, means, strict=True):
-            for square in _squares(mean[places], apart):
-                np.maximum(so_far, square, out=so_far)
-    return [float(np.sqrt(np.quantile(squares, 0.95))) for squares in largest]
+        of_draws[: len(apart), :2] = apart
+        apart *= apart
+        np.add(apart[:, 0], apart[:, 1], out=of_draws[: len(apart), 2])
+        for of_mean, drawn in zip(of_means[places], of_draws, strict=False):
+            np.maximum(largest, np.matmul(of_mean, drawn, out=squares), out=largest)
+    bounds: list[float] = np.sqrt(_quantile_95(largest)).tolist()
+    return bounds
 
 
 def expected_largest_error_bound(means: Real, jacobian: Real, covariance: Real) -> float:
@@ -82,7 +91,15 @@ def expected_largest_error_bound(means: Real, jacobian: Real, covariance: Real) 
 def error_bounds(mean: Real, jacobian: Real, covariance: Real) -> Real:
     """(G,) the same for each place alone."""
     squares = (_squares(mean[places], apart) for places, apart in _drawn(jacobian, covariance))
-    return np.asarray(np.sqrt(np.concatenate([np.quantile(of, 0.95, axis=1) for of in squares])))
+    return np.asarray(np.sqrt(np.concatenate([_quantile_95(of) for of in squares])))
+
+
+def _quantile_95(squares: Real) -> Real:
+    """(N,) of each row (N, DRAWS), interpolated; `np.quantile` takes five times as long."""
+    k, share = divmod(0.95 * (DRAWS - 1), 1.0)
+    parted = np.partition(squares, (int(k), int(k) + 1), axis=1)
+    below, above = parted[:, int(k)], parted[:, int(k) + 1]
+    return np.asarray(below + share * (above - below))
 
 
 def _squares(mean: Real, apart: Real) -> Real:
@@ -122,8 +139,3 @@ def _standard_normal(size: int) -> Real:
     drawn = np.asarray(ndtri((np.random.default_rng(0).permuted(strata, axis=1) + 0.5) / DRAWS))
     drawn.setflags(write=False)
     return drawn
-
-
-def common_sd_deg(covariance: Real) -> float:
-    """sd of the mode in which both zero offsets move together."""
-    return float(np.degrees(np.sqrt(covariance[:2, :2].sum()) / 2.0))

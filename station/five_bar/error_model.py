@@ -23,7 +23,7 @@ SIZE = len(NAMES)
 def perturbed(nominal: Geometry, p: Real) -> Geometry:
     """The geometry with deviations p (12,) added; the MAEMM rMx, rMy adds to c + d (eq. 17)."""
     return Geometry(
-        e=nominal.e + (p[2:6:2] + 1j * p[3:6:2]),
+        e=nominal.e + np.ascontiguousarray(p[2:6]).view(complex),  # pairs of x and y
         L=nominal.L + p[6:8],
         l=nominal.l + p[8:10],
         cd=nominal.cd + complex(p[10], p[11]),

@@ -87,7 +87,7 @@ def check_distances(robot: Robot, measurements: Measurements) -> None:
 
 def check_places(measurements: Measurements) -> None:
     """:raises InputRefused: too few distinct places."""
-    places = len(np.unique(np.round(np.degrees(measurements.theta), 1), axis=0))
+    places = len(set(map(tuple, np.round(np.degrees(measurements.theta), 1).tolist())))
     if places < FEWEST_PLACES:
         raise InputRefused(
             f"Only {places} different places were measured; at least {FEWEST_PLACES} are needed "

@@ -16,6 +16,7 @@ from __future__ import annotations
 import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import lru_cache
 from pathlib import Path
 from typing import Annotated, ClassVar, Literal
 
@@ -77,7 +78,7 @@ class Robot:
     """Expected MAEMM ("about 1 mm and 0.5 mm", paper section 6.1)."""
     drm_sd: Pair = (0.2, 0.2)
     """How well that is known: "roughly measured", and within 0.16 mm of what Table 8 found."""
-    mounts: dict[str, Pair] = field(default_factory=dict)
+    mounts: dict[str, Pair] = field(default_factory=dict, hash=False)
     """c of further mounting places of the mechanism, by the `mount` id of the measurement file."""
     references: tuple[AnyReference, ...] = ()
     """What was measured of the mechanism and, in one run, of the joints, by other instruments."""
@@ -198,9 +199,7 @@ class Robot:
 
     def workspace_grid(self, nx: int, ny: int) -> Complex:
         """(nx * ny,) evenly spaced points of the workspace, its edges included."""
-        x = np.linspace(*self.workspace_x, nx)
-        y = np.linspace(*self.workspace_y, ny)
-        return np.asarray((x[:, None] + 1j * y[None, :]).ravel())
+        return _grid(self.workspace_x, self.workspace_y, nx, ny)
 
     def informed(self, references: Sequence[AnyReference]) -> Robot:
         """The same robot, with references that hold for one run beside those of its file.
@@ -225,6 +224,15 @@ class Robot:
     def with_mechanism(self, drm: Pair, sd: Pair) -> Robot:
         """The same robot with the MAEMM known as given."""
         return replace(self, drm=drm, drm_sd=sd)
+
+
+@lru_cache(maxsize=64)
+def _grid(across: Pair, along: Pair, nx: int, ny: int) -> Complex:
+    """Asked for many times a run."""
+    x, y = np.linspace(*across, nx), np.linspace(*along, ny)
+    grid = np.asarray((x[:, None] + 1j * y[None, :]).ravel())
+    grid.setflags(write=False)
+    return grid
 
 
 def read_sections(path: Path) -> Sections:

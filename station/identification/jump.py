@@ -29,6 +29,8 @@ MOST_MOMENTS = 3
 _SIZE_SD = np.array([10.0, np.radians(10.0), np.radians(10.0)])
 """Of what jumps, mm and rad: keeps those in bounds of which the readings say nothing."""
 _ITERATIONS = 8
+_SETTLED_SDS = 1e-3
+"""A step that changes no row by more is the last."""
 _DOUBT_P = 1e-3
 _LEAST_GAIN = 30.0
 """Of chi-square, by a jump."""
@@ -210,22 +212,20 @@ def _fitted(mechanism: FiveBar, jumps: Jumps) -> _Fitted:
             else:
                 theta[:, thing - 1] += size * after
         at = mechanism.observe(p, theta)
-        by_jump = [
-            (1.0 if thing == READOUT else at.by_parameter[:, thing - 1]) * after / sd
-            for (_, thing), after in zip(things, later, strict=True)
-        ]
-        by_parameter = np.block(
-            [
-                [at.by_parameter / sd[:, None], np.array(by_jump).reshape(len(things), len(sd)).T],
-                [pull, np.zeros((len(pull), len(things)))],
-                [np.zeros((len(things), len(p))), bound],
-            ]
-        )
+        by_parameter = np.zeros((len(sd) + len(pull) + len(things), len(p) + len(things)))
+        by_parameter[: len(sd), : len(p)] = at.by_parameter / sd[:, None]
+        for column, ((_, thing), after) in enumerate(zip(things, later, strict=True), len(p)):
+            moves = 1.0 if thing == READOUT else at.by_parameter[:, thing - 1]
+            by_parameter[: len(sd), column] = moves * after / sd
+        by_parameter[len(sd) : len(sd) + len(pull), : len(p)] = pull
+        by_parameter[len(sd) + len(pull) :, len(p) :] = bound
         left = np.concatenate([(off - at.value) / sd, pull @ (mechanism.start - p), -bound @ sizes])
         if not np.isfinite(left).all() or not np.isfinite(by_parameter).all():
             return _Fitted(jumps, np.full_like(left, np.inf), np.zeros_like(by_parameter), sizes)
         step = np.linalg.lstsq(by_parameter, left, rcond=None)[0]
         p, sizes = p + step[: len(p)], sizes + step[len(p) :]
+        if np.abs(by_parameter @ step).max() < _SETTLED_SDS:
+            break
     return _Fitted(jumps, left, by_parameter, sizes)
 
 

@@ -136,8 +136,7 @@ def _result(
     quantities = fit.quantities()
     everything = from_readings(readings)
     mechanism = FiveBar(fit.mechanism.robot, everything)
-    start = np.array([p.prior_mean for p in mechanism.parameters])
-    raw = everything.distance - mechanism.observe(start, everything.theta).value
+    raw = everything.distance - mechanism.observe(mechanism.start, everything.theta).value
     not_finite = _not_finite(fit)
     fault = not_finite or misfit
     return CalibrationResult(
@@ -156,7 +155,7 @@ def _result(
             reading_rms_mm=float(np.sqrt(np.mean(fit.residual_mm**2))),
             predicted_position_error_mm=fit.position_error(compensated=True),
         ),
-        residuals=residuals_of(fit, readings),
+        residuals=_residuals(fit, readings, mechanism),
         references=fit.references,
         lack_of_fit=misfit.text if misfit else None,
     )
@@ -164,9 +163,13 @@ def _result(
 
 def residuals_of(fit: Identification[FiveBar], readings: list[Reading]) -> tuple[Residual, ...]:
     """Measured less predicted of each reading, beside its limit; also of readings that were left out."""
-    everything = from_readings(readings)
-    mechanism = FiveBar(fit.mechanism.robot, everything)
-    residual = everything.distance - mechanism.observe(fit.p, everything.theta).value
+    return _residuals(fit, readings, FiveBar(fit.mechanism.robot, from_readings(readings)))
+
+
+def _residuals(
+    fit: Identification[FiveBar], readings: list[Reading], everything: FiveBar
+) -> tuple[Residual, ...]:
+    residual = everything.measured - everything.observe(fit.p, everything.theta).value
     return residual_rows(readings, residual, np.full(len(readings), LIMIT_SDS * fit.noise.sigma_mm))
 
 

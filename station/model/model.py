@@ -82,8 +82,10 @@ class Model:
 
     def observe(self, x: Real, bases: list[Real]) -> Observation:
         """Prediction with all derivatives; by_parameter has the terms' columns appended."""
-        amplitudes = self._split(x)
         at = self.mechanism.observe(x[: self.base_size], self.turned(x, bases))
+        if not self.terms:
+            return at
+        amplitudes = self._split(x)
         rows = self.mechanism.reading_of_row
         value, columns = at.value, [at.by_parameter]
         for term, basis, a in zip(self.terms, bases, amplitudes, strict=True):

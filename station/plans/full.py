@@ -6,6 +6,7 @@ directions vary, so that a drift cannot pass for geometry.
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import lru_cache
 
 import numpy as np
@@ -28,12 +29,21 @@ SCALE_TRAVEL_MM = 350.0
 
 def chosen_by_exchange(robot: Robot) -> Visits:
     """:raises InputRefused: the scale's travel does not cover the workspace."""
-    return _both_sides(robot, full_positions(robot))
+    return _chosen(replace(robot, serial=""))
 
 
 def full_positions(robot: Robot) -> Complex:
     """(24,) mm.  :raises InputRefused: as `candidates`."""
-    return _choose(robot, candidates(robot), FULL_PLACES)
+    return chosen_by_exchange(robot).positions
+
+
+@lru_cache(maxsize=16)
+def _chosen(robot: Robot) -> Visits:
+    """Robots that differ in their serials alone are measured alike, and so is one again and again."""
+    found = _both_sides(robot, _choose(robot, candidates(robot), FULL_PLACES))
+    for part in found:
+        part.setflags(write=False)
+    return found
 
 
 def candidates(robot: Robot) -> Complex:
@@ -62,19 +72,8 @@ def inset_grid(robot: Robot, nx: int, ny: int) -> Complex:
 def _choose(robot: Robot, candidates: Complex, count: int) -> Complex:
     mechanism = measured_at(robot, candidates)
     rows, known = information_rows(mechanism), known_beforehand(mechanism)
-    weight = position_weight(mechanism)
-    chosen = _chosen(rows.tobytes(), candidates.tobytes(), known.tobytes(), weight.tobytes(), count)
-    return np.asarray(candidates[list(chosen)])
-
-
-@lru_cache(maxsize=16)
-def _chosen(rows: bytes, places: bytes, known: bytes, weight: bytes, count: int) -> tuple[int, ...]:
-    """As `choose`; the same question is answered at once."""
-    at = np.frombuffer(places, dtype=complex)
-    whitened = np.frombuffer(rows).reshape(len(at), -1)
-    size = (whitened.shape[1], whitened.shape[1])
-    information, mean_square = np.frombuffer(known).reshape(size), np.frombuffer(weight).reshape(size)
-    return tuple(choose(whitened, at, information, mean_square, count, APART_MM))
+    chosen = choose(rows, candidates, known, position_weight(mechanism), count, APART_MM)
+    return np.asarray(candidates[chosen])
 
 
 def position_weight(mechanism: FiveBar) -> Real:

@@ -6,14 +6,12 @@ its name says.  Files of runs are written last: they say how far an export came.
 
 from __future__ import annotations
 
-import gc
 import re
-from collections.abc import Callable, Iterator
-from datetime import UTC, datetime
-from functools import partial
-from itertools import takewhile
+from collections.abc import Callable, Iterable, Iterator
+from itertools import groupby
+from operator import itemgetter
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Literal
 from urllib.parse import quote
 
 from station.errors import InputRefused
@@ -25,7 +23,8 @@ if TYPE_CHECKING:
 
 SCHEMA = "station.export/1"
 RUNS_AT_ONCE = 2000
-TABLES = ("findings", "readings", "runs")
+Exportable = Literal["findings", "readings", "runs"]
+TABLES: tuple[Exportable, ...] = ("findings", "readings", "runs")
 _FILE = re.compile(r"runs-(\d+)-(\d+)\.parquet")
 _TEXT = {
     "uid", "robot_serial", "robot_type", "kind", "plan", "operator", "work_order", "state", "verdict",
@@ -58,33 +57,27 @@ def export_parquet(store: Store, folder: Path, station: str, progress: Callable[
     except ImportError as error:
         raise InputRefused("Parquet files need pyarrow; install `fivebar-station[quality]`.") from error
     name = f"station={quote(station, safe='')}"
-    collected = gc.isenabled()
     try:
-        # millions of rows pass through, none in a circle: looking for circles takes a third of the time
-        gc.disable()
         last = _last_run(folder / "runs" / name)
         _remove_after(folder, name, last)
         written = dict.fromkeys(TABLES, 0)
         while found := store.finished_after(last, RUNS_AT_ONCE):
-            month = _month(found[0][1])
             # a file holds runs of one month, so that a batch is whole or not there
-            runs = [run for run, _ in takewhile(partial(_made_in, month), found)]
+            month, of_month = next(groupby(found, key=itemgetter(1)))
+            runs = [run for run, _ in of_month]
             first, last = runs[0], runs[-1]
-            for table, columns in (
-                ("findings", store.findings_table(first, last)),
-                ("readings", store.readings_table(first, last)),
-                ("runs", store.runs_table(first, last)),
-            ):
-                if columns["created_at"]:
-                    file = folder / table / name / f"month={month}" / f"runs-{first}-{last}.parquet"
-                    _write(_table(columns), file)
-                    written[table] += len(columns["created_at"])
+            of_runs = _table(store.table("run_of_each", first, last))
+            for name_of_table in TABLES:
+                table = _table(store.table(name_of_table, first, last))
+                if name_of_table != "runs":
+                    table = _with_run(table, of_runs)
+                if table.num_rows:
+                    file = folder / name_of_table / name / f"month={month}" / f"runs-{first}-{last}.parquet"
+                    _write(table, file)
+                    written[name_of_table] += table.num_rows
             progress(len(runs))
     except OSError as error:
         raise InputRefused(f"{folder} cannot be written: {error.strerror or error}.") from error
-    finally:
-        if collected:
-            gc.enable()
     return Exported(**written, last=last)
 
 
@@ -107,30 +100,37 @@ def _remove_after(folder: Path, name: str, last: int) -> None:
                 file.unlink()
 
 
-def _table(columns: Columns) -> pa.Table:
+def _table(parts: Iterable[Columns]) -> pa.Table:
+    """Without columns where there is no row."""
     import pyarrow as pa
 
-    types = {
-        name: pa.string()
-        if name in _TEXT
-        else pa.int64()
-        if name in _WHOLE
-        else pa.timestamp("ms", tz="UTC")
-        if name in _TIMES
-        else pa.float64()
-        for name in columns
-    }
-    table = pa.table({name: pa.array(values, types[name]) for name, values in columns.items()})
-    return table.replace_schema_metadata({"schema": SCHEMA})
+    tables = [
+        pa.table({name: pa.array(values, _type(name)) for name, values in columns.items()})
+        for columns in parts
+    ]
+    return pa.concat_tables(tables) if tables else pa.table({})
 
 
-def _made_in(month: str, run: tuple[int, int]) -> bool:
-    return _month(run[1]) == month
+def _type(column: str) -> pa.DataType:
+    import pyarrow as pa
+
+    if column in _TEXT:
+        return pa.string()
+    if column in _WHOLE:
+        return pa.int64()
+    return pa.timestamp("ms", tz="UTC") if column in _TIMES else pa.float64()
 
 
-def _month(created_ms: int) -> str:
-    """UTC, by creation of the run."""
-    return datetime.fromtimestamp(created_ms / 1000, UTC).strftime("%Y-%m")
+def _with_run(table: pa.Table, of_runs: pa.Table) -> pa.Table:
+    """With what all rows of a run share after its number."""
+    import pyarrow as pa
+    from pyarrow import compute
+
+    if not table.num_rows:
+        return table
+    run = of_runs.take(compute.index_in(table["run_id"], of_runs["run_id"].combine_chunks()))
+    own = {name: table[name] for name in table.column_names}
+    return pa.table({**{name: run[name] for name in of_runs.column_names}, **own})
 
 
 def _write(table: pa.Table, file: Path) -> None:
@@ -139,5 +139,5 @@ def _write(table: pa.Table, file: Path) -> None:
 
     file.parent.mkdir(parents=True, exist_ok=True)
     part = file.with_suffix(".part")
-    parquet.write_table(table, part, compression="zstd")
+    parquet.write_table(table.replace_schema_metadata({"schema": SCHEMA}), part, compression="zstd")
     part.rename(file)

@@ -86,8 +86,11 @@ class Measurements:
     @cached_property
     def repeat_group(self) -> Index:
         """(K,) index of readings alike in place, approach, mount and set-up: their scatter is pure error."""
-        keys = np.column_stack([self.position, self.approach, self.mount, self.setup_index])
-        return np.unique(keys, axis=0, return_inverse=True)[1].reshape(-1)
+        key = np.zeros(len(self), dtype=np.intp)
+        for part in (self.position, *self.approach.T, self.mount, self.setup_index):
+            least, most = (int(part.min()), int(part.max())) if len(self) else (0, 0)
+            key = key * (most - least + 1) + (part - least)
+        return np.unique(key, return_inverse=True)[1].reshape(-1)
 
 
 def number(labels: Sequence[Hashable]) -> tuple[Index, tuple[Hashable, ...]]:

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 
+import numpy as np
+
 _UNIT_MM = 1e-4
+_EXACT = 2.0**53
+"""Whole numbers below are exact."""
 _LEAST_MM = 1e-3
 """Finer steps are within the noise that is specified for a reading."""
 
 
 def readout_step_mm(samples_mm: Iterable[float]) -> float:
     """Largest step that all samples are multiples of, apart from a constant; 0 where they are all alike."""
-    units = [round(sample / _UNIT_MM) for sample in samples_mm if math.isfinite(sample)]
-    return math.gcd(*(unit - units[0] for unit in units)) * _UNIT_MM if units else 0.0
+    units = np.rint(np.fromiter(samples_mm, dtype=float) / _UNIT_MM)
+    units = units[np.abs(units) < _EXACT].astype(np.int64)
+    return int(np.gcd.reduce(units - units[0])) * _UNIT_MM if len(units) else 0.0
 
 
 def scale_resolution_mm(samples_mm: Iterable[float]) -> float:

@@ -13,8 +13,9 @@ from station.run_kinds import (  # noqa: F401 - they register themselves
 )
 from station.run_kinds.adaptive import adaptive_run, fit_in_sequence, memory_test
 from station.run_kinds.arm_log import ArmLog, import_log, import_measured
+from station.run_kinds.calibrate import measured_and_verified
 from station.run_kinds.check import check_run
-from station.run_kinds.diagnose import diagnosed
+from station.run_kinds.diagnose import diagnosed, diagnostic
 from station.run_kinds.error_maps import error_map
 from station.run_kinds.gauge_evaluation import JointStudied, StationGauge, station_gauge
 from station.run_kinds.gauge_report import gauge_page, judgement
@@ -43,6 +44,7 @@ __all__ = [
     "check_run",
     "clear_failed_check",
     "diagnosed",
+    "diagnostic",
     "error_map",
     "fit_in_sequence",
     "gauge_page",
@@ -51,6 +53,7 @@ __all__ = [
     "import_measured",
     "judgement",
     "kind_of_plan",
+    "measured_and_verified",
     "memory_test",
     "planned",
     "request_of",

@@ -50,7 +50,9 @@ def calibrate(start: Start) -> Procedure:
         return guided(start, memory)
     if start.plan == "adaptive":
         return adaptive_run(start.robot, memory, start.wanted_mm, start.pace)
-    return measured_and_verified(start.plan, start.robot, memory, start.wanted_mm)
+    # an ended run is carried out again for its verdict, and advice is most of the work
+    again = start.known_before is not None
+    return measured_and_verified(start.plan, start.robot, memory, start.wanted_mm, advised=not again)
 
 
 def published(robot: Robot, wanted_mm: float | None = None) -> Procedure:
@@ -114,11 +116,19 @@ def _verified(run: PublishedRun, result: CalibrationResult, fresh: list[Reading]
 
 
 def measured_and_verified(
-    plan: PlanName, robot: Robot, memory: Beforehand | None = None, wanted_mm: float | None = None
+    plan: PlanName,
+    robot: Robot,
+    memory: Beforehand | None = None,
+    wanted_mm: float | None = None,
+    *,
+    advised: bool = True,
 ) -> Procedure:
-    """The measurement model on a chosen plan, then fresh positions that took no part in the fit."""
+    """The measurement model on a chosen plan, then fresh positions that took no part in the fit.
+
+    :param advised: with what would make the calibration better
+    """
     readings: list[Reading] = yield MeasurementSequence("Measuring", 1, make_plan(plan, robot).stops)
-    return (yield from identified_and_verified(robot, readings, memory, wanted_mm))
+    return (yield from identified_and_verified(robot, readings, memory, wanted_mm, advised=advised))
 
 
 GUIDED = {"reference": reference, "two_mounts": two_mounts}

@@ -22,8 +22,13 @@ def identified_and_verified(
     readings: list[Reading],
     memory: Beforehand | None,
     wanted_mm: float | None,
+    *,
+    advised: bool = True,
 ) -> Procedure:
-    """The measurement model on readings, and a verdict by fresh ones."""
+    """The measurement model on readings, and a verdict by fresh ones.
+
+    :param advised: with what would make the calibration better
+    """
     age_days = memory.age_days if memory else 0.0
     try:
         fit = fit_of(robot, readings, memory, age_days)
@@ -33,7 +38,7 @@ def identified_and_verified(
         "Verifying at fresh positions", 2, fresh_stops(fit), last=True
     )
     result = result_of(fit, readings, fresh).model_copy(
-        update={"lasting": fit.lasting.record(), "advice": advice_of(fit)}
+        update={"lasting": fit.lasting.record(), "advice": advice_of(fit) if advised else ()}
     )
     result = without_jump(result, robot, [*readings, *fresh])
     result = with_accuracy(result, accuracy_of(fit, wanted_mm))

@@ -15,6 +15,8 @@ BY_SERIAL: tuple[Order, ...] = ("serial", "serial_down")
 Conditions = tuple[list[str], list[str | int]]
 FEW = 2000
 """So many matches of a search are sorted; of more, some are soon met going through all runs in order."""
+MOST_COUNTED = 10_000
+"""More are not counted: nobody reads the digits, and a million take a quarter of a second."""
 _AFTER_ALL = "\U0010ffff"
 
 
@@ -37,14 +39,27 @@ class Filters:
     ended_since: datetime | None = None
     """Ended then or later."""
 
+    @property
+    def indexed(self) -> bool:
+        """Whether one index answers what is asked, `calibrations_found`."""
+        others = (
+            self.robot_serial,
+            self.robot_type,
+            self.work_order,
+            self.since,
+            self.until,
+            self.ended_since,
+        )
+        return bool(self.search) and all(other is None for other in others)
+
     def conditions(
-        self, or_unstored: Callable[[str], str], *, few_found: bool = True, order: Order = "newest"
+        self, or_unstored: Callable[[str], str], *, few_found: bool = True, order: Order | None = "newest"
     ) -> Conditions:
         """Conditions on `calibrations` and their values.
 
         :param or_unstored: lets runs through whose stored state is not the one that is shown
         :param few_found: whether the search is to choose the index
-        :param order: how the list is ordered; by serial, only the index of serials may be chosen
+        :param order: how the list is ordered; by serial, only the index of serials may be chosen; None: not
         """
         by_serial = order in BY_SERIAL
         run = "+id" if by_serial else "id"
@@ -60,17 +75,19 @@ class Filters:
                 # Only the first, most selective one may choose the index: + takes the others out.
                 conditions.append(f"{'+' if conditions or by_serial else ''}{name} = ?{or_unstored(name)}")
                 values.append(wanted)
-        if self.since is not None:
-            conditions.append(
+        other = "+" if conditions else ""
+        for time, than, end in ((self.since, ">=", "min"), (self.until, "<", "max")):
+            if time is None:
+                continue
+            made = f"created_ms {than} ?"
+            if order is None:
+                conditions.append(other + made)
+                values.append(millis(time))
+            else:
                 # times may fall where the clock was set back: the range narrows, the time decides
-                f"{run} >= (SELECT min(id) FROM calibrations WHERE created_ms >= ?) AND +created_ms >= ?"
-            )
-            values += [millis(self.since)] * 2
-        if self.until is not None:
-            conditions.append(
-                f"{run} <= (SELECT max(id) FROM calibrations WHERE created_ms < ?) AND +created_ms < ?"
-            )
-            values += [millis(self.until)] * 2
+                within = f"{run} {than[0]}= (SELECT {end}(id) FROM calibrations WHERE {made})"
+                conditions.append(f"{within} AND +{made}")
+                values += [millis(time)] * 2
         if self.ended_since is not None:
             conditions.append(f"{'+' if by_serial else ''}ended_ms >= ?")
             values.append(millis(self.ended_since))

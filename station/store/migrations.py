@@ -318,5 +318,35 @@ def process_control(db: Database) -> None:
     )
 
 
+@migrations()
+def findings(db: Database) -> None:
+    """What was found is asked for across runs: one row a parameter of an effect."""
+    db.execute(
+        """CREATE TABLE findings (
+            calibration_id INTEGER NOT NULL REFERENCES calibrations (id), finding INTEGER NOT NULL,
+            n INTEGER NOT NULL, effect TEXT, joint INTEGER, part TEXT, probability REAL, p_value REAL,
+            parameter TEXT, value REAL, sd REAL, unit TEXT,
+            PRIMARY KEY (calibration_id, finding, n)) WITHOUT ROWID"""
+    )
+    db.execute(
+        """INSERT INTO findings SELECT calibration_id, finding.key, parameter.key,
+            finding.value ->> '$.effect', finding.value ->> '$.joint', finding.value ->> '$.part',
+            finding.value ->> '$.probability', finding.value ->> '$.p_value', parameter.value ->> '$.name',
+            parameter.value ->> '$.value', parameter.value ->> '$.sd', parameter.value ->> '$.unit'
+            FROM results, json_each(result, '$.findings') finding,
+                json_each(finding.value, '$.parameters') parameter
+            ORDER BY calibration_id"""
+    )
+
+
+@migrations()
+def counts(db: Database) -> None:
+    """Runs are found by their plan, and counted by serial and what they ended with."""
+    db.execute("CREATE INDEX calibrations_plan ON calibrations (plan)")
+    db.execute(
+        "CREATE INDEX calibrations_found ON calibrations (robot_serial COLLATE NOCASE, state, verdict, plan)"
+    )
+
+
 def _expand(blob: bytes) -> bytes:
     return zlib.decompressobj(zdict=_WORDS).decompress(blob)

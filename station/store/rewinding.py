@@ -9,6 +9,7 @@ from pathlib import Path
 _LATER = (
     "DELETE FROM chain WHERE run_id >= :run",
     "DELETE FROM readings WHERE calibration_id >= :run",
+    "DELETE FROM findings WHERE calibration_id >= :run",
     "DELETE FROM results WHERE calibration_id >= :run",
     "DELETE FROM memories WHERE calibration_id >= :run",
     "DELETE FROM zero_writes WHERE run_id >= :run",

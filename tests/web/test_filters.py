@@ -62,11 +62,42 @@ def test_runs_are_found_by_how_their_serial_begins_counted_and_written_as_a_tabl
     assert ids(service, order="serial", cursor=by_serial[1], limit=2) == by_serial[2:4]
     assert ids(service, order="serial_down", cursor=by_serial[1], search="fb") == by_serial[:1]
     count = service.client.get(f"{RUNS}/count", params={"search": "fb-", "work_order": "WO-7"})
-    assert count.json() == {"count": 3}
+    assert count.json() == {"count": 3, "more": False}
     answer = service.client.get(f"{RUNS}.csv", params={"search": "fb-1"})
     table = list(csv.DictReader(io.StringIO(answer.text)))
     assert [row["robot_serial"] for row in table] == ["fb-11", "FB-10"]
     assert {row["work_order"] for row in table} == {"WO-7"}
+
+
+@pytest.mark.parametrize(
+    ("query", "count"),
+    [
+        ({}, 5),
+        ({"search": "FB", "state": "queued"}, 4),
+        ({"search": "fb", "plan": "rapid"}, 0),
+        ({"search": "fb", "until": "2001-01-01T00:00:00Z"}, 0),
+        ({"since": "2001-01-01T00:00:00Z", "until": "2999-01-01T00:00:00Z"}, 5),
+        ({"plan": "paper", "until": "2001-01-01T00:00:00Z"}, 0),
+    ],
+)
+def test_a_list_is_counted_by_its_filters(service: Service, query: dict[str, str], count: int) -> None:
+    store = service.runtime.store
+    for serial in ("FB-10", "fb-11", "FB-2", "Fb_1", "XFB-1"):
+        store.create(asked(serial, "paper"), store.robot_or_nominal(serial))
+    answer = service.client.get(f"{RUNS}/count", params=query)
+    assert answer.json() == {"count": count, "more": False}
+    assert len(ids(service, **query)) == count
+
+
+def test_many_runs_are_not_counted_to_the_last(service: Service, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("station.store.store.MOST_COUNTED", 2)
+    store = service.runtime.store
+    for _ in range(3):
+        store.create(asked("R1", "paper"), store.robot_or_nominal("R1"))
+    counts = f"{RUNS}/count"
+    assert service.client.get(counts).json() == {"count": 2, "more": True}
+    store.finish(1, State.FAILED)
+    assert service.client.get(counts, params={"state": "queued"}).json() == {"count": 2, "more": False}
 
 
 def test_a_long_table_comes_whole_and_with_one_header(

@@ -101,12 +101,16 @@ class RunCount(Record):
     """How many runs there are in a list."""
 
     count: int
+    """At most 10,000."""
+    more: bool
+    """Whether there are more than that."""
 
 
 @router.get("/count", response_model=RunCount, dependencies=[needs(Permission.READ)])
 def count_calibrations(runtime: TheRuntime, filters: TheFilters) -> RunCount:
     """Of the list with the same filters."""
-    return RunCount(count=runtime.store.count(filters))
+    count, more = runtime.store.count(filters)
+    return RunCount(count=count, more=more)
 
 
 @router.get(

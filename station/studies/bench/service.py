@@ -48,7 +48,7 @@ def _run_times(home: Path, count: int) -> list[float]:
     taken = []
     with (
         service(home) as port,
-        closing(_connected(port)) as http,
+        closing(connected(port)) as http,
         connect(f"ws://127.0.0.1:{port}/api/v1/live") as feed,
     ):
         for _ in range(count):
@@ -77,7 +77,7 @@ def history(count: int) -> dict[str, Any]:
         home = Path(folder)
         _run_times(home, 1)
         _fill(database_path(SETTINGS, home), count)
-        with service(home) as port, closing(_connected(port)) as http:
+        with service(home) as port, closing(connected(port)) as http:
             page = _get(http)
             return {"ms": time_ms(lambda: _get(http), most=200), "page_bytes": len(page)}
 
@@ -118,7 +118,7 @@ class _Pattern:
         return tuple({**self.row, **later, **key}.values())
 
 
-def _connected(port: int) -> HTTPConnection:
+def connected(port: int) -> HTTPConnection:
     http = HTTPConnection("127.0.0.1", port, timeout=30)
     http.connect()
     http.sock.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)

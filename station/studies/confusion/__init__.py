@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from station.studies.confusion.kinds import KINDS
-from station.studies.confusion.machines import draw
+from station.studies.confusion.machines import draw, of_usual_size
 from station.studies.confusion.matrix import figures, label, run
 from station.studies.confusion.page import markdown
 
@@ -13,5 +13,6 @@ __all__ = [
     "figures",
     "label",
     "markdown",
+    "of_usual_size",
     "run",
 ]

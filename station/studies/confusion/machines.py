@@ -46,11 +46,7 @@ class Drawn:
 def draw(robot: Robot, kinds: tuple[str, ...], seed: int) -> Drawn:
     """A machine with one effect of each kind, at random sizes, joints, phases and moments."""
     rng = np.random.default_rng(seed)
-    # what its file says of the robot is true: else no interval could hold what it should
-    known = robot.tolerances
-    zeros = rng.uniform(-np.radians(2.0), np.radians(2.0), 2)
-    lengths = rng.normal(0.0, [known.e_mm] * 4 + [known.link_mm] * 4)
-    truth = np.concatenate([zeros, lengths, rng.normal(robot.drm, robot.drm_sd)])
+    truth = _truth(robot, rng)
 
     def with_effects(effects: list[Table], *, noise: bool = True) -> SimulatedMachine:
         return SimulatedMachine(robot, truth, "whole pulses", seed, effects, noise=noise)
@@ -75,6 +71,22 @@ def draw(robot: Robot, kinds: tuple[str, ...], seed: int) -> Drawn:
     machine = with_effects(tables)
     sequence, fresh = machine.diagnostic_run(robot, seed)
     return Drawn(sequence, fresh, kinds, frozenset(truth_of), tuple(sizes), machine)
+
+
+def of_usual_size(robot: Robot, kinds: tuple[str, ...], seed: int) -> SimulatedMachine:
+    """A machine with one effect of each kind, at the size that is usual for a part; not measured yet."""
+    rng = np.random.default_rng(seed)
+    truth = _truth(robot, rng)
+    tables = [table for kind in kinds for table in errors(kind, rng)(1.0)]
+    return SimulatedMachine(robot, truth, "whole pulses", seed, tables)
+
+
+def _truth(robot: Robot, rng: np.random.Generator) -> Real:
+    """(12,) errors, mm and rad; what the file says of the robot is true: else no interval could hold."""
+    known = robot.tolerances
+    zeros = rng.uniform(-np.radians(2.0), np.radians(2.0), 2)
+    lengths = rng.normal(0.0, [known.e_mm] * 4 + [known.link_mm] * 4)
+    return np.concatenate([zeros, lengths, rng.normal(robot.drm, robot.drm_sd)])
 
 
 def scaled(left_um: Callable[[float], float], size_um: float) -> float:

@@ -2,12 +2,28 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
 import numpy as np
 
-from station.records import CalibrationResult, MeasurementSequence, Procedure, Reading
-from station.studies.simulation import SAMPLES, SimulatedMachine
+from station.records import (
+    CalibrationResult,
+    Measurements,
+    MeasurementSequence,
+    Procedure,
+    Reading,
+    Stop,
+)
+from station.studies.simulation import SAMPLES
+
+
+class Machine(Protocol):
+    """What can be measured."""
+
+    def run(self, stops: Sequence[Stop], samples: int = 1) -> Measurements:
+        """One reading at each stop, the mean of so many samples."""
 
 
 @dataclass(frozen=True)
@@ -20,7 +36,7 @@ class Walked:
     """Of the readings of the first walk, from the first command on."""
 
 
-def walk(procedure: Procedure, machine: SimulatedMachine) -> Walked:
+def walk(procedure: Procedure, machine: Machine) -> Walked:
     """Follow a procedure that only measures, to its end."""
     taken: list[Reading] = []
     try:
@@ -35,7 +51,7 @@ def walk(procedure: Procedure, machine: SimulatedMachine) -> Walked:
         return Walked(end.value, tuple(taken), max(own, default=0.0))
 
 
-def _measured(machine: SimulatedMachine, step: MeasurementSequence, before: int) -> list[Reading]:
+def _measured(machine: Machine, step: MeasurementSequence, before: int) -> list[Reading]:
     m = machine.run(step.stops, SAMPLES)
     return [
         Reading(
@@ -46,7 +62,7 @@ def _measured(machine: SimulatedMachine, step: MeasurementSequence, before: int)
             scale_mm=float(m.distance[k]),
             position=stop.position,
             sequence=step.number,
-            samples_mm=(float(m.distance[k]),) * SAMPLES,
+            samples_mm=(float(m.distance[k]),) * int(m.samples[k]),
         )
         for k, (stop, (a, b)) in enumerate(zip(step.stops, np.degrees(m.theta), strict=True))
     ]

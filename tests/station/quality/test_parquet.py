@@ -9,12 +9,14 @@ from pathlib import Path
 import duckdb
 import pytest
 from click.testing import CliRunner
+from pyarrow import parquet
 
 from station.cli import main
 from station.five_bar import Robot
 from station.quality import export_parquet
 from station.records import CalibrationRequest, Reading
 from station.store import Store
+from tests.station.asking import result
 from tests.station.fakes import result_of
 
 ROBOT = Robot.default("R1")
@@ -52,6 +54,47 @@ def test_runs_and_readings_stand_in_partitions(store: Store, tmp_path: Path) -> 
     assert ask(tmp_path / "out", "readings", "sum(scale_mm), count(DISTINCT run_uid)") == [(3 * 410.0, 3)]
     month = str(store.summary(1).created_at)[:7]
     assert (tmp_path / "out" / "runs" / "station=Line%204" / f"month={month}").is_dir()
+
+
+def test_findings_have_a_row_a_parameter(store: Store, tmp_path: Path) -> None:
+    parameters = [
+        {"name": "width", "value": 0.01, "sd": 0.001, "unit": "deg"},
+        {"name": "rest", "value": 2, "sd": 0.5, "unit": "mm"},
+    ]
+    about = {"label": "", "share": 0.5, "p_value": 0.25, "alias_set": [], "remedy": ""}
+    findings = [
+        {"effect": "backlash", "joint": 2, "probability": 0.9, "parameters": parameters, **about},
+        {"effect": "drift", "parameters": [], **about},
+    ]
+    found = result_of(READINGS).model_copy(update={"findings": result(findings=findings).findings})
+    add(store)
+    store.add_run(CalibrationRequest("R2", "diagnose", "Ana"), ROBOT, READINGS, found)
+    export(store, tmp_path / "out")
+    what = "run_id, robot_serial, effect, joint, probability, p_value, parameter, value, sd, unit"
+    assert ask(tmp_path / "out", "findings", what) == [
+        (2, "R1", "backlash", 2, 0.9, 0.25, "width", 0.01, 0.001, "deg"),
+        (2, "R1", "backlash", 2, 0.9, 0.25, "rest", 2.0, 0.5, "mm"),
+    ]
+    assert ask(tmp_path / "out", "findings", "any_value(run_uid)") == [(store.summary(2).uid,)]
+
+
+def test_the_schema_is_the_documented_one(store: Store, tmp_path: Path) -> None:
+    """`station.export/1`: columns may be added; their order and types stay."""
+    add(store)
+    export(store, tmp_path / "out")
+    (file,) = (tmp_path / "out" / "readings").rglob("*.parquet")
+    schema = parquet.read_schema(file)
+    assert schema.metadata[b"schema"] == b"station.export/1"
+    assert [(field.name, str(field.type)) for field in schema][:8] == [
+        ("run_id", "int64"),
+        ("run_uid", "string"),
+        ("robot_serial", "string"),
+        ("created_at", "timestamp[ms, tz=UTC]"),
+        ("reading", "int64"),
+        ("sequence", "int64"),
+        ("t_s", "double"),
+        ("theta1_deg", "double"),
+    ]
 
 
 def test_again_only_what_is_new(store: Store, tmp_path: Path) -> None:

@@ -95,3 +95,18 @@ def test_position_errors_of_runs_that_are_there_get_a_column(migrated: Store) ->
         verified = after.fresh_reading_rms_mm is not None
         wanted = next((bound for bound in bounds if bound is not None), None) if verified else None
         assert point.position_error_mm == wanted
+
+
+def test_what_was_found_gets_rows_of_its_own(migrated: Store) -> None:
+    """The same as in the results, which stay as they are; effects of new runs come from there as well."""
+    found = [
+        (run.id, finding.effect, finding.joint, parameter.name, parameter.value, parameter.unit)
+        for run in reversed(migrated.calibrations().items)
+        for finding in migrated.calibration(run.id).findings
+        for parameter in finding.parameters
+    ]
+    (columns,) = migrated.table("findings", 1, 7)
+    names = ("run_id", "effect", "joint", "parameter", "value", "unit")
+    assert found and list(zip(*(columns[name] for name in names), strict=True)) == found
+    sizes = [(point.run, point.effect, point.value) for point in migrated.effects(limit=10)]
+    assert sizes == [(run, effect, value) for run, effect, _, _, value, _ in found]

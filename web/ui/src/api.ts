@@ -189,7 +189,7 @@ export const calibrations = (query: URLSearchParams) =>
   call<CalibrationList>("GET", `/calibrations?${query}`);
 
 export const countRuns = (query: URLSearchParams) =>
-  call<{ count: number }>("GET", `/calibrations/count?${query}`);
+  call<{ count: number; more: boolean }>("GET", `/calibrations/count?${query}`);
 
 /** Outcomes of the newest runs of one robot, or of all. */
 /** Of one robot, of all of one type, or of all. */

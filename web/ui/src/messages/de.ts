@@ -676,7 +676,7 @@ export const de: Messages = {
     firstPage: "Erste Seite",
     nextPage: "Nächste Seite",
     workOrder: "Auftrag",
-    found: (count) => (count === 1 ? "1 Lauf" : `${count} Läufe`),
+    found: (count, more) => (more ? `Mehr als ${count} Läufe` : count === 1 ? "1 Lauf" : `${count} Läufe`),
     listCsv: "Liste (CSV)",
     compare: "Vergleich",
     compareWith: "Vergleichen",

@@ -693,7 +693,8 @@ export const en = {
     firstPage: "First page",
     nextPage: "Next page",
     workOrder: "Work order",
-    found: (count: number) => (count === 1 ? "1 run" : `${count} runs`),
+    found: (count: number, more: boolean) =>
+      more ? `More than ${count} runs` : count === 1 ? "1 run" : `${count} runs`,
     listCsv: "List (CSV)",
     compare: "Compare",
     compareWith: "Compare",

@@ -591,7 +591,7 @@ export const zh: Messages = {
     firstPage: "第一页",
     nextPage: "下一页",
     workOrder: "工单",
-    found: (count) => `${count} 次运行`,
+    found: (count, more) => (more ? `超过 ${count} 次运行` : `${count} 次运行`),
     listCsv: "列表（CSV）",
     compare: "比较",
     compareWith: "比较",

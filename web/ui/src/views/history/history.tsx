@@ -39,7 +39,7 @@ export function HistoryView() {
       )}
       <section class="panel list">
         <p class="actions found">
-          <strong role="status">{counted && t.history.found(counted.count)}</strong>
+          <strong role="status">{counted && t.history.found(counted.count, counted.more)}</strong>
           <Link
             class="button"
             to={address(showing(filters, "show", charts ? null : "process"))}

@@ -1,0 +1,26 @@
+"""What a run found, stored: the whole as JSON, and what is asked for across runs in columns and rows."""
+
+from __future__ import annotations
+
+from sqlite_utils import Database
+
+from station.records import CalibrationResult
+from station.store.rows import pack_document, result_row
+
+_FINDINGS = """INSERT INTO findings SELECT calibration_id, finding.key, parameter.key,
+    finding.value ->> '$.effect', finding.value ->> '$.joint', finding.value ->> '$.part',
+    finding.value ->> '$.probability', finding.value ->> '$.p_value', parameter.value ->> '$.name',
+    parameter.value ->> '$.value', parameter.value ->> '$.sd', parameter.value ->> '$.unit'
+    FROM results, json_each(result, '$.findings') finding, json_each(finding.value, '$.parameters') parameter
+    WHERE calibration_id = ?"""
+
+
+def keep_result(db: Database, run: int, result: CalibrationResult) -> None:
+    """In the transaction that ends the run."""
+    db.execute(
+        "INSERT INTO results (calibration_id, zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg,"
+        " position_error_mm, result, diagnosis) VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+        [run, *result_row(result), pack_document(result.diagnosis)],
+    )
+    if result.findings:
+        db.execute(_FINDINGS, [run])
