@@ -19,7 +19,8 @@ export function formatted(template: string, params: Params): string | null {
     if (value != null && digits === undefined) return String(value);
     if (typeof value === "number" && Number.isFinite(value)) {
       const plus = sign && value >= 0 ? sign : "";
-      const text = kind === "f" ? value.toFixed(Number(digits)).replace("-", "−") : general(value, Number(digits) || 1);
+      const text =
+        kind === "f" ? value.toFixed(Number(digits)).replace("-", "−") : general(value, Number(digits) || 1);
       return plus + local(text);
     }
     complete = false;

@@ -45,7 +45,9 @@ const answers = new Map<string, string>();
 export function said(text: string): string {
   let answer = answers.get(text);
   if (answer === undefined) {
-    answer = inPieces(text).replace(ANGLE, "$1°").replace(/(^|[ (])-(?=[\d.]+°)/g, "$1−");
+    answer = inPieces(text)
+      .replace(ANGLE, "$1°")
+      .replace(/(^|[ (])-(?=[\d.]+°)/g, "$1−");
     answers.set(text, answer);
   }
   return answer;
