@@ -48,7 +48,8 @@ WORDS = r"""besides => {
   for (let node = walker.nextNode(); node; node = walker.nextNode()) {
     const owner = node.parentElement;
     const names = owner.closest(`script, style, .serial, .language, .name, ${besides}`);
-    if (!names && owner.checkVisibility()) words.push(...(node.data.match(/[A-Za-z]{3,}/g) ?? []));
+    const text = node.data.replace(/station [a-z-]+( --[a-z-]+)*/g, "");  // a command to be typed
+    if (!names && owner.checkVisibility()) words.push(...(text.match(/[A-Za-z]{3,}/g) ?? []));
   }
   return [...new Set(words)];
 }"""

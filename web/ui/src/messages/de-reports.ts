@@ -548,4 +548,6 @@ export const reports: Record<string, string> = {
     "entfernen Sie override=, wenn der Anschluss nicht emuliert ist",
   "its adapter sends back what it is sent, as echo=1 says":
     "sein Adapter sendet zurück, was gesendet wird, wie echo=1 sagt",
+  "{axis} has lost its power during this run and may count from elsewhere: no zero is written; calibrate again.":
+    "{axis} war während dieses Laufs stromlos und zählt vielleicht von woanders: Es wird kein Nullpunkt geschrieben; kalibrieren Sie neu.",
 };

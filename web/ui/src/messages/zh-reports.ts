@@ -495,4 +495,6 @@ export const reports: Record<string, string> = {
   "{format}, in place of {wanted}": "{format}，代替 {wanted}",
   "remove override= unless the port is emulated": "若端口不是仿真的，请去掉 override=",
   "its adapter sends back what it is sent, as echo=1 says": "其适配器按 echo=1 所述将收到的内容发回",
+  "{axis} has lost its power during this run and may count from elsewhere: no zero is written; calibrate again.":
+    "{axis}在本次运行中断过电，计数起点可能已变：不写入零点；请重新标定。",
 };
