@@ -61,6 +61,8 @@ class Request:
         witness.answered(answer)
         if answer.run:
             witness.started_by(self.client.name, self.action, answer.run)
-            if self.key is not None:
-                witness.started(self.key, answer.run)
+        if self.key is not None and answer.run:
+            witness.started(self.key, answer.run)
+        elif self.key is not None:
+            witness.refused(self.key, answer.status)
         return answer.run

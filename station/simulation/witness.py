@@ -30,6 +30,7 @@ SAME_FRAME_DEG = 0.01
 """How far the journal's sum of shifts may be from what a drive holds: a few pulses for each write."""
 _UNFINISHED = (State.QUEUED, State.RUNNING, State.WAITING)
 _MANY = 1_000_000
+_NOT_NOW = (401, 429, 503)
 _IN_A_SENTENCE = (400, 401, 403, 404, 409, 422, 429, 502, 503, 504)
 
 INVARIANTS = {
@@ -128,6 +129,11 @@ class Witness:
         """A start was answered."""
         if self._keys.setdefault(key, run) != run:
             self.fails("key", f"key {key} started run {self._keys[key]} and run {run}")
+
+    def refused(self, key: str, status: int) -> None:
+        """A start was refused; one that was accepted before is answered again, unless the disk fails."""
+        if key in self._keys and status not in _NOT_NOW:
+            self.fails("key", f"key {key} started run {self._keys[key]} and is now answered {status}")
 
     def started_by(self, who: str, action: str, run: int) -> None:
         """Who was answered that a run is started; again is the same start."""
