@@ -9,7 +9,7 @@ NPM := $(BIN)/python deploy/node.py
 PROGRAMS := chromium curl firefox-esr fonts-dejavu-core fonts-wqy-microhei mbpoll mosquitto nginx
 TESTS := $(BIN)/pytest --numprocesses 3 --dist loadfile --no-loadscope-reorder
 
-.PHONY: run test coverage record pictures lint format bench security mutate reference lock bundle check-bundle clean
+.PHONY: run test coverage record pictures plans page-figures lint format bench security mutate reference lock bundle check-bundle clean
 
 run: $(VENV)/installed  ## install and start the service on the emulated rig; prints the address
 	$(BIN)/station serve
@@ -32,7 +32,15 @@ record: $(VENV)/installed-for-tests  ## the closed loop in the browser, recorded
 
 pictures: $(VENV)/installed-for-tests  ## reference pictures of the page; look at what changed (git diff) before a commit
 	deploy/debian-packages chromium fonts-dejavu-core fonts-wqy-microhei
-	STATION_PICTURES=1 $(BIN)/pytest tests/browser/test_languages.py -k picture
+	STATION_PICTURES=$${STATION_PICTURES:-1} $(BIN)/pytest tests/browser/test_languages.py tests/browser/test_states.py -k picture
+
+plans: $(VENV)/installed-for-tests  ## every plan done at the page; the pictures of docs/how-to/plans (minutes)
+	deploy/debian-packages chromium fonts-dejavu-core
+	$(BIN)/python -m tests.browser.plans docs/how-to/plans
+
+page-figures: $(VENV)/installed-for-tests  ## the page's figures of docs/benchmarks.md, measured in Chromium
+	deploy/debian-packages chromium
+	$(BIN)/python -m tests.browser.page_figures
 
 lint: $(VENV)/installed-for-tests  ## style, types, import layers, spelling
 	$(BIN)/ruff check .

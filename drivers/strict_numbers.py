@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from pydantic import BaseModel, GetCoreSchemaHandler
+from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler
 from pydantic_core import CoreSchema, PydanticCustomError
 from pydantic_core.core_schema import no_info_before_validator_function
 
@@ -38,6 +38,8 @@ def _refuse_truth_values(node: object) -> None:
 
 class StrictNumbers(BaseModel):
     """Base of what people and programs write; each number of it, however deep, refuses true and false."""
+
+    model_config = ConfigDict(defer_build=True)  # most commands use few of the models
 
     @classmethod
     def __get_pydantic_core_schema__(cls, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:

@@ -79,7 +79,7 @@ Plan = Annotated[
 class Body(StrictNumbers):
     """What is sent: a field that is not known is refused."""
 
-    model_config = ConfigDict(extra="forbid")
+    model_config = ConfigDict(extra="forbid", defer_build=False)  # FastAPI asks for models that are built
 
 
 class CalibrationBody(Body):

@@ -85,9 +85,9 @@ class EmulatedDrive(ABC):
         address, count = _word(request, 1), _word(request, 3)
         if len(request) != 5 or not 1 <= count <= _MOST_READ:
             return exception(_READ, ILLEGAL_VALUE)
-        registers = self._registers | self._live()
+        live, kept = self._live(), self._registers
         try:
-            values = [registers[address + i] for i in range(count)]
+            values = [live[at] if at in live else kept[at] for at in range(address, address + count)]
         except KeyError:
             return exception(_READ, ILLEGAL_ADDRESS)
         return bytes((_READ, 2 * count)) + b"".join(value.to_bytes(2, "big") for value in values)

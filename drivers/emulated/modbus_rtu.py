@@ -73,23 +73,9 @@ class RtuLine:
         return received
 
     def _answer(self, frame: bytes) -> bytes:
-        unit = self._units.get(frame[0]) if len(frame) >= 4 else None
-        if unit is None:
-            return b""
-        pdu = frame[1:-2]
-        if check_sum(frame[:-2]) != frame[-2:]:
-            if self._check_sum_exception is None:
-                return b""
-            return framed(bytes((frame[0], pdu[0] | 0x80, self._check_sum_exception)))
-        try:
-            reply = unit(pdu)
-        except (DropLink, HalfOpen):
-            return b""  # of a line that has no connection: nothing comes
-        if reply.pdu is None:
-            return b""
-        self._closing.wait(_REPLY_DELAY_S + reply.delay_s)
-        whole = framed(frame[:1] + reply.pdu)
-        return _SPOIL[reply.spoil](whole) if reply.spoil else whole
+        reply, delay_s = reply_to(frame, self._units, self._check_sum_exception)
+        self._closing.wait(delay_s)
+        return reply
 
     def _send(self, data: bytes) -> None:
         """Byte after byte, in slices that the scheduler can keep."""
@@ -101,6 +87,28 @@ class RtuLine:
                 sent = due
             else:
                 time.sleep(_SLICE_S)
+
+
+def reply_to(
+    frame: bytes, units: Mapping[int, Callable[[bytes], DriveReply]], check_sum_exception: int | None
+) -> tuple[bytes, float]:
+    """What the drives on a line send back for a frame, and how long after it; empty: nothing."""
+    unit = units.get(frame[0]) if len(frame) >= 4 else None
+    if unit is None:
+        return b"", 0.0
+    pdu = frame[1:-2]
+    if check_sum(frame[:-2]) != frame[-2:]:
+        if check_sum_exception is None:
+            return b"", 0.0
+        return framed(bytes((frame[0], pdu[0] | 0x80, check_sum_exception))), 0.0
+    try:
+        reply = unit(pdu)
+    except (DropLink, HalfOpen):
+        return b"", 0.0  # of a line that has no connection: nothing comes
+    if reply.pdu is None:
+        return b"", 0.0
+    whole = framed(frame[:1] + reply.pdu)
+    return (_SPOIL[reply.spoil](whole) if reply.spoil else whole), _REPLY_DELAY_S + reply.delay_s
 
 
 def check_sum(frame: bytes) -> bytes:

@@ -25,9 +25,16 @@ class _Unit(ABC):
         self._on_the_way = tuple(k for k in _ON_THE_WAY if k != "bad_crc" or not behind_gateway)
         self._own: Final = own
         self._orders = orders
+        self._spoiled = False
+        """Whether something was ordered at the last request."""
 
     def answer(self, request: bytes) -> DriveReply:
         """:raises DropLink: the port is gone; :raises HalfOpen: nothing comes on this connection any more"""
+        was_spoiled, self._spoiled = self._spoiled, bool(self._orders.given)
+        if not self._spoiled:  # as nearly always
+            if was_spoiled:
+                self._change()
+            return DriveReply(self._answer(request))
         if self._due("port_gone"):
             raise DropLink
         if self._due("half_open"):

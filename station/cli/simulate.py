@@ -17,10 +17,12 @@ from station.simulation import (
     Case,
     Life,
     Outcome,
+    Shrunk,
     carried_out,
     happenings,
     month,
     months,
+    shrunk,
     writes_that_fail,
 )
 from station.simulation import orders as every_order
@@ -42,6 +44,7 @@ from station.studies.engine import Engine
     help="Instead: every order of so many of eight events, 8^N stations.",
 )
 @click.option("--writes", is_flag=True, help="Instead: a failure and a kill at every write of two runs.")
+@click.option("--shrink", type=click.IntRange(0), help="Instead: a month that broke a sentence, made short.")
 @click.option("--workers", type=click.IntRange(1), help="Processes; one for each core without it.")
 @click.option("--resume", type=click.Path(file_okay=False, path_type=Path), help="Folder to go on from.")
 @click.option("--json", "json_file", type=click.Path(path_type=Path), help="Write what is printed here.")
@@ -50,6 +53,7 @@ def simulate_command(
     seed: int,
     orders: int | None,
     writes: bool,
+    shrink: int | None,
     workers: int | None,
     resume: Path | None,
     json_file: Path | None,
@@ -61,7 +65,9 @@ def simulate_command(
     """
     check_folders(json_file)
     engine = Engine(Console(stderr=True), workers, resume)
-    if orders is not None or writes:
+    if shrink is not None:
+        found = made_short(shrunk(shrink))
+    elif orders is not None or writes:
         cases: list[Case] = []
         cases += every_order(orders) if orders is not None else writes_that_fail()
         found = exhausted(engine.each(carried_out, cases, "Cases"))
@@ -72,6 +78,16 @@ def simulate_command(
     click.echo(json.dumps(found, indent=1))
     if found["violations"]:
         raise SystemExit(1)
+
+
+def made_short(found: Shrunk) -> dict[str, object]:
+    """The jobs that a violation takes."""
+    return {
+        "month": found.seed,
+        "lives": found.lives,
+        "jobs": [asdict(job) for job in found.jobs],
+        "violations": [{"sentence": INVARIANTS[found.violation.invariant], **asdict(found.violation)}],
+    }
 
 
 def exhausted(outcomes: Sequence[Outcome]) -> dict[str, object]:

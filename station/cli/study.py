@@ -12,12 +12,14 @@ from pydantic import JsonValue
 from rich.console import Console
 
 from station.cli.files import check_folders, write_json
+from station.studies.arms import arms
+from station.studies.arms import figures as arms_figures
 from station.studies.confusion import figures as confusion_figures
 from station.studies.confusion import run as confusion
 from station.studies.engine import Engine, digest
 from station.studies.population import FIGURES, population
 
-_KINDS = (*FIGURES, "confusion")
+_KINDS = (*FIGURES, "confusion", "arms")
 _PLANS = ("full", "rapid")
 """Those that measure once and are fitted once."""
 
@@ -25,18 +27,21 @@ _PLANS = ("full", "rapid")
 @click.command("study")
 @click.argument("study", type=click.Choice(_KINDS))
 @click.option(
-    "--machines", type=click.IntRange(1), required=True, help="How many; of each kind for confusion."
+    "--machines",
+    type=click.IntRange(1),
+    required=True,
+    help="How many; of each kind for confusion; logs for arms.",
 )
 @click.option("--seed", type=click.IntRange(0), default=1, show_default=True)
 @click.option(
-    "--plan", type=click.Choice(_PLANS), default="full", show_default=True, help="Not for confusion."
+    "--plan", type=click.Choice(_PLANS), default="full", show_default=True, help="Not for confusion and arms."
 )
 @click.option(
     "--tolerance",
     type=click.FloatRange(0, 3, min_open=True),
     default=0.03,
     show_default=True,
-    help="Standard deviation of lengths and base joints, mm; not for confusion.",
+    help="Standard deviation of lengths and base joints, mm; not for confusion and arms.",
 )
 @click.option("--workers", type=click.IntRange(1), help="Processes; one for each core without it.")
 @click.option("--scheduler", metavar="tcp://HOST:PORT", help="A Dask cluster that does it instead.")
@@ -55,8 +60,9 @@ def study_command(
 ) -> None:
     """Calibrate many random machines, and say what came of it.
 
-    STUDY is accuracy, coverage or capability (a calibration each, no diagnosis), or confusion (a diagnosis
-    each).  The digest is the same on one core, on many and on a cluster.
+    STUDY is accuracy, coverage or capability (a calibration each, no diagnosis), confusion (a diagnosis
+    each), or arms (logs of serial arms, a diagnosis each).  The digest is the same on one core, on many
+    and on a cluster.
     """
     check_folders(json_file)
     engine = Engine(Console(stderr=True), workers, resume, scheduler)
@@ -64,6 +70,8 @@ def study_command(
     found: dict[str, Any] | list[JsonValue]
     if study == "confusion":
         found = confusion_figures(confusion(machines, seed, engine))
+    elif study == "arms":
+        found = arms_figures(arms(machines, seed, engine))
     else:
         found = FIGURES[study](population(machines, seed, engine, plan, tolerance))
     seconds = round(time.perf_counter() - began, 1)

@@ -116,7 +116,7 @@ def _examine_device(device: Device, branch: Finding, emulated: bool) -> float | 
 
 def _look(device: Device, line: SerialLine, branch: Finding) -> float:
     if identity := getattr(device, "identity", ""):
-        branch.add(f"is {identity if isinstance(identity, str) else ' '.join(identity)}")
+        branch.add(f"identifies itself as {identity if isinstance(identity, str) else ' '.join(identity)}")
     value = math.nan
     with RoundTrips(line) as trips:
         for _ in range(_LOOKS):

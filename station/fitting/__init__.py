@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from station.fitting.accuracy import (
     ErrorFields,
-    common_sd_deg,
     error_bounds,
     expected_largest_error_bound,
     largest_error_bound,
@@ -50,7 +49,6 @@ __all__ = [
     "Solution",
     "chance_of",
     "check_outlier_share",
-    "common_sd_deg",
     "describe_separability",
     "error_bounds",
     "estimate_noise",

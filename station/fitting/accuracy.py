@@ -139,8 +139,3 @@ def _standard_normal(size: int) -> Real:
     drawn = np.asarray(ndtri((np.random.default_rng(0).permuted(strata, axis=1) + 0.5) / DRAWS))
     drawn.setflags(write=False)
     return drawn
-
-
-def common_sd_deg(covariance: Real) -> float:
-    """sd of the mode in which both zero offsets move together."""
-    return float(np.degrees(np.sqrt(covariance[:2, :2].sum()) / 2.0))

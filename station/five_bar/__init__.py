@@ -30,6 +30,7 @@ from station.five_bar.robot_file import (
 from station.five_bar.weak_direction import (
     KNOWN_DRM_SD_MM,
     SECOND_MOUNT_MM,
+    common_sd_deg,
     describe_weak_direction,
     with_second_mount,
 )
@@ -57,6 +58,7 @@ __all__ = [
     "check_distances",
     "check_places",
     "check_poses",
+    "common_sd_deg",
     "describe_weak_direction",
     "distance_by_joint",
     "distance_jacobian",

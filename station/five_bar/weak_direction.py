@@ -8,13 +8,16 @@ together with a sideways error of the mechanism.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from station.fitting import Solution, common_sd_deg
 from station.five_bar.error_model import KEPT, distance_jacobian, pose
 from station.five_bar.mechanism import FiveBar
 from station.records import Real, Remedy, WeakDirection
+
+if TYPE_CHECKING:  # who lists runs needs robot files, and no solver, which takes long to load
+    from station.fitting import Solution
 
 BLIND = (
     "base joints and mechanism shifted together sideways",
@@ -134,3 +137,8 @@ def with_second_mount(mechanism: FiveBar, row_sd: Real, dtheta: Real, informatio
     wider[:size, :size] = information
     wider[[size, size + 1], [size, size + 1]] += 1.0 / np.array(mechanism.robot.drm_sd) ** 2
     return np.asarray(np.linalg.inv(wider + rows.T @ rows))
+
+
+def common_sd_deg(covariance: Real) -> float:
+    """sd of the mode in which both zero offsets move together."""
+    return float(np.degrees(np.sqrt(covariance[:2, :2].sum()) / 2.0))

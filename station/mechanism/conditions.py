@@ -102,6 +102,17 @@ def readings_before(m: Measurements, reference: Reference | None) -> Real:
     return came_from
 
 
+def last_way(m: Measurements, came_from: Real) -> tuple[Real, NDArray[np.bool_]]:
+    """(K, n) by what each joint came to its reading, rad, NaN where unknown; and (K,) where by a run-up.
+
+    That is so where the recorded approach is not that of the way from the reading before.
+    """
+    way = m.theta - came_from[:, :-1]
+    way[np.abs(way) < SAME_PLACE_RAD] = 0.0
+    run_up = ((m.approach != 0) & (m.approach != np.sign(way))).any(axis=1)
+    return np.where(run_up[:, None], RUN_UP_RAD * m.approach, way), run_up
+
+
 def last_motion(m: Measurements, by_joint: Real, came_from: Real) -> tuple[Real, Real]:
     """(K,) sign in which the distance last changed, and (K, n) by each joint alone; 0 unknown or too short to
     be sure.
@@ -110,10 +121,7 @@ def last_motion(m: Measurements, by_joint: Real, came_from: Real) -> tuple[Real,
     reading before, else by that way; a slider that turned round on it is not known, for the joints do not
     arrive quite together.
     """
-    way = m.theta - came_from[:, :-1]
-    way[np.abs(way) < SAME_PLACE_RAD] = 0.0
-    run_up = ((m.approach != 0) & (m.approach != np.sign(way))).any(axis=1)
-    last = np.where(run_up[:, None], RUN_UP_RAD * m.approach, way)
+    last, run_up = last_way(m, came_from)
     each = np.nan_to_num(by_joint * last)
     moved = np.sum(each, axis=1)
     direction = np.sign(moved)

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from drivers.errors import DeviceError
-from station.errors import StepFailed
+from station.errors import StepFailed, sentence
 from station.five_bar import forward
 from station.motion.machine import Machine
 from station.motion.positioner import Positioner
@@ -60,6 +60,7 @@ class Zeroing:
         """
         if doubt := self.machine.make_safe():
             raise StepFailed(doubt)
+        self._check_powered()
         self.positioner.prepare()
         self.settle()
         shift = shift_of(self._writes(step.of))
@@ -77,6 +78,21 @@ class Zeroing:
                 raise
             self.positioner.look()
         return shift_of(self._writes(step.of))
+
+    def _check_powered(self) -> None:
+        """The run has powered both drives.  One that lost its power since may count from elsewhere, and what
+        is written then has nothing to do with the zero that it is to have.
+
+        :raises StepFailed: a drive has lost its power.
+        """
+        self.machine.connect_missing(axes_only=True)
+        for axis in self.machine.devices.axes:
+            status = self.machine.status(axis)
+            if not status.enabled and status.alarm is None:
+                raise StepFailed(
+                    f"{sentence(axis.name)} has lost its power during this run and may count from elsewhere:"
+                    " no zero is written; calibrate again."
+                )
 
     def _write(self, number: int, offset_deg: float) -> None:
         self.positioner.check_cancel()

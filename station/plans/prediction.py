@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from station.fitting import common_sd_deg, largest_error_bound, position_error_summary, tolerance_prior
-from station.five_bar import FiveBar, Robot, inverse
+from station.fitting import largest_error_bound, position_error_summary, tolerance_prior
+from station.five_bar import FiveBar, Robot, common_sd_deg, inverse
 from station.records import Complex, Measurements, PlanPrediction, PredictedSd, Real
 
 FLAT_PRIOR_SD_MM = 1e4

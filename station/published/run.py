@@ -8,8 +8,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from station.fitting import common_sd_deg, position_error_summary
-from station.five_bar import KEPT, MOST_ZERO_OFFSET, FiveBar, Geometry, Robot, distance_jacobian, pose
+from station.fitting import position_error_summary
+from station.five_bar import (
+    KEPT,
+    MOST_ZERO_OFFSET,
+    FiveBar,
+    Geometry,
+    Robot,
+    common_sd_deg,
+    distance_jacobian,
+    pose,
+)
 from station.published.method import Identified, compensation_accuracy, identification_matrix, identify
 from station.records import (
     LIMIT_SDS,

@@ -104,7 +104,7 @@ class Trend(Record):
     robot_serial: str | None
     """Null: of all robots of the station."""
     items: tuple[TrendPoint, ...]
-    """Calibrations, and between them what was applied or rolled back."""
+    """Calibrations, and between them what was applied or rolled back, and gauge studies."""
     dtheta1: ChartLines
     dtheta2: ChartLines
     position_error: ChartLines

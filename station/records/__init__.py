@@ -119,7 +119,7 @@ from station.records.prompt import Prompt
 from station.records.quantity import Quantity
 from station.records.reading import Reading
 from station.records.reason import Reason, ReasonValue, because
-from station.records.record import Record
+from station.records.record import Record, field_docstrings
 from station.records.references import AnyReference, Asked, JointAngle, MountingError, ReferenceUse
 from station.records.remembered import Beforehand, MemorySummary, Remembered
 from station.records.residuals import LIMIT_SDS, residual_rows
@@ -363,6 +363,7 @@ __all__ = [
     "checked_name",
     "checked_serial",
     "csv_text",
+    "field_docstrings",
     "from_readings",
     "guesses_in_words",
     "harmless",

@@ -90,11 +90,11 @@ class ReferenceUse(Record):
     """A reference that took part in a fit, and how well everything else agrees with it."""
 
     reference: AnyReference
-    residual: float | None
+    residual: float | None = None
     """Reference less what everything else says, in the unit of the parameter; null when nothing else says
     anything of it."""
-    sd: float | None
+    sd: float | None = None
     """Standard uncertainty of that difference."""
     unit: str
-    p_value: float | None
+    p_value: float | None = None
     """Of a difference that large, if both are right; null where that was not judged."""

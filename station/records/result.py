@@ -120,7 +120,7 @@ class CheckFound(Record):
     """The direction of both zeros together in which a shift shows least."""
     blind_shift_deg: float
     """The shift that is found along it."""
-    valid_until: datetime | None
+    valid_until: datetime | None = None
     """Until when the check holds; null when it failed."""
 
 

@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-import ast
-import inspect
-import textwrap
 import types
 from collections.abc import Iterator
 from enum import Enum
@@ -18,7 +15,7 @@ from drivers.driver import DriverSettings
 from drivers.scales import SCALES
 from drivers.servos import SERVOS
 from station.five_bar import RobotFile
-from station.records import FIVE_BAR, Columns
+from station.records import FIVE_BAR, Columns, field_docstrings
 from station.reference.markdown import code, page, section, table
 from station.serial_arm import ArmFile
 from station.settings import Settings
@@ -140,7 +137,7 @@ def _summary(model: type[BaseModel]) -> str:
 
 
 def _options(model: type[BaseModel]) -> str:
-    meaning = _docstrings(model)
+    meaning = field_docstrings(model)
     rows = [
         (code(name), _kind(field), _default(field), meaning.get(name, ""))
         for name, field in model.model_fields.items()
@@ -204,22 +201,3 @@ def _plain(value: Any) -> str:
     if isinstance(value, tuple | list):
         return f"[{', '.join(_plain(v) for v in value)}]"
     return f"{value:g}" if isinstance(value, float) else str(value)
-
-
-def _docstrings(model: type[BaseModel]) -> dict[str, str]:
-    """The text below each field of a model and its bases."""
-    found: dict[str, str] = {}
-    for base in reversed(model.__mro__):
-        if not (issubclass(base, BaseModel) and base.__module__.split(".")[0] in ("station", "drivers")):
-            continue
-        (definition,) = ast.parse(textwrap.dedent(inspect.getsource(base))).body
-        assert isinstance(definition, ast.ClassDef)
-        for field, after in zip(definition.body, definition.body[1:], strict=False):
-            if (
-                isinstance(field, ast.AnnAssign)
-                and isinstance(field.target, ast.Name)
-                and isinstance(after, ast.Expr)
-                and isinstance(after.value, ast.Constant)
-            ):
-                found[field.target.id] = str(after.value.value)
-    return found

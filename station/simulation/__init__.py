@@ -1,9 +1,10 @@
 """Station-years in virtual time: the production code, and everything outside it simulated.
 
-What is simulated: clocks and threads (`scheduler`, `threads`, `clocks`), put in the place of the real ones
-by `substitution`; wires to the emulated devices (`wires`), the disk's faults and power cuts (`disk`), the
-receiver of events (`receiver`).  `plant` puts them together, `days` lets things happen, `witness` says what
-must hold.  `exhaustive` leaves nothing to a draw where that is possible.
+What is simulated: clocks and threads (`scheduler`, `threads`, `clocks`, `loops`), put in the place of the
+real ones by `substitution`; the equipment (`site`) and the wires to it (`wires`), the disk's faults and power
+cuts (`disk`), receivers of events (`receiver`), people and programs with their requests (`people`,
+`clients`).  `plant` puts them together, `days` lets things happen (`jobs`), `witness` says what must hold.
+`exhaustive` leaves nothing to a draw where that is possible; `shrinking` finds what a violation takes.
 """
 
 from __future__ import annotations
@@ -15,6 +16,7 @@ from station.simulation.exhaustive import (
     orders,
     writes_that_fail,
 )
+from station.simulation.shrinking import Shrunk, shrunk
 from station.simulation.witness import INVARIANTS, Violation
 from station.simulation.years import Life, happenings, live, month, months
 
@@ -23,6 +25,7 @@ __all__ = [
     "Case",
     "Life",
     "Outcome",
+    "Shrunk",
     "Violation",
     "carried_out",
     "happenings",
@@ -30,5 +33,6 @@ __all__ = [
     "month",
     "months",
     "orders",
+    "shrunk",
     "writes_that_fail",
 ]

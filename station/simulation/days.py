@@ -8,17 +8,18 @@ and clock have their faults; the process is killed.
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from random import Random
 from typing import TypeVar
 
 from drivers.emulated.orders import KINDS, Device, FaultOrder
 from station.five_bar import Robot
-from station.records import Actor, CalibrationRequest, PlanName
-from station.service import Orchestrator
+from station.records import PlanName
 from station.simulation.disk import FOR_GOOD, DiskTrouble
+from station.simulation.jobs import WHOLE, Job, Request, Script
 from station.simulation.keeper import RUN_LIMIT_S, Keeper, Stranded
+from station.simulation.people import People
 from station.simulation.plant import Plant
 from station.simulation.witness import Witness
 
@@ -57,6 +58,8 @@ TROUBLES = {
 """How often each comes, as parts of their sum."""
 _CHANGE_THE_MACHINE = ("jump", "lost_counts", "reboot", "unit", "frozen", "contaminated", "overspeed")
 """Faults after which the readings are not those of the machine, so that its truth is no measure of them."""
+_NEW_KEY, _STRANGER = 0.05, 0.3
+"""A day."""
 _CLOCK_STEPS_S = (-3600.0, -60.0, 90.0, 3600.0, 315_360_000.0)
 
 
@@ -65,11 +68,20 @@ class Days:
     """Lives at one plant."""
 
     keeper: Keeper
-    random: Random
+    seed: str
     deeds: Mapping[str, float]
     troubles: Mapping[str, float]
+    script: Script = WHOLE
     happened: Counter[str] = field(default_factory=Counter)
-    _key: int = 0
+    jobs: list[Job] = field(default_factory=list)
+    """Those that came about."""
+    _day: int = -1
+    _first: bool = True
+
+    def __post_init__(self) -> None:
+        self.random = Random(self.seed)
+        """Of the day, or of the job that is under way."""
+        self.people = People(self.plant, Random(f"{self.seed} people"))
 
     @property
     def plant(self) -> Plant:
@@ -81,40 +93,71 @@ class Days:
 
     def day(self) -> None:
         """From one morning to the next."""
-        plant, random = self.plant, self.random
+        plant = self.plant
+        self._day += 1
+        self.random = random = Random(f"{self.seed} day {self._day}")
         if random.random() < 0.3:
             plant.bring(random.randrange(len(plant.machines)))
-        plant.receiver.fails = random.choice((0.0, 0.0, 0.0, 0.3, 0.8))
+        if self.script.has_day(self._day):
+            self._open(random)
+        plant.clocks.set_s += _NIGHT_S
+
+    def _open(self, random: Random) -> None:
+        """The station is on."""
+        plant = self.plant
+        for receiver in plant.receivers.values():
+            receiver.fails = random.choice((0.0, 0.0, 0.0, 0.3, 0.8))
         self.keeper.start()
-        for _ in range(random.randint(*_RUNS_A_DAY)):
-            self._job(_drawn(random, self.deeds), _drawn(random, self.troubles))
-        if random.random() < _KILLED_AT_NIGHT:
+        self._people_come()
+        killed_after_s = random.uniform(1.0, 20.0) if random.random() < _KILLED_AT_NIGHT else None
+        for number in range(random.randint(*_RUNS_A_DAY)):
+            if self.script.keeps(self._day, number):
+                self._job(number)
+        if killed_after_s is not None:
             self.happened["kill"] += 1
             plant.kill()
-            self.keeper.restart(random.uniform(1.0, 20.0))
+            self.keeper.restart(killed_after_s)
+        self.keeper.deliver_all()
+        self.witness.pulled(self.people.pull())
+        self.witness.all_pulled(self.keeper.store)
         self.keeper.end()
-        plant.clocks.set_s += _NIGHT_S
+
+    def _people_come(self) -> None:
+        if self._first:
+            self.people.begin()
+        elif self.random.random() < _NEW_KEY:
+            self.people.renew_key()
+        self._first = False
+        if self.random.random() < _STRANGER:
+            self.happened["stranger"] += 1
+            order = {"robot_serial": "SIM-1", "plan": "check", "operator": "nobody"}
+            passed = self._last_pass(self.plant.serials[0])
+            self.witness.without_right(self.people.try_without_right(order, passed))
 
     # One job -------------------------------------------------------------------------------------------
 
-    def _job(self, deed: str, trouble: str) -> None:
+    def _job(self, number: int) -> None:
         """Somebody asks for a run; something happens meanwhile; it ends, and the station is looked at."""
-        self._key += 1
-        key = f"job {self._key}"
+        key = f"job {self._day}.{number}"
+        self.random = Random(f"{self.seed} {key}")
+        deed, trouble = _drawn(self.random, self.deeds), _drawn(self.random, self.troubles)
+        if (self._day, number) in self.script.calm:
+            trouble = "none"
+        self.jobs.append(Job(self._day, number, deed, trouble))
         self.happened[deed] += 1
         if trouble != "none":
             self.happened[trouble] += 1
         request = self._request(deed, key)
         run = 0
         with self.keeper.answered():
-            run = self.plant.ask(request)
-            self.witness.started(key, run)
+            run = request.send(self.witness)
         if not run:
             self._rest()
             return
         helpers = [
             self.plant.scheduler.spawn(lambda: self._answer(run), "operator"),
             self.plant.scheduler.spawn(lambda: self._trouble(trouble, run, request, key), "trouble"),
+            self.plant.scheduler.spawn(lambda: self._poll(run), "mes"),
         ]
         world = self.plant.scheduler
         ended = world.wait(lambda: self._is_over(run) and all(h.ended for h in helpers), RUN_LIMIT_S)
@@ -125,7 +168,7 @@ class Days:
         if not self.plant.runs:
             self._restart()
             with self.keeper.answered():  # who did not hear how its start ended asks again
-                self.witness.started(key, self.plant.ask(request))
+                request.send(self.witness)
         elif not ended:
             self.witness.fails("idle", f"run {run} ({deed}, {trouble}) does not end")
             raise Stranded
@@ -141,23 +184,23 @@ class Days:
     def _restart(self) -> None:
         self.keeper.restart(self.random.uniform(1.0, 20.0))
 
-    def _request(self, deed: str, key: str) -> Callable[[Orchestrator], int]:
+    def _request(self, deed: str, key: str) -> Request:
         serial = self.plant.serials[self.plant.robot]
-        program = Actor(name="mes", via="key")
+        people = self.people
         passed = self._last_pass(serial)
         if deed == "measure" or (deed != "retract" and passed is None):
-            plan: PlanName = _drawn(self.random, _PLANS)
-            asked = CalibrationRequest(
-                serial,
-                {"check": "check"}.get(plan, "calibrate"),
-                "ada",
-                plan,
-                until_mm=0.3 if plan == "adaptive" else None,
-            )
-            return lambda station: station.submit(asked, idempotency_key=key, by=program).id
+            plan = _drawn(self.random, _PLANS)
+            order: dict[str, object] = {"robot_serial": serial, "plan": plan, "operator": "Ada"}
+            if plan == "adaptive":
+                order["until_mm"] = 0.3
+            client = self.random.choice((people.mes, people.operator))
+            return Request(client, "/calibrations", order, "run.started", key)
+        by = {"operator": "Ada"}
         if deed == "retract":
-            return lambda station: station.retract("ada", idempotency_key=key).id
-        return lambda station: station.follow(deed, passed or 0, "ada", idempotency_key=key, by=program).id
+            return Request(people.operator, "/retract", by, "run.started", key)
+        if deed == "apply":
+            return Request(people.operator, f"/calibrations/{passed}/apply", by, "run.applied", key)
+        return Request(people.operator, f"/calibrations/{passed}/rollback", by, "run.rolled_back", None)
 
     def _last_pass(self, serial: str) -> int | None:
         runs = self.keeper.store.calibrations(limit=10, robot_serial=serial, verdict="pass").items
@@ -185,29 +228,53 @@ class Days:
                 else:
                     back = "back" in prompt.text
                     self.plant.machine.remount(ROBOT.c if back else ROBOT.second_mount[1])
-                self.plant.ask(lambda station: station.answer(run, prompt.id, value, "ada"))  # noqa: B023
+                said = {"prompt": prompt.id, "value": value}
+                self.witness.answered(self.people.operator.send("POST", f"/calibrations/{run}/answer", said))
 
-    def _trouble(self, trouble: str, run: int, request: Callable[[Orchestrator], int], key: str) -> None:
+    def _poll(self, run: int) -> None:
+        """The MES asks how far its run is, and what else has happened."""
+        while not self._is_over(run):
+            self.plant.scheduler.wait(lambda: self._is_over(run), self.random.uniform(5.0, 60.0))
+            with self.keeper.answered():
+                self.witness.answered(self.people.mes.send("GET", f"/calibrations/{run}"))
+                self.witness.pulled(self.people.pull())
+
+    def _abort(self, run: int) -> None:
+        answer = self.people.operator.send("POST", f"/calibrations/{run}/abort")
+        self.witness.answered(answer)
+        if answer.status == 202:
+            self.witness.done(self.people.operator.name, "run.aborted", f"run {run}")
+
+    def _stop(self) -> None:
+        pressed_s = self.plant.scheduler.now_s
+        answer = self.people.operator.send("POST", "/stop")
+        self.witness.answered(answer)
+        if answer.status in (200, 502):
+            self.witness.done(self.people.operator.name, "station.stopped", "both axes")
+            self.witness.stopped(pressed_s, answer.body["axes"])
+
+    def _trouble(self, trouble: str, run: int, request: Request, key: str) -> None:
         world, random = self.plant.scheduler, self.random
         world.wait(lambda: self._is_over(run), random.choice((0.0, 2.0, 15.0, 40.0)) * random.random())
         with self.keeper.answered():
             match trouble:
                 case "abort":
                     over = self._is_over(run)
-                    self.plant.ask(lambda station: station.abort(run, "ada"))
+                    self._abort(run)
                     if not world.wait(lambda: over or self._is_over(run), ABORT_LIMIT_S):
                         self.witness.fails("idle", f"run {run} was aborted and goes on")
                 case "stop":
-                    self.keeper.stop()
+                    self._stop()
                 case "stop while a drive is silent":
                     device: Device = random.choice(("axis1", "axis2"))
                     self.plant.orders.replace([FaultOrder(device=device, kind="silent", for_s=3.0)])
                     world.wait(seconds=random.random())
-                    self.keeper.stop()
+                    self._stop()
                 case "double start":
-                    self.witness.started(key, self.plant.ask(request))
+                    request.send(self.witness)
                 case "second start":
-                    self.witness.second_start(run, self.plant.ask(self._request("measure", f"{key} again")))
+                    if other := self._request("measure", f"{key} again").send(self.witness):
+                        self.witness.second_start(run, other)
                 case "kill" if self.plant.runs:
                     self.plant.kill()
                 case "kill at a write":

@@ -18,10 +18,11 @@ from typing import Literal, get_args
 
 from drivers.emulated.orders import FaultOrder
 from drivers.emulated.spec import MachineSpec
-from station.records import CalibrationRequest
+from station.records import CalibrationRequest, PlanName
 from station.simulation.disk import FOR_GOOD, DiskTrouble
 from station.simulation.keeper import Keeper, Stranded
 from station.simulation.plant import Plant
+from station.simulation.site import Site
 from station.simulation.witness import Violation, Witness
 from station.simulation.years import prepared
 
@@ -115,8 +116,9 @@ def _station(seed: str = "") -> Iterator[Keeper]:
         home = Path(folder) / "home"
         calibrated, taken = _calibrated()
         shutil.copytree(calibrated.name, home)
-        plant = Plant(home, [_SPEC], Random(seed))
-        plant.receiver.taken = list(taken)
+        plant = Plant(home, [_SPEC], Random(seed), Site.instant())
+        for receiver in plant.receivers.values():
+            receiver.taken = list(taken)
         with plant.entered():
             yield Keeper(plant, Witness(plant))
             plant.scheduler.end()
@@ -129,7 +131,7 @@ def _calibrated() -> tuple[TemporaryDirectory[str], tuple[tuple[int, str], ...]]
     Made once in each process; the folder is deleted at its end.
     """
     folder = TemporaryDirectory(prefix="calibrated-")
-    plant = Plant(Path(folder.name), [_SPEC], Random(1))
+    plant = Plant(Path(folder.name), [_SPEC], Random(1), Site.instant())
     keeper = Keeper(plant, Witness(plant))
     with plant.entered():
         keeper.start()
@@ -137,7 +139,7 @@ def _calibrated() -> tuple[TemporaryDirectory[str], tuple[tuple[int, str], ...]]
         keeper.come_to_rest()
         keeper.end()
         plant.scheduler.end()
-    return folder, tuple(plant.receiver.taken)
+    return folder, tuple(plant.receivers["plant"].taken)
 
 
 def _in_order(keeper: Keeper, case: Order) -> None:
@@ -173,8 +175,9 @@ def _let_happen(keeper: Keeper, event: Event, key: str) -> None:
             pass
 
 
-def _measure(keeper: Keeper, key: str) -> None:
-    request = CalibrationRequest(keeper.plant.serials[0], "calibrate", "ada", "paper")
+def _measure(keeper: Keeper, key: str, kind: Literal["calibrate", "check"] = "calibrate") -> None:
+    plan: PlanName = "paper" if kind == "calibrate" else "check"
+    request = CalibrationRequest(keeper.plant.serials[0], kind, "ada", plan)
     keeper.witness.started(
         key, keeper.plant.ask(lambda station: station.submit(request, idempotency_key=key).id)
     )
@@ -209,7 +212,7 @@ def _settled(keeper: Keeper) -> None:
     keeper.come_to_rest()
     plant.orders.replace(())
     with keeper.answered():
-        _measure(keeper, "last")
+        _measure(keeper, "last", "check")
     if (run := keeper.orchestrator.running) is None:
         keeper.witness.fails("idle", "at rest, and no run may start")
         return

@@ -104,7 +104,8 @@ class Keeper:
     def deliver_all(self) -> None:
         """Wait until the receiver has everything."""
         world = self.plant.scheduler
-        self.plant.receiver.fails = 0.0
+        for receiver in self.plant.receivers.values():
+            receiver.fails = 0.0
         world.wait(seconds=2.0)  # until the courier has seen the last end
         limit_s = world.now_s + DELIVERY_LIMIT_S
         while self.store.backlogs() and world.now_s < limit_s:

@@ -16,36 +16,51 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from random import Random
-from typing import TypeVar
+from typing import ParamSpec, Protocol, TypeVar
 
-from drivers.emulated.el7 import EL7, EL7Drive
+from fastapi import FastAPI
+from starlette.types import Message, Scope
+
+from drivers.emulated.drive import EmulatedDrive
 from drivers.emulated.faults import Faults
 from drivers.emulated.machine import Machine
-from drivers.emulated.nd280 import ND280
 from drivers.emulated.orders import Orders
 from drivers.emulated.spec import MachineSpec
 from drivers.emulated.spoiled import ReadoutOnLine, SpoiledDrive
-from drivers.lines import open_port
+from drivers.lines import NetAddress, Port, SerialAddress, open_port
+from station.identification import identify
 from station.outbox import Folder
 from station.service import Orchestrator, Runtime
 from station.settings import Settings
 from station.simulation.clocks import Clocks, DrawnSecrets, dates
 from station.simulation.disk import CutOff, Disk
+from station.simulation.loops import VirtualLoop, threads_of_requests
 from station.simulation.receiver import Receiver
 from station.simulation.scheduler import Process, Scheduler
+from station.simulation.site import Site
 from station.simulation.substitution import substituted
 from station.simulation.threads import Threads
 from station.simulation.wires import Wires
+from web.app import create_app
 
 T = TypeVar("T")
+P = ParamSpec("P")
 
 START_LIMIT_S = 60.0
 END_LIMIT_S = 60.0
-_STATION = {
-    "name": "Simulated station",
-    "scale": {"protocol": "heidenhain-nd", "url": "serial:///dev/scale?baud=9600&format=7E2"},
-    "servo": {"profile": "leadshine-el7", "url": "modbus+tcp://10.0.0.2:502"},
-}
+
+
+class Exchange(Protocol):
+    """The client's end of a request."""
+
+    done: bool
+    """Whether its answer has come."""
+
+    async def receive(self) -> Message:
+        """What the client sends next."""
+
+    async def send(self, message: Message) -> None:
+        """What comes back."""
 
 
 class NotRunning(Exception):
@@ -55,29 +70,39 @@ class NotRunning(Exception):
 class Plant:
     """Everything that is outside the station's process; a context manager."""
 
-    def __init__(self, home: Path, specs: list[MachineSpec], random: Random) -> None:
+    def __init__(
+        self, home: Path, specs: list[MachineSpec], random: Random, site: Site | None = None
+    ) -> None:
         """:param specs: the robots, of which one at a time is at the station"""
         self.home = home
+        self.site = site or Site()
         self.random = random
         self.scheduler = Scheduler(Random(random.random()))
         self.clocks = Clocks(self.scheduler)
         self.disk = Disk(self.scheduler)
         self.orders = Orders(clock=lambda: self.scheduler.now_s)
-        self.machines = [Machine(spec, lambda: self.scheduler.now_s) for spec in specs]
+        self.machines = [Machine(spec, lambda: self.scheduler.now_s, speed=self.site.haste) for spec in specs]
         self.serials = [f"SIM-{number}" for number in range(1, len(specs) + 1)]
         self.first_offsets_deg = [spec.zero_offsets_deg for spec in specs]
         """True zero offsets before any zero was written."""
-        self.receiver = Receiver(self.scheduler, Random(random.random()))
+        self.receivers = {
+            name: Receiver(self.scheduler, Random(random.random()), name) for name in ("plant", "office")
+        }
         self.settings = Settings.model_validate(
-            {**_STATION, "outbox": {"folder": [{"path": "told", "events": ["run.ended"]}]}}
+            {
+                **self.site.settings,
+                "outbox": {"folder": [{"path": name, "events": ["run.ended"]} for name in self.receivers]},
+            }
         )
         self.runtime: Runtime | None = None
         self.refusal: str | None = None
         """Why the last start failed."""
         self._process: Process | None = None
+        self._app: FastAPI | None = None
         self._ending = False
         self._mounted = 0
-        self._wires = self._wired(self.machines[0])
+        self._drives: tuple[EmulatedDrive, ...] = ()
+        self._wires: Wires | None = None
 
     @contextmanager
     def entered(self) -> Iterator[None]:
@@ -96,11 +121,22 @@ class Plant:
             threading.Condition: threads.Condition,
             threading.get_ident: threads.get_ident,
             queue.Queue: threads.Queue,
-            Folder: self.receiver.connected,
-            open_port: lambda address, xonxoff: self._wires.open_port(address, xonxoff),
+            Folder: lambda settings: self.receivers[str(settings.path)],
+            open_port: self._open_port,
+            identify: self._computed(identify),
         }
-        with substituted(replacements):
+        with substituted(replacements), threads_of_requests(self.scheduler):
+            self._switch_on()
             yield
+
+    def _computed(self, function: Callable[P, T]) -> Callable[P, T]:
+        """The same, which takes as long as on the computer of this site."""
+
+        def takes_time(*args: P.args, **kwargs: P.kwargs) -> T:
+            self.scheduler.wait(seconds=self.site.computing_s)
+            return function(*args, **kwargs)
+
+        return takes_time
 
     # The machine -----------------------------------------------------------------------------------
 
@@ -117,17 +153,31 @@ class Plant:
     def bring(self, number: int) -> None:
         """Put another robot at the station; only while the station is off."""
         self._mounted = number
-        self._wires = self._wired(self.machine)
+        self._switch_on()
 
-    def _wired(self, machine: Machine) -> Wires:
-        faults = Faults()
-        display = ReadoutOnLine(ND280(machine.head_mm, faults), self.orders)
-        drives = {
-            joint: SpoiledDrive(EL7Drive(machine, joint, faults, EL7), joint, self.orders) for joint in (1, 2)
-        }
-        return Wires(
-            self.scheduler, display.receive, {joint: drive.answer for joint, drive in drives.items()}
+    def _switch_on(self) -> None:
+        """Readout and drives of the robot at the station."""
+        for drive in self._drives:
+            drive.close()
+        faults, machine = Faults(), self.machine
+        self._drives = tuple(self.site.drive(machine, joint, faults) for joint in (1, 2))
+        readout = self.site.readout(machine, faults, self.clocks.monotonic)
+        gateway = self.site.line == "tcp"
+        spoiled = [
+            SpoiledDrive(drive, joint, self.orders, behind_gateway=gateway)
+            for joint, drive in enumerate(self._drives, start=1)
+        ]
+        self._wires = Wires(
+            self.scheduler,
+            self.site,
+            ReadoutOnLine(readout, self.orders).receive,
+            {joint: drive.answer for joint, drive in enumerate(spoiled, start=1)},
+            self._drives[0].check_sum_exception,
         )
+
+    def _open_port(self, address: SerialAddress | NetAddress, xonxoff: bool) -> Port:
+        assert self._wires is not None
+        return self._wires.open_port(address, xonxoff)
 
     # The station -----------------------------------------------------------------------------------
 
@@ -188,9 +238,32 @@ class Plant:
             raise NotRunning
         return answers[0]
 
+    def serve(self, scope: Scope, exchange: Exchange) -> None:
+        """Let the station's application serve a request; returns when it is answered, or never will be.
+
+        :raises NotRunning: the station does not run
+        """
+        process, app = self._process, self._app
+        if not self.runs or process is None or app is None:
+            raise NotRunning
+
+        def serving() -> None:
+            loop = VirtualLoop(self.scheduler)
+            try:
+                loop.run_until_complete(app(scope, exchange.receive, exchange.send))
+            finally:
+                loop.close()
+
+        task = self.scheduler.spawn(serving, f"request {scope['path']}", process)
+        self.scheduler.wait(lambda: exchange.done or task.ended)
+
     def _live(self) -> None:
         try:
             with Runtime.open(self.settings, self.home) as runtime:
+                app = create_app(runtime)
+                if self._app is not None:  # its routes are ready, which takes as long as a run
+                    self._app.state = app.state
+                self._app = self._app or app
                 self.runtime = runtime
                 self.scheduler.wait(lambda: self._ending)
         except Exception as error:  # noqa: BLE001 - boundary of the process: what it says at its end

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from random import Random
-from typing import Any
 
 from station.records import Event
 from station.simulation.scheduler import Scheduler
@@ -12,19 +11,14 @@ from station.simulation.scheduler import Scheduler
 class Receiver:
     """Another computer: what it has taken stays, whatever becomes of the station."""
 
-    def __init__(self, scheduler: Scheduler, random: Random) -> None:
+    def __init__(self, scheduler: Scheduler, random: Random, name: str) -> None:
         self._scheduler, self._random = scheduler, random
+        self.name = name
+        self.events: tuple[str, ...] = ("run.ended",)
         self.taken: list[tuple[int, str]] = []
         """Number of each event and uid of its run, in the order they came."""
         self.fails = 0.0
         """Share of the deliveries that it spoils."""
-
-    def connected(self, _: Any) -> Receiver:
-        """Stands in for the class of a configured receiver."""
-        return self
-
-    name = "plant"
-    events: tuple[str, ...] = ("run.ended",)
 
     def start(self) -> None:
         """Nothing to say."""

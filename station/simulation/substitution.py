@@ -11,8 +11,8 @@ from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from types import ModuleType
 
-ROOTS = ("station", "drivers", "tenacity")
-"""Packages whose names are replaced; tenacity sleeps between the attempts of a driver."""
+ROOTS = ("station", "drivers", "web")
+"""Packages whose names are replaced."""
 OWN = "station.simulation"
 
 

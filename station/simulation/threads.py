@@ -129,10 +129,12 @@ class VirtualCondition(VirtualLock):
     """As `threading.Condition`; what is waited for is looked at whenever others went on."""
 
     def wait_for(self, predicate: Callable[[], T], timeout: float | None = None) -> T:
-        self.release()
-        self._scheduler.wait(lambda: bool(predicate()) and self._holder is None, timeout)
-        self._holder, self._times = self._scheduler.running, 1
-        return predicate()
+        if not (found := predicate()):
+            self.release()
+            self._scheduler.wait(lambda: bool(predicate()) and self._holder is None, timeout)
+            self._holder, self._times = self._scheduler.running, 1
+            found = predicate()
+        return found
 
     def notify_all(self) -> None:
         """Nobody needs to be told."""

@@ -6,15 +6,17 @@ import errno
 from collections.abc import Callable
 
 from drivers.emulated.link import DriveReply, DropLink, HalfOpen
+from drivers.emulated.modbus_rtu import reply_to
 from drivers.emulated.modbus_tcp import HEADER, reply_frame
 from drivers.emulated.readout import Reply
 from drivers.errors import LinkLost
 from drivers.lines import NetAddress, Port, SerialAddress
 from station.simulation.scheduler import Killed, Process, Scheduler
+from station.simulation.site import SCALE_BAUD, SERVO_BAUD, SERVO_PORT, Site
 
-_TRIP_S = 0.025
-"""Of a request and its reply through a gateway: a line at 9600 baud behind a network."""
-_CHARACTER_S = 10 / 9600
+_BITS = 10
+"""Of a character on the readout's line."""
+_RTU_BITS = 11
 _FLOW_CONTROL = bytes((0x11, 0x13))
 
 Drive = Callable[[bytes], DriveReply]
@@ -24,10 +26,17 @@ class Wires:
     """The lines of one machine; stands in for `open_port`."""
 
     def __init__(
-        self, scheduler: Scheduler, readout: Callable[[bytes], list[Reply]], drives: dict[int, Drive]
+        self,
+        scheduler: Scheduler,
+        site: Site,
+        readout: Callable[[bytes], list[Reply]],
+        drives: dict[int, Drive],
+        check_sum_exception: int | None,
     ) -> None:
+        """:param check_sum_exception: what a drive on RS-485 answers to a wrong check sum; None: nothing"""
         self._scheduler = scheduler
-        self._readout, self._drives = readout, drives
+        self.site, self.drives, self.check_sum_exception = site, drives, check_sum_exception
+        self._readout = readout
         self.unplugged = False
         """Whether nothing can be opened, and what is open is broken."""
         self.gateway_free_s = 0.0
@@ -39,8 +48,10 @@ class Wires:
         if self.unplugged:
             raise LinkLost(f"{address} cannot be reached: no route; check cable, power and address.")
         if isinstance(address, NetAddress):
-            return _Connection(self, self._scheduler, self._drives)
-        return _Readout(self, self._scheduler, self._readout)
+            return _Connection(self, self._scheduler)
+        if address.port == SERVO_PORT:
+            return _Rs485(self, self._scheduler)
+        return _Readout(self, self._scheduler, self._readout, xonxoff)
 
 
 class _End:
@@ -95,21 +106,33 @@ class _End:
 
 
 class _Readout(_End):
-    def __init__(self, wires: Wires, scheduler: Scheduler, receive: Callable[[bytes], list[Reply]]) -> None:
+    def __init__(
+        self, wires: Wires, scheduler: Scheduler, receive: Callable[[bytes], list[Reply]], xonxoff: bool
+    ) -> None:
         super().__init__(wires, scheduler)
         self._receive = receive
+        self._character_s = _BITS / SCALE_BAUD[wires.site.scale]
+        self._swallowed = _FLOW_CONTROL if xonxoff else b""
 
     def _heard(self, data: bytes) -> None:
-        for reply in self._receive(data.translate(None, _FLOW_CONTROL)):
-            self._send(reply.data, reply.delay_s + (len(data) + len(reply.data)) * _CHARACTER_S)
+        for reply in self._receive(data.translate(None, self._swallowed)):
+            self._send(reply.data, reply.delay_s + (len(data) + len(reply.data)) * self._character_s)
+
+
+class _Rs485(_End):
+    """Both drives on one line; each frame is written at once."""
+
+    def _heard(self, data: bytes) -> None:
+        reply, delay_s = reply_to(data, self._wires.drives, self._wires.check_sum_exception)
+        if reply:
+            self._send(reply, delay_s + (len(data) + len(reply)) * _RTU_BITS / SERVO_BAUD)
 
 
 class _Connection(_End):
     """To the gateway."""
 
-    def __init__(self, wires: Wires, scheduler: Scheduler, drives: dict[int, Drive]) -> None:
+    def __init__(self, wires: Wires, scheduler: Scheduler) -> None:
         super().__init__(wires, scheduler)
-        self._drives = drives
         self._request = bytearray()
         self._half_open = False
 
@@ -129,7 +152,8 @@ class _Connection(_End):
 
     def _ask(self, transaction: int, unit: int, pdu: bytes) -> None:
         try:
-            reply = self._drives[unit](pdu) if unit in self._drives else DriveReply(None)
+            drive = self._wires.drives.get(unit)
+            reply = DriveReply(None) if drive is None else drive(pdu)
         except DropLink:
             self._broken = True
             return
@@ -137,5 +161,6 @@ class _Connection(_End):
             self._half_open = True
             return
         now_s = self._scheduler.now_s
-        free_s = self._wires.gateway_free_s = max(now_s, self._wires.gateway_free_s) + _TRIP_S + reply.delay_s
+        busy_s = self._wires.site.trip_s + reply.delay_s
+        free_s = self._wires.gateway_free_s = max(now_s, self._wires.gateway_free_s) + busy_s
         self._send(reply_frame(transaction, unit, pdu, reply), free_s - now_s)

@@ -8,10 +8,16 @@ from __future__ import annotations
 
 import hashlib
 import math
+from collections import Counter
+from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Any
+
+from pydantic_core import to_json
 
 from station.motion import LiveEvent
 from station.records import Calibration, CalibrationSummary, RunBrief, RunReading, State
+from station.simulation.clients import Answer
 from station.simulation.plant import Plant
 from station.store import Store
 
@@ -24,6 +30,7 @@ SAME_FRAME_DEG = 0.01
 """How far the journal's sum of shifts may be from what a drive holds: a few pulses for each write."""
 _UNFINISHED = (State.QUEUED, State.RUNNING, State.WAITING)
 _MANY = 1_000_000
+_IN_A_SENTENCE = (400, 401, 403, 404, 409, 422, 429, 502, 503, 504)
 
 INVARIANTS = {
     "readings": "No reading that was shown is lost or changed.",
@@ -35,9 +42,10 @@ INVARIANTS = {
     "idle": "Every state has a way to idle, and the next run may start.",
     "journal": "The journal of zeros agrees with the drives, to a few pulses.",
     "key": "The same key starts one run, over restarts too.",
-    "deliveries": "Every end reaches the receiver, in order.",
+    "deliveries": "Every end reaches every receiver and whoever fetches events, in order.",
     "chains": "The chains of records and of the audit are whole.",
-    "audit": "Every start of a run is in the audit.",
+    "audit": "Every start, abort and stop is in the audit, under the name of who asked.",
+    "access": "Who shows no valid key or session, or may not, starts and stops nothing.",
     "times": "Created before started before ended, whatever the clock does.",
     "ends": "An end is told once, and stays as it was told.",
     "start": "The station starts whenever its disk is sound.",
@@ -76,6 +84,11 @@ class Witness:
     _seen: int = 0
     """Number of the last run that was judged."""
     _current: RunBrief | None = None
+    _started_by: Counter[tuple[str, str, str]] = field(default_factory=Counter)
+    _done_late: Counter[tuple[str, str, str]] = field(default_factory=Counter)
+    """Since the last kill."""
+    _pulled: set[str] = field(default_factory=set)
+    _last_pulled: int = 0
 
     def fails(self, invariant: str, detail: str) -> None:
         """A sentence does not hold."""
@@ -94,7 +107,7 @@ class Witness:
     def heard(self, event: LiveEvent) -> None:
         """Listener of the running station."""
         data = event.data
-        self._happens(f"{event.type} {data}")
+        self._happens(f"{event.type} {to_json(data).decode()}")
         if isinstance(data, RunBrief):
             self._current = data
         elif isinstance(data, RunReading) and self._current is not None:
@@ -115,6 +128,39 @@ class Witness:
         """A start was answered."""
         if self._keys.setdefault(key, run) != run:
             self.fails("key", f"key {key} started run {self._keys[key]} and run {run}")
+
+    def started_by(self, who: str, action: str, run: int) -> None:
+        """Who was answered that a run is started; again is the same start."""
+        self._started_by[who, action, f"run {run}"] = 1
+
+    def done(self, who: str, action: str, subject: str) -> None:
+        """A deed was answered that the audit records beside; a kill in the same minute may take it away."""
+        self._done_late[who, action, subject] += 1
+
+    def answered(self, answer: Answer) -> None:
+        """Whatever was asked: refused in a sentence, if refused."""
+        if answer.status >= 400 and not (answer.status in _IN_A_SENTENCE and _says_why(answer.body)):
+            self.fails("answer", f"status {answer.status}: {answer.body}")
+
+    def without_right(self, answer: Answer) -> None:
+        """Somebody asked for what that person or program may not do."""
+        if answer.status not in (401, 403):
+            self.fails("access", f"who may not was answered {answer.status}: {answer.body}")
+
+    def pulled(self, events: list[Mapping[str, Any]]) -> None:
+        """What the MES has fetched."""
+        for event in events:
+            if event["n"] <= self._last_pulled:
+                self.fails("deliveries", f"event {event['n']} was fetched after {self._last_pulled}")
+            self._last_pulled = event["n"]
+            if event["type"] == "run.ended":
+                self._pulled.add(event["data"]["uid"])
+
+    def all_pulled(self, store: Store) -> None:
+        """After the MES has fetched everything."""
+        for run in store.calibrations(limit=_MANY, order="oldest").items:
+            if run.uid not in self._pulled:
+                self.fails("deliveries", f"the end of run {run.id} is not among the events")
 
     def second_start(self, holder: int, run: int) -> None:
         """Another start was accepted while a run held the rig, unless that had just ended."""
@@ -144,7 +190,8 @@ class Witness:
         self._disturbed.add(run)
 
     def off(self, since_s: float) -> None:
-        """The station has been off since then."""
+        """The station was killed then."""
+        self._done_late.clear()
         if self.plant.machine.commanded_s > since_s:
             self.fails("motion", "a motion began while no station ran")
 
@@ -176,12 +223,19 @@ class Witness:
             self._look_at_journal(store, number, serial)
         runs = store.calibrations(limit=_MANY, order="oldest").items
         self._look_at_deliveries(runs)
-        audited = {entry.subject for entry in store.audit(limit=_MANY) if entry.action.startswith("run.")}
+        audit = store.audit(limit=_MANY)
+        audited = {entry.subject for entry in audit if entry.action.startswith("run.")}
+        self._look_at_deeds(Counter((entry.who, entry.action, entry.subject) for entry in audit))
         for run in runs:
             if f"run {run.id}" not in audited:
                 self.fails("audit", f"the start of run {run.id} is not in it")
             if (told := self._told.get(run.uid)) is not None and run.state != told:
                 self.fails("ends", f"run {run.id} was told to be {told} and is kept as {run.state}")
+
+    def _look_at_deeds(self, audit: Counter[tuple[str | None, str, str]]) -> None:
+        for (who, action, subject), times in (self._started_by + self._done_late).items():
+            if audit[who, action, subject] < times:
+                self.fails("audit", f"{action}, {subject}, by {who} is not in it")
 
     def _look_at_run(self, store: Store, run: CalibrationSummary) -> None:
         kept = {reading.reading: reading for reading in store.readings(run.id)}
@@ -240,12 +294,15 @@ class Witness:
                 )
 
     def _look_at_deliveries(self, runs: list[CalibrationSummary]) -> None:
-        told = self.plant.receiver.taken
-        numbers = [n for n, _ in told]
-        first_of_each = list(dict.fromkeys(numbers))
-        if first_of_each != sorted(first_of_each):
-            self.fails("deliveries", "events overtook each other")
-        reached = {uid for _, uid in told}
-        for run in runs:
-            if run.uid not in reached:
-                self.fails("deliveries", f"the end of run {run.id} did not reach the receiver")
+        for name, receiver in self.plant.receivers.items():
+            first_of_each = list(dict.fromkeys(n for n, _ in receiver.taken))
+            if first_of_each != sorted(first_of_each):
+                self.fails("deliveries", f"events overtook each other on the way to {name}")
+            reached = {uid for _, uid in receiver.taken}
+            for run in runs:
+                if run.uid not in reached:
+                    self.fails("deliveries", f"the end of run {run.id} did not reach {name}")
+
+
+def _says_why(body: object) -> bool:
+    return isinstance(body, Mapping) and bool(body.get("detail") or body.get("axes"))

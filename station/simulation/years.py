@@ -16,8 +16,10 @@ from tempfile import TemporaryDirectory
 from drivers.emulated.spec import MachineSpec
 from station.five_bar import Robot
 from station.simulation.days import DEEDS, TROUBLES, Days
+from station.simulation.jobs import WHOLE, Job, Script
 from station.simulation.keeper import Keeper, Stranded
 from station.simulation.plant import Plant
+from station.simulation.site import Site
 from station.simulation.witness import Violation, Witness
 
 MONTHS_A_YEAR = 12
@@ -41,6 +43,7 @@ class Life:
     """How often each deed and trouble came."""
     digest: str
     """SHA-256 of everything that the page showed and the history kept."""
+    jobs: tuple[Job, ...]
     violations: tuple[Violation, ...]
 
 
@@ -56,17 +59,23 @@ def month(seed: int) -> Life:
 
 
 def live(
-    seed: int, days: int, deeds: Mapping[str, float] = DEEDS, troubles: Mapping[str, float] = TROUBLES
+    seed: int,
+    days: int,
+    deeds: Mapping[str, float] = DEEDS,
+    troubles: Mapping[str, float] = TROUBLES,
+    script: Script = WHOLE,
 ) -> Life:
     """One station over some days: the same seed lives the same days.
 
     :param deeds: how often each is asked for; :param troubles: how often each comes
+    :param script: which of the jobs that are drawn come about
     """
     random = Random(seed)
     with TemporaryDirectory() as folder, prepared():
-        plant = Plant(Path(folder) / "home", [_machine(random) for _ in range(_ROBOTS)], random)
+        machines = [_machine(random) for _ in range(_ROBOTS)]
+        plant = Plant(Path(folder) / "home", machines, random, Site.drawn(random))
         keeper = Keeper(plant, Witness(plant))
-        life = Days(keeper, Random(random.random()), deeds, troubles)
+        life = Days(keeper, f"{seed}", deeds, troubles, script)
         lived = 0
         with plant.entered():
             while lived < days and not keeper.witness.violations:
@@ -85,6 +94,7 @@ def live(
         restarts=keeper.restarts,
         happened=dict(sorted(life.happened.items())),
         digest=witness.digest,
+        jobs=tuple(life.jobs),
         violations=tuple(witness.violations),
     )
 

@@ -20,7 +20,7 @@ from playwright.sync_api import Page
 PICTURES = Path(__file__).parent / "pictures"
 SPOILED = (Path(__file__).parent / "spoiled.js").read_text()
 MAKE = "STATION_PICTURES"
-"""Environment variable: reference pictures are written, not compared."""
+"""Environment variable: reference pictures are written, not compared; a folder takes them in full size."""
 CELL_PX, GREYS = 8, 16
 SAME = 32
 """Of 255: two cells that differ less look the same from afar."""
@@ -42,6 +42,20 @@ ZEROS = r"""() => {
     if (zeros !== node.data) node.data = zeros;
   }
 }"""
+WORDS = r"""besides => {
+  const words = [];
+  const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
+  for (let node = walker.nextNode(); node; node = walker.nextNode()) {
+    const owner = node.parentElement;
+    const names = owner.closest(`script, style, .serial, .language, .name, ${besides}`);
+    if (!names && owner.checkVisibility()) words.push(...(node.data.match(/[A-Za-z]{3,}/g) ?? []));
+  }
+  return [...new Set(words)];
+}"""
+SAME_EVERYWHERE = frozenset(
+    {"ada", "csv", "fb", "html", "http", "json", "mes", "min", "new", "pdf", "pin", "utc"}
+)
+"""Names, units and file formats."""
 Cells = NDArray[np.float64]
 
 
@@ -51,11 +65,19 @@ def spoiled(page: Page) -> list[str]:
     return found
 
 
-def picture(page: Page) -> Image.Image:
-    """The whole view as it is compared."""
+def foreign_words(page: Page, besides: str) -> list[str]:
+    """Latin words of a page in Chinese, but for names, units, formats and what is in elements `besides`."""
+    words: list[str] = page.evaluate(WORDS, besides)
+    return [word for word in words if word.lower() not in SAME_EVERYWHERE]
+
+
+def picture(page: Page, shown: Path | None = None) -> Image.Image:
+    """The whole view as it is compared; in full size, its digits as they are, as file `shown`."""
+    options = {"full_page": True, "animations": "disabled", "caret": "hide"}
+    if shown is not None:
+        page.screenshot(path=shown, **options)  # type: ignore[arg-type]
     page.evaluate(ZEROS)
-    png = page.screenshot(full_page=True, animations="disabled", caret="hide")
-    whole = Image.open(BytesIO(png)).convert("L")
+    whole = Image.open(BytesIO(page.screenshot(**options))).convert("L")  # type: ignore[arg-type]
     small = whole.resize((whole.width // CELL_PX, whole.height // CELL_PX), Image.Resampling.BOX)
     step = 256 // GREYS
     return small.point(lambda grey: grey // step * (255 // (GREYS - 1)))
@@ -89,8 +111,10 @@ def trouble_with(page: Page, name: str) -> str | None:
     if texts := spoiled(page):
         return f"{name}: {'; '.join(texts)}"
     file = PICTURES / f"{name}.png"
-    seen = picture(page)
-    if os.environ.get(MAKE):
+    folder = os.environ.get(MAKE)
+    whole = Path(folder, f"{name.replace('/', '-')}.png") if folder and Path(folder).is_dir() else None
+    seen = picture(page, whole)
+    if folder:
         file.parent.mkdir(parents=True, exist_ok=True)
         seen.save(file, optimize=True)
         return None

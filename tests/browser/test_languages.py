@@ -14,7 +14,7 @@ from pypdf import PdfReader
 
 from station.certificate.pdf import CHINESE_FONTS
 from tests.browser.conftest import BUILT_PAGE, Station, needed
-from tests.browser.looks import spoiled, trouble_with
+from tests.browser.looks import foreign_words, spoiled, trouble_with
 from tests.browser.steps import open_station, violations
 from tests.station.simulated import Drawn, to_csv
 
@@ -41,6 +41,8 @@ VIEWS = {
     "training": ("/maintenance?part=training", "select"),
 }
 """Address, and what is there last but for what says that it is loading."""
+LAST_MS = 15_000
+"""A plan is made, a chart loaded."""
 PHONE = ViewportSize(width=390, height=844)
 SMALL = ViewportSize(width=1024, height=768)
 GO = """to => { history.pushState(null, "", to); dispatchEvent(new PopStateEvent("popstate")); }"""
@@ -71,8 +73,10 @@ def test_every_view_looks_as_in_its_picture(page: Page, lived: Station, language
     found: list[str | None] = []
     for name, (address, last) in VIEWS.items():
         page.evaluate(GO, address)
-        expect(page.locator(last).first).to_be_visible()
+        expect(page.locator(last).first).to_be_visible(timeout=LAST_MS)
         expect(page.locator("main")).not_to_contain_text(WORDS[language][3])
+        found += violations(page) if language == "en" else []
+        found += foreign_words(page, "code, td") if language == "zh" else []
         found.append(trouble_with(page, f"{language}/{name}"))
         page.set_viewport_size(PHONE)
         found += [f"{language}/{name} on a phone: {text}" for text in spoiled(page)]
@@ -90,11 +94,7 @@ def test_the_page_and_the_certificate_speak_the_chosen_language(
     page.get_by_label("Language").select_option(label=own_name)
     expect(page.locator("header")).to_contain_text(ready)
     expect(page.locator("html")).to_have_attribute("lang", language)
-    assert violations(page) == []
-    for view in ("/history", "/maintenance", "/result/1"):
-        page.evaluate(GO, view)
-        expect(page.locator("table, .error-maps").first).to_be_visible()
-        assert violations(page) == []
+    page.evaluate(GO, "/result/1")
     bound = f"{run['accuracy']['bound_95_mm']:.3f}"
     said = bound.replace(".", ",") if language == "de" else bound
     expect(page.locator(".decision")).to_contain_text(said)
@@ -105,5 +105,4 @@ def test_the_page_and_the_certificate_speak_the_chosen_language(
     assert re.sub(r"\s", "", certificate) in re.sub(r"\s", "", pdf.pages[0].extract_text())
     page.goto(f"{lived.url}{address.replace('.pdf', '.html')}")
     expect(page.locator("h1")).to_contain_text(certificate)
-    assert violations(page) == []
     assert spoiled(page) == []

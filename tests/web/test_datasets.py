@@ -10,8 +10,8 @@ import pytest
 
 from station.records import parse_readings, readings_to_csv
 from station.run_kinds import import_file as dataset
+from station.studies.arms.physics import UR_LIKE, random_arm, random_poses
 from tests.station.run_kinds.test_diagnose import BACKLASH, machine, run
-from tests.station.serial_arm.simulated import UR_LIKE, random_arm, random_poses
 from tests.web.conftest import Service
 from tests.web.test_problems import problem_of
 

@@ -266,7 +266,7 @@ def _check_own(runtime: Runtime, calibration_id: int, by: Actor) -> None:
             runtime.store.summary(calibration_id)
             raise Forbidden(
                 f"{by.name} has the role mes and may end only runs that it started;"
-                f" run {calibration_id} is not one.  The stop is open to everyone."
+                f" run {calibration_id} is not one. The stop is open to everyone."
             )
 
 

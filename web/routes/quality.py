@@ -15,7 +15,7 @@ from web.routes.parts import Moment, TheRuntime
 
 router = Router(tags=["quality"])
 RobotType = Annotated[str | None, Query(max_length=64, description="`type` of the robot file")]
-IN_TREND = ("calibrate", "apply", "rollback")
+IN_TREND = ("calibrate", "apply", "rollback", "gauge_study")
 
 
 @router.get("/quality", response_model=Quality, dependencies=[needs(Permission.READ)])

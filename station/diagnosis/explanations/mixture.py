@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -14,6 +14,12 @@ from station.records import Complex, Real
 
 SHARE = 0.004
 """Explanations with a smaller probability take no part in the numbers."""
+FORM = 1.3
+"""Uncertainty under an unnamed error over what its form leaves, which is only like the true one.
+
+Set on half of 28 kinds of random machines without a name: their 95 % intervals held 91 % and hold 96 % with
+it; those of the other half, 91 % and 95 %.
+"""
 DRAWS = 400
 STEPS = 3
 """Newton steps to the commands; the second is exact to a micrometre."""
@@ -139,7 +145,13 @@ def mixture(mechanism: FiveBar, situation: Situation, settled: Sequence[tuple[Se
     """Of explanations with probabilities, those worth a number."""
     kept = [(s, w) for s, w in settled if w >= SHARE] or [settled[0]]
     weight = np.array([w for _, w in kept])
-    return Mixture(mechanism, situation, tuple(s for s, _ in kept), weight / weight.sum())
+    return Mixture(mechanism, situation, tuple(_unsure_of_form(s) for s, _ in kept), weight / weight.sum())
+
+
+def _unsure_of_form(settled: Settled) -> Settled:
+    if all(family.named for family in settled.families):
+        return settled
+    return replace(settled, covariance=FORM**2 * settled.covariance)
 
 
 def spread(means: Sequence[Real], covariances: Sequence[Real], weight: Real) -> Real:

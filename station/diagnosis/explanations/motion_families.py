@@ -10,8 +10,11 @@ from station.diagnosis.explanations.family import Family, Hidden, sizes
 from station.diagnosis.explanations.rough_families import DEG
 from station.diagnosis.explanations.situation import Action, Situation
 from station.diagnosis.explanations.structured_families import unnamed
+from station.records import Real
 
 WAYS_DEG = (1.5, 4.0, 10.0, 25.0)
+SPEEDS = (2.0,)
+"""Of the faster joint, over the speed at which half of what sticks at rest is left."""
 TRAVEL_MM = 100.0
 
 
@@ -28,12 +31,21 @@ def motion_families(s: Situation) -> tuple[Family, ...]:
 def _by_way(joint: int) -> Family:
     """A joint that comes to rest short of its place, by how far or how fast it came."""
     hidden = tuple({"way_deg": w, "fades": f} for w in WAYS_DEG for f in (0.0, 1.0))
+    hidden += tuple({"speed": s} for s in SPEEDS)
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
-        way, sense = np.abs(s.way[:, joint - 1]), s.approach[:, joint - 1]
-        fading = np.stack([np.exp(-way / (h["way_deg"] * DEG)) for h in hidden])
-        late = np.array([h["fades"] for h in hidden])[:, None]
-        return [Action(f"joint{joint}", (sense * (late + (1.0 - 2.0 * late) * fading))[:, :, None])]
+        way, sense = np.abs(s.way), s.approach[:, joint - 1]
+        longest = way.max(axis=1)
+        # axes that arrive together move at speeds like their ways
+        speed = np.divide(way[:, joint - 1], longest, out=np.ones(len(way)), where=longest > 0.0)
+
+        def lost(h: Hidden) -> Real:
+            if "speed" in h:
+                return np.asarray(1.0 / (1.0 + h["speed"] * speed))
+            fading = np.exp(-way[:, joint - 1] / (h["way_deg"] * DEG))
+            return np.asarray(1.0 - fading if h["fades"] else fading)
+
+        return [Action(f"joint{joint}", np.stack([sense * lost(h) for h in hidden])[:, :, None])]
 
     return unnamed("rest by way", "approach", 0.3, sizes(3e-4 * DEG, 0.1 * DEG), hidden, actions)
 
@@ -47,7 +59,7 @@ def _loose(joint: int) -> Family:
         sense = s.approach[:, [joint - 1, 2 - joint]].T[own]
         return [Action(f"l{joint}", sense[:, :, None])]
 
-    return unnamed("passive play", "approach", 0.1, sizes(0.001, 0.3), hidden, actions)
+    return unnamed("passive play", "approach", 0.2, sizes(0.001, 0.3), hidden, actions)
 
 
 def _lagging() -> Family:

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 
 from station.five_bar import FiveBar, Geometry, Pose, distance_by_joint, distance_jacobian, position_jacobian
-from station.mechanism import Reference, readings_before
+from station.mechanism import Reference, last_way, readings_before
 from station.records import Complex, Index, Real
 
 TARGETS = (
@@ -121,7 +121,7 @@ def at_readings(
         mount=m.mount.astype(float),
         place=_normalised(mechanism, at.r),
         phi=np.angle(at.w),
-        way=np.nan_to_num(m.theta - came_from[:, :-1]),
+        way=np.nan_to_num(last_way(m, came_from)[0]),
         drawn=np.nan_to_num(m.distance - came_from[:, -1]),
         direction=np.column_stack([at.direction.real, at.direction.imag]),
         force=_force(at),

@@ -22,7 +22,7 @@ from station.diagnosis.explanations.situation import Action, Situation
 from station.effects import amplitude_and_phase
 from station.records import Quantity, Real
 
-EVEN, UNEVEN, SELDOM = (0, 1), (2, 3, 4), 0.1
+EVEN, UNEVEN, SELDOM = (0, 1), (2, 3, 4, 5), 0.1
 """Forms of a sag in proportion to the load and of others, and the prior weight of the latter."""
 SAME, OWN = 1.0, 0.3
 """Prior weight of a natural pair with one size for both sides, and with a size of its own for each."""

@@ -20,8 +20,11 @@ from station.diagnosis.explanations.weighing import Weighing
 
 SUPPORTED = 3.0
 """Log of the evidence that an error must add before it is spoken of."""
-BESIDE_UNNAMED = 0.4
-"""Prior trust in a named effect that is found beside an unnamed one.  It is set, not measured."""
+BESIDE_UNNAMED = 0.1
+"""Trust in a named effect that is found beside an unnamed one.
+
+Of 385 on 59 kinds of random machines 15 were there; no kind has both, hence a little more than that.
+"""
 NEGLIGIBLE = 1e-5
 PartKey = tuple[str, int | None, str | None]
 

@@ -133,11 +133,12 @@ def _weighed(
     at, noise = bank.frame, bank.noise
     level = settle_base(bank)
     posterior = {c.key: c.log_posterior + level for c in found}
-    top = found[0].log_posterior
     settled: dict[Key, Settled] = {}
     candidates = {c.key: c for c in found}
+    # as settled: what the tangent promises of the first may be far from true, and a later one the best
+    top = -np.inf
     for c in found[:MOST_SETTLED]:
-        if c.log_posterior < top - SETTLED_WITHIN:
+        if c.log_posterior + level < top - SETTLED_WITHIN:
             break
         one = base if not c.choices else settle(at, families, c.choices, noise, reference)
         if one.impossible:
@@ -145,6 +146,7 @@ def _weighed(
             continue
         taken = bank.known(c.choices)
         posterior[c.key] += one.log_evidence + taken.sign - bank.log_evidence(taken) - level
+        top = max(top, posterior[c.key])
         settled[c.key] = one
     if () not in settled:
         settled[()] = base

@@ -10,7 +10,7 @@ from station.machines import mechanism_of
 from station.mechanism import reference_of
 from station.model import Fit, Model, fit
 from station.records import Measurements
-from tests.station.serial_arm.simulated import UR_LIKE, random_arm, random_poses
+from station.studies.arms.physics import UR_LIKE, random_arm, random_poses
 
 
 def fitted(m: Measurements) -> Fit:

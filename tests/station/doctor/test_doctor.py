@@ -53,7 +53,7 @@ def rig() -> Iterator[EmulatedRig]:
 def test_an_emulated_station_is_healthy_and_nothing_moves(tmp_path: Path) -> None:
     result = doctor(tmp_path)
     assert result.exit_code == 0, result.output
-    for said in ("is ND281B", "stands at 0.0000 deg", "stands at 180.0000 deg", "ms as a rule"):
+    for said in ("itself as ND281B", "stands at 0.0000 deg", "stands at 180.0000 deg", "ms as a rule"):
         assert said in result.output
     state = json.loads((tmp_path / "emulated-rig.json").read_text())
     assert state == {"shaft_pulses": [0.0, 0.0], "zero_pulses": [0, 0]}

@@ -32,6 +32,7 @@ class Bench:
         machine = Machine(rig.devices, SETTINGS.limits, Listeners(), SETTINGS.interlocks)
         self.positioner = Positioner(machine, ROBOT, SETTINGS.joints, self.cancel)
         machine.connect_missing()
+        machine.ready_axes()  # as a run does before its first step
         self.zeroing = Zeroing(self.run, machine, self.positioner, store)
         for axis, offset in zip(rig.axes, OFFSETS, strict=True):
             axis.offset_deg = offset
@@ -159,3 +160,19 @@ def test_shifts_add_up_joint_by_joint() -> None:
     assert str(failed.value) == (
         "Whether joint 2 took the zero of run 7 cannot be told any more; calibrate again."
     )
+
+
+def test_a_drive_that_lost_its_power_gets_no_zero(bench: Bench) -> None:
+    bench.set(OFFSETS)
+    count = len(bench.journal())
+    bench.rig.axes[0].enabled = False
+    with pytest.raises(StepFailed, match="Axis 1 has lost its power"):
+        bench.set((0.0, 0.0))
+    assert len(bench.journal()) == count, "nothing was begun"
+    assert bench.rig.script.calls.count("axis 1 preset") == 1
+
+
+def test_an_alarm_takes_no_position_away(bench: Bench) -> None:
+    bench.set(OFFSETS)
+    bench.rig.axes[0].enabled, bench.rig.axes[0].alarm = False, 0x180
+    assert bench.set((0.0, 0.0)) == pytest.approx((0.0, 0.0))

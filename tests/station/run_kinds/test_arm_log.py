@@ -18,7 +18,7 @@ from station.machines import read_log
 from station.records import ColumnMap, sections_to_toml
 from station.serial_arm import Arm
 from station.store import Store
-from tests.station.serial_arm.simulated import UR_LIKE, random_arm, random_poses
+from station.studies.arms.physics import UR_LIKE, random_arm, random_poses
 
 MAP = """decimal = ","
 [columns]

@@ -48,6 +48,9 @@ def test_machines_that_did_not_change_pass() -> None:
     assert found.smallest_shift_deg == max(found.smallest_by_joint_deg)
     assert found.blind_shift_deg >= 0.7 * min(found.smallest_by_joint_deg)
     assert found.valid_until == TOMORROW
+    judged = [one for result in results for one in result.residuals]
+    assert all(0.001 < (one.limit_mm or 0.0) < 1.0 for one in judged)
+    assert sum(abs(one.residual_mm or 0.0) > (one.limit_mm or 0.0) for one in judged) <= 1
 
 
 @pytest.mark.parametrize("joint", [0, 1])

@@ -15,7 +15,7 @@ from station.diagnosis.traced_loop import traced
 from station.errors import InputRefused
 from station.identification import identify
 from station.records import Real
-from tests.station.serial_arm.simulated import CRAIG_SEVEN, UR_LIKE, random_arm, random_poses
+from station.studies.arms.physics import CRAIG_SEVEN, UR_LIKE, random_arm, random_poses
 
 COUNT = 900
 

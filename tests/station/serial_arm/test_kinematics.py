@@ -11,7 +11,7 @@ import pytest
 from station.errors import InputRefused
 from station.serial_arm.dh import reach
 from station.serial_arm.mechanism import SerialArm
-from tests.station.serial_arm.simulated import (
+from station.studies.arms.physics import (
     CRAIG_SEVEN,
     LIFTED,
     UR_LIKE,

@@ -14,7 +14,7 @@ from station.identification import identify
 from station.records import ColumnMap, Measurements, Real, parse_measurements, translated
 from station.serial_arm.mechanism import SerialArm
 from station.serial_arm.placement import FEWEST
-from tests.station.serial_arm.simulated import LIFTED, UR_LIKE, random_arm, random_poses, shift, turn
+from station.studies.arms.physics import LIFTED, UR_LIKE, random_arm, random_poses, shift, turn
 
 POINTS = np.array([[20.0, -35.0, 60.0], [-50.0, 10.0, 80.0]])
 

@@ -54,11 +54,7 @@ def _held() -> Iterator[tuple[str, str]]:
 
 def test_nothing_real_is_held_by_a_default() -> None:
     live(seed=1, days=0)  # loads all that a station is made of
-    held = {
-        (where, what)
-        for where, what in _held()
-        if where not in GIVEN_OTHERWISE and not where.startswith("tenacity")
-    }
+    held = {(where, what) for where, what in _held() if where not in GIVEN_OTHERWISE}
     assert held == set()
 
 

@@ -8,8 +8,8 @@ import pytest
 from station.diagnosis.report.stages import kept_fresh
 from station.diagnosis.tests_of_fit.cross_validation import without_a_quarter
 from station.diagnosis.traced_loop import traced
+from station.studies.arms.physics import UR_LIKE, random_arm, random_poses
 from station.studies.plain_pipelines import pipelines
-from tests.station.serial_arm.simulated import UR_LIKE, random_arm, random_poses
 
 
 def test_every_pipeline_is_judged_by_the_readings_that_judged_the_loop() -> None:

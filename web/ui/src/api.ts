@@ -1,5 +1,6 @@
 /** The REST calls, the same that the MES uses. */
 import { t } from "./messages";
+import { said } from "./messages/said";
 import type {
   Calibration,
   CalibrationBody,
@@ -17,9 +18,12 @@ import type {
   SignedIn,
   SignInWays,
   Solution,
+  Station,
   Stopped,
   Summary,
   Target,
+  TaughtPosition,
+  TranslatedPosition,
   Trend,
 } from "./types";
 
@@ -54,7 +58,7 @@ export async function call<T>(
   if (!response.ok && !(accepted === response.status && body)) {
     const problem = body as Partial<Problem> | null;
     throw new Refused(
-      problem?.detail ?? t.refusals.status(response.status),
+      problem?.detail ? said(problem.detail) : t.refusals.status(response.status),
       problem?.field ?? null,
       response.status,
     );
@@ -153,6 +157,15 @@ export const solve = (id: number, targets: Target[]) =>
     headers: { "Content-Type": "application/json" },
     body: JSON.stringify({ targets }),
   });
+
+export const translate = (id: number, positions: TaughtPosition[], back: boolean) =>
+  call<{ items: TranslatedPosition[] }>("POST", `/calibrations/${id}/translate`, {
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify({ positions, back }),
+  });
+
+export const calibrationHolds = async () =>
+  (await call<Pick<Station, "calibration">>("GET", "/station")).calibration;
 
 export const diagnosis = (id: number) => call<Diagnosis>("GET", `/calibrations/${id}/diagnosis`);
 

@@ -156,9 +156,12 @@ export function shown({ name, value, sd, unit }: Sized): Sized & { text: string 
     ...parameter(name),
     value: scaled(value),
     sd: scaled(sd),
-    unit: um ? unit.replace("mm", "µm") : (UNITS[unit] ?? unit),
+    unit: um ? unit.replace("mm", "µm") : unitName(unit),
   };
 }
+
+/** As the page writes it. */
+export const unitName = (unit: string) => UNITS[unit] ?? unit;
 
 export const deviceName = (name: string) => own<string>(t.deviceNames, name) ?? name;
 

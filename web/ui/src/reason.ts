@@ -1,6 +1,7 @@
 /** Why a run ended as it did: the template of its code, filled with its parameters. */
 import { local } from "./format";
 import { t } from "./messages";
+import { said } from "./messages/said";
 import { capital, dependence, inSentence, labelName, readable, withNames } from "./names";
 import type { Summary } from "./types";
 
@@ -18,7 +19,7 @@ export function formatted(template: string, params: Params): string | null {
     if (value != null && digits === undefined) return String(value);
     if (typeof value === "number" && Number.isFinite(value)) {
       const plus = sign && value >= 0 ? sign : "";
-      const text = kind === "f" ? value.toFixed(Number(digits)) : general(value, Number(digits) || 1);
+      const text = kind === "f" ? value.toFixed(Number(digits)).replace("-", "−") : general(value, Number(digits) || 1);
       return plus + local(text);
     }
     complete = false;
@@ -44,8 +45,11 @@ const IN_WORDS: Record<string, (value: string) => string> = {
   depends_on: dependence,
 };
 
+/** What has no code of its own: a sentence that the station says in English. */
+const inEnglishOnly = (text: string) => withNames(said(text));
+
 const inWords = ([name, value]: [string, Value]): [string, Value] => {
-  const words = (Object.hasOwn(IN_WORDS, name) && IN_WORDS[name]) || withNames;
+  const words = (Object.hasOwn(IN_WORDS, name) && IN_WORDS[name]) || inEnglishOnly;
   return [name, typeof value === "string" ? words(value) : value];
 };
 

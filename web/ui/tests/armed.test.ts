@@ -3,7 +3,7 @@ import { arm, armed, confirm, disarm, secondsLeft, watchArmed } from "../src/arm
 import { now, station } from "../src/live";
 import { navigate } from "../src/router";
 import { session } from "../src/session";
-import { run, stationNow } from "./samples";
+import { run, stationNow, stopClock } from "./samples";
 
 const confirmed = vi.fn();
 let stop: () => void;
@@ -11,7 +11,7 @@ let stop: () => void;
 beforeEach(() => {
   confirmed.mockReset();
   navigate("/");
-  now.value = performance.now();
+  stopClock();
   station.value = stationNow();
   stop = watchArmed();
   arm({}, confirmed);

@@ -1,4 +1,6 @@
 /** Answers of the service, as small as the page can use them. */
+import { vi } from "vitest";
+import { now } from "../src/live";
 import type {
   Calibration,
   Diagnosis,
@@ -10,6 +12,15 @@ import type {
   Station,
   Summary,
 } from "../src/types";
+
+/** When the page last heard from the station, by its own clock. */
+const HEARD_AT = now.value;
+
+/** The page's clock stands there: a slow computer does not make the station silent. */
+export function stopClock(): void {
+  vi.spyOn(performance, "now").mockReturnValue(HEARD_AT);
+  now.value = HEARD_AT;
+}
 
 export const summary = (given: Partial<Summary> = {}): Summary => ({
   id: 1,

@@ -2,13 +2,13 @@ import { beforeEach, describe, expect, it, vi } from "vitest";
 import type * as Api from "../src/api";
 import { Refused } from "../src/api";
 import { arm, armed, disarm } from "../src/armed";
-import { now, station } from "../src/live";
+import { station } from "../src/live";
 import { operator } from "../src/operator";
 import { navigate, path } from "../src/router";
 import { notice, scanned, watchScans } from "../src/scanned";
 import { badge, session } from "../src/session";
 import { serial } from "../src/views/station/start";
-import { stationNow } from "./samples";
+import { stationNow, stopClock } from "./samples";
 
 const codes = { serial: "[A-Z0-9-]{1,16}", badge: "BADGE:(.+)", confirm: "CONFIRM" };
 const refused = vi.hoisted(() => vi.fn<typeof Api.refusedScan>());
@@ -39,7 +39,7 @@ describe("a scan", () => {
       signs_off_after_s: null,
       sign_out_at: null,
     };
-    now.value = performance.now();
+    stopClock();
     open(true);
     navigate("/");
     watchScans();

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from station.diagnosis.explanations import ExplanationSet, explain
+from station.diagnosis.explanations.mixture import FORM
 from station.diagnosis.explanations.validation import together
 from station.five_bar.mechanism import FiveBar
 from tests.station.diagnosis.explanations.problems import ROBOT, TRUTH, effect, measured
@@ -70,8 +71,18 @@ def test_a_long_distal_link_is_found_through_its_curvature() -> None:
     assert within(found, 3.0)
 
 
-def test_an_error_outside_the_catalogue_is_not_confirmed() -> None:
+def test_an_error_outside_the_catalogue_is_not_confirmed_and_its_form_is_not_sure() -> None:
     found = explained(5, effect(kind="cable_drag", joint=2, deg_at_end=0.02))
+    assert found.decision.confirmed is False
+    unnamed = next(s for s in found.mixture.settled if not all(f.named for f in s.families))
+    own = next(w.settled for w in found.weighing.settled if w.settled.x is unnamed.x)
+    assert np.allclose(unnamed.covariance, FORM**2 * own.covariance)
+
+
+@pytest.mark.parametrize("size", [0.003, 0.01])
+def test_a_joint_that_sticks_when_it_comes_slowly_is_no_play(size: float) -> None:
+    found = explained(6, effect(kind="speed_stiction", joint=1, deg=size))
+    assert found.statements.unnamed > 0.5
     assert found.decision.confirmed is False
     assert found.statements.unnamed > 0.5
     assert any(held.depends_on == "approach" for held in found.explanations[0].errors)

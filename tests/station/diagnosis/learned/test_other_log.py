@@ -12,7 +12,7 @@ from station.diagnosis.learned.other_log import transfer
 from station.diagnosis.traced_loop import TracedDiagnosis, traced
 from station.errors import InputRefused
 from station.records import ModelDocument
-from tests.station.serial_arm.simulated import UR_LIKE, SimulatedArm, random_arm, random_poses, shift, turn
+from station.studies.arms.physics import UR_LIKE, SimulatedArm, random_arm, random_poses, shift, turn
 from tests.station.serial_arm.test_closed_loop import harmonic_drive
 
 GAP_DEG = (-40.0, 20.0)

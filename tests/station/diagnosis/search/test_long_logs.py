@@ -18,7 +18,7 @@ from station.fitting.prior import tolerance_prior
 from station.machines import effects_of, mechanism_of
 from station.mechanism.conditions import reference_of
 from station.model.model import Fit, Model, Term, fit, is_long
-from tests.station.serial_arm.simulated import UR_LIKE, random_arm, random_poses
+from station.studies.arms.physics import UR_LIKE, random_arm, random_poses
 from tests.station.serial_arm.test_closed_loop import harmonic_drive, ripple
 
 

@@ -1,6 +1,7 @@
 /** Alle Texte der Seite auf Deutsch. */
 import shared from "../../../../station/messages/de.json";
 import { maintenance, training } from "./de-maintenance";
+import { reports } from "./de-reports";
 import { sentences } from "./de-sentences";
 import type { Messages } from "./index";
 
@@ -9,7 +10,7 @@ export const de: Messages = {
   title: "Kalibrierstation",
   listed: (parts) => parts.join(", "),
 
-  sentences,
+  sentences: { ...sentences, ...reports },
   effects: shared.effects,
   effectAt: {
     joint: (effect, joint) => `${effect} von Gelenk ${joint}`,
@@ -170,6 +171,7 @@ export const de: Messages = {
     connected: "verbunden",
     connecting: "wird verbunden …",
     notConnected: "VERBINDET",
+    signInFirst: "NICHT ANGEMELDET",
     notReady: "◆ NICHT BEREIT",
     ready: "BEREIT",
     device: (name, state) => `▲ ${name}: ${state}`,
@@ -198,7 +200,7 @@ export const de: Messages = {
     notKnown: "nicht bekannt",
     calibrate: "Kalibrieren",
     accuracy: "Gewünschte Genauigkeit, mm",
-    optional: "freiwillig",
+    optional: "optional",
     references: "Referenzen anderer Messgeräte",
     joint: "Gelenk",
     driveSays: "Der Antrieb zeigt, °",
@@ -459,6 +461,21 @@ export const de: Messages = {
     memoryNotUsed: "◆ Nicht benutzt",
     memoryText: (text) => `: ${text} (`,
     memoryAge: (days, p) => `, ${days} Tage früher; p-Wert ${p}).`,
+    translate: {
+      title: "Gelernte Positionen",
+      note: "Gelenkpositionen, die unter den Nullpunkten vor diesem Lauf gelernt wurden, werden dieselben Positionen im Raum unter den Nullpunkten der Antriebe.",
+      positions: "Positionen, je Zeile eine: Name, θ₁ und θ₂ in Grad",
+      back: "Zurück: sie wurden schon umgerechnet",
+      button: "Umrechnen",
+      none: "Geben Sie die Positionen ein, oder fügen Sie sie ein.",
+      wrong: (line) => `Zeile ${line} ist kein Name mit zwei Zahlen.`,
+      uncertainty: "U (95 %), mm",
+      limits: "Grenzen",
+      within: "innerhalb",
+      near: "◆ nahe an einer Grenze",
+      save: "Positionen speichern (CSV)",
+      file: (id) => `gelernt-lauf-${id}.csv`,
+    },
     promised: "Zugesagte Genauigkeit",
     bound: (drives, model) =>
       `Mit 95 % Wahrscheinlichkeit liegt kein Positionsfehler über ${drives} mm mit diesen Nullpunkten in den Antrieben, über ${model} mm mit Befehlen des Modells.`,
@@ -694,7 +711,7 @@ export const de: Messages = {
     atRuns: (runs) => `Lauf ${runs}`,
     runAxis: "Lauf",
     rangeAxis: (unit) => `gleitende Spannweite, ${unit}`,
-    marks: { apply: "geschrieben", rollback: "zurückgesetzt" },
+    marks: { apply: "geschrieben", rollback: "zurückgesetzt", mount: "neu angebaut" },
     rules: {
       nelson_1: "ein Wert jenseits von drei Standardabweichungen",
       nelson_2: "neun Werte in Folge auf einer Seite des Mittelwerts",

@@ -195,6 +195,7 @@ export const en = {
     connected: "connected",
     connecting: "connecting …",
     notConnected: "CONNECTING",
+    signInFirst: "NOT SIGNED IN",
     notReady: "◆ NOT READY",
     ready: "READY",
     device: (name: string, state: string) => `▲ ${name}: ${state}`,
@@ -477,6 +478,21 @@ export const en = {
     memoryNotUsed: "◆ Not used",
     memoryText: (text: string) => `: ${text} (`,
     memoryAge: (days: string, p: string) => `, ${days} days earlier; p-value ${p}).`,
+    translate: {
+      title: "Taught positions",
+      note: "Joint positions that were taught under the zero offsets before this run become the same physical positions under those in the drives.",
+      positions: "Positions, one a line: name, θ₁ and θ₂ in degrees",
+      back: "Back: they were translated before",
+      button: "Translate",
+      none: "Type or paste the positions.",
+      wrong: (line: number) => `Line ${line} is not a name with two numbers.`,
+      uncertainty: "U (95 %), mm",
+      limits: "Limits",
+      within: "within",
+      near: "◆ near a limit",
+      save: "Save the positions (CSV)",
+      file: (id: number) => `taught-run-${id}.csv`,
+    },
     promised: "Promised accuracy",
     bound: (drives: string, model: string) =>
       `With 95 % probability no position error is above ${drives} mm with these zeros in the drives, ${model} mm with commands of the model.`,
@@ -713,7 +729,7 @@ export const en = {
     atRuns: (runs: string) => `run ${runs}`,
     runAxis: "run",
     rangeAxis: (unit: string) => `moving range, ${unit}`,
-    marks: { apply: "applied", rollback: "rolled back" },
+    marks: { apply: "applied", rollback: "rolled back", mount: "mounted anew" },
     /** Nelson's rules. */
     rules: {
       nelson_1: "one value beyond three standard deviations",

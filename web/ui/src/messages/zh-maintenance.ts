@@ -60,7 +60,7 @@ export const maintenance: typeof english = {
   time: "时间，s",
   said: "请求与应答",
   took: "应答延迟，ms",
-  wireDevices: { scale: "光栅尺", "drive 1": "驱动器 1", "drive 2": "驱动器 2", line: "线路" },
+  wireDevices: { scale: "光栅尺", "drive 1": "1 号驱动器", "drive 2": "2 号驱动器", line: "线路" },
   wireRead: (device, subject) => `向${device}询问：${subject}`,
   wireWrite: (device, subject) => `写入${device}：${subject}`,
   wireOther: (device, subject) => `发送到${device}：${subject}`,

@@ -2,6 +2,7 @@
 import shared from "../../../../station/messages/zh.json";
 import type { Messages } from "./index";
 import { maintenance, training } from "./zh-maintenance";
+import { reports } from "./zh-reports";
 import { sentences } from "./zh-sentences";
 
 export const zh: Messages = {
@@ -9,7 +10,7 @@ export const zh: Messages = {
   title: "标定工作站",
   listed: (parts) => parts.join("、"),
 
-  sentences,
+  sentences: { ...sentences, ...reports },
   effects: shared.effects,
   effectAt: {
     joint: (effect, joint) => `关节 ${joint} 的${effect}`,
@@ -148,6 +149,7 @@ export const zh: Messages = {
     connected: "已连接",
     connecting: "正在连接 …",
     notConnected: "连接中",
+    signInFirst: "未登录",
     notReady: "◆ 未就绪",
     ready: "就绪",
     device: (name, state) => `▲ ${name}：${state}`,
@@ -385,6 +387,21 @@ export const zh: Messages = {
     memoryNotUsed: "◆ 未使用",
     memoryText: (text) => `：${text}（`,
     memoryAge: (days, p) => `，${days} 天前；p 值 ${p}）。`,
+    translate: {
+      title: "示教位置",
+      note: "在本次运行之前的零点下示教的关节位置，换算为驱动器现有零点下的相同物理位置。",
+      positions: "位置，每行一个：名称、θ₁ 和 θ₂（度）",
+      back: "反向：这些位置已换算过",
+      button: "换算",
+      none: "请输入或粘贴位置。",
+      wrong: (line) => `第 ${line} 行不是名称加两个数字。`,
+      uncertainty: "U（95 %），mm",
+      limits: "限位",
+      within: "在限内",
+      near: "◆ 接近限位",
+      save: "保存位置（CSV）",
+      file: (id) => `taught-run-${id}.csv`,
+    },
     promised: "承诺的精度",
     bound: (drives, model) =>
       `以 95 % 的概率：驱动器中为这些零点时没有位置误差超过 ${drives} mm，使用模型指令时不超过 ${model} mm。`,
@@ -608,7 +625,7 @@ export const zh: Messages = {
     atRuns: (runs) => `运行 ${runs}`,
     runAxis: "运行",
     rangeAxis: (unit) => `移动极差，${unit}`,
-    marks: { apply: "已写入", rollback: "已恢复" },
+    marks: { apply: "已写入", rollback: "已恢复", mount: "重新安装" },
     rules: {
       nelson_1: "一个值超出三倍标准差",
       nelson_2: "连续九个值在均值同一侧",

@@ -3,6 +3,7 @@ import { clock, connected, offline, station } from "../live";
 import { t } from "../messages";
 import { deviceName } from "../names";
 import { path } from "../router";
+import { session } from "../session";
 import { LanguageChoice } from "./language-choice";
 import { Link } from "./link";
 import { ScanNotice } from "./scan-notice";
@@ -47,9 +48,7 @@ function StationStatus() {
     <div class="status">
       <div class="state" role="status">
         <strong class={alarm ? `alarm ${alarm}` : ""}>{text}</strong>
-        <span>
-          {offline.value ? t.header.stale : connected.value ? t.header.connected : t.header.connecting}
-        </span>
+        <span>{session.value === null ? "" : beside()}</span>
       </div>
       <div class="where">
         <span class="name">{info?.emulated ? t.header.emulated(info.name) : (info?.name ?? t.title)}</span>
@@ -61,8 +60,15 @@ function StationStatus() {
   );
 }
 
+function beside(): string {
+  if (offline.value) return t.header.stale;
+  return connected.value ? t.header.connected : t.header.connecting;
+}
+
 function status(): { text: string; alarm?: "act" | "warn" } {
   const now = station.value;
+  // whoever has not signed in gets no values, from a station that is there all the same
+  if (session.value === null) return { text: t.header.signInFirst };
   if (offline.value) return { text: t.header.offline, alarm: "act" };
   if (!now) return { text: t.header.notConnected };
   const lost = now.devices.find((device) => device.state === "lost" || device.state === "fault");

@@ -5,18 +5,22 @@ import { Refused, stop } from "../api";
 import { timeOfDay } from "../format";
 import { clock, connected, offline, station } from "../live";
 import { t } from "../messages";
+import { said } from "../messages/said";
+import { deviceName } from "../names";
+import { session } from "../session";
 
 const report = signal<{ text: string; failed: boolean; at: string } | null>(null);
 
 async function press(): Promise<void> {
   const at = timeOfDay(clock.value);
-  report.value = offline.value
-    ? { text: t.stop.mayNotArrive(at), failed: true, at }
-    : { text: t.stop.stopping(at), failed: false, at };
+  report.value =
+    offline.value && session.value !== null
+      ? { text: t.stop.mayNotArrive(at), failed: true, at }
+      : { text: t.stop.stopping(at), failed: false, at };
   try {
     const { axes, confirmed } = await stop();
     const troubles = Object.entries(axes).flatMap(([axis, trouble]) =>
-      trouble ? [`${axis}: ${trouble}`] : [],
+      trouble ? [`${deviceName(axis)}: ${said(trouble)}`] : [],
     );
     report.value = confirmed
       ? { text: t.stop.stopped(at), failed: false, at }

@@ -3,8 +3,9 @@ import { beforeEach, describe, expect, it } from "vitest";
 import { now, station } from "../../src/live";
 import { Header } from "../../src/parts/header";
 import { navigate } from "../../src/router";
+import { session } from "../../src/session";
 import type { Device, Station } from "../../src/types";
-import { interlock, run, stationNow } from "../samples";
+import { interlock, run, stationNow, stopClock } from "../samples";
 
 const device = (state: Device["state"]): Device => ({
   name: "scale",
@@ -26,7 +27,7 @@ const status = (given: Partial<Station> | null) => {
 };
 
 beforeEach(() => {
-  now.value = performance.now();
+  stopClock();
 });
 
 describe("the state of the station", () => {
@@ -62,4 +63,12 @@ it.each([
   expect([...drawn().querySelectorAll("[aria-current=page]")].map((link) => link.textContent)).toEqual([
     name,
   ]);
+});
+
+it("says that nobody is signed in, not that the station is away", () => {
+  session.value = null;
+  now.value += 60_000;
+  expect(status(null)).toBe("NOT SIGNED IN");
+  expect(drawn().textContent).not.toContain("values may be old");
+  session.value = undefined;
 });

@@ -2,9 +2,9 @@ import { render } from "preact";
 import { act } from "preact/test-utils";
 import { expect, it } from "vitest";
 import { Refused } from "../../src/api";
-import { now, station } from "../../src/live";
+import { station } from "../../src/live";
 import { useLoaded } from "../../src/parts/load";
-import { stationNow } from "../samples";
+import { stationNow, stopClock } from "../samples";
 
 /** Answers that come when the test lets them. */
 function stage() {
@@ -64,7 +64,7 @@ it("asks again what got no answer once the station is there again, and nothing e
     });
     await act(() => new Promise((later) => setTimeout(later, 10)));
   };
-  now.value = performance.now();
+  stopClock();
   await online(false);
   await show("a");
   await act(async () => asked[0]?.reject(new Refused("No answer.")));

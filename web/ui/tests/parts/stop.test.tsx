@@ -5,7 +5,7 @@ import type * as Api from "../../src/api";
 import { Refused } from "../../src/api";
 import { now, station } from "../../src/live";
 import { StopButton, StopReport } from "../../src/parts/stop";
-import { run, stationNow } from "../samples";
+import { run, stationNow, stopClock } from "../samples";
 
 const sent = vi.hoisted(() => vi.fn<typeof Api.stop>());
 vi.mock("../../src/api", async (load) => ({ ...(await load<typeof Api>()), stop: sent }));
@@ -22,7 +22,7 @@ const press = () =>
 beforeEach(async () => {
   sent.mockReset().mockResolvedValue({ axes: { "axis 1": null, "axis 2": null }, confirmed: true });
   station.value = stationNow();
-  now.value = performance.now();
+  stopClock();
   place = document.body.appendChild(document.createElement("div"));
   await act(() =>
     render(

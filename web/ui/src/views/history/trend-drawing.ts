@@ -23,7 +23,7 @@ export function draw(place: HTMLElement, moved: Trend, charted: Charted): () => 
   return mount(place, trendOption(moved, charted));
 }
 
-/** Individuals above, moving ranges below; broken rules as diamonds, what was written to the drives as lines. */
+/** Individuals above, moving ranges below; broken rules as diamonds, what was written to the drives or mounted anew as lines. */
 export function trendOption(moved: Trend, { points, lines, unit }: Charted) {
   const broken = new Set(lines.rules.map(({ at }) => at));
   const ranges = points
@@ -42,12 +42,10 @@ export function trendOption(moved: Trend, { points, lines, unit }: Charted) {
   };
   const level = (y: number | null, dashed: boolean) =>
     y === null ? [] : [{ yAxis: y, lineStyle: { type: dashed ? ("dashed" as const) : ("solid" as const) } }];
-  const written = moved.items
-    .filter(({ kind, state }) => state === "succeeded" && (kind === "apply" || kind === "rollback"))
-    .map(({ id, kind }) => ({
-      xAxis: id,
-      label: { formatter: t.history.marks[kind as "apply" | "rollback"], rotate: 0 },
-    }));
+  const done = moved.items.flatMap((item) => {
+    const mark = item.state === "succeeded" ? markOf(item) : undefined;
+    return mark ? [{ xAxis: item.id, label: { formatter: t.history.marks[mark], rotate: 0 } }] : [];
+  });
   const versions = changes(moved).map(({ id, software }) => ({
     xAxis: id,
     label: { formatter: t.history.version(software), rotate: 0 },
@@ -105,7 +103,7 @@ export function trendOption(moved: Trend, { points, lines, unit }: Charted) {
           ...level(lines.centre, false),
           ...level(lines.low, true),
           ...level(lines.high, true),
-          ...written,
+          ...done,
           ...versions,
         ]),
       },
@@ -121,6 +119,12 @@ export function trendOption(moved: Trend, { points, lines, unit }: Charted) {
       },
     ],
   };
+}
+
+/** What a run has changed at the drives or the mechanism, beside measuring. */
+export function markOf({ kind, plan }: Pick<Trend["items"][number], "kind" | "plan">) {
+  if (kind === "apply" || kind === "rollback") return kind;
+  return kind === "gauge_study" || plan === "two_mounts" ? "mount" : undefined;
 }
 
 /** The first run of each further version of the program, of those that say which it was. */

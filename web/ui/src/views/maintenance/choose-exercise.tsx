@@ -3,10 +3,11 @@ import { useComputed, useSignal } from "@preact/signals";
 import { local } from "../../format";
 import { station } from "../../live";
 import { t } from "../../messages";
+import { unitName } from "../../names";
 import type { Challenge, Training } from "../../types";
 import { ActionButton } from "./action";
 import { choose } from "./calls";
-import { challengeName, unitOf } from "./exercises";
+import { challengeName } from "./exercises";
 import { ChoiceField, TextField } from "./fields";
 
 interface Props {
@@ -77,7 +78,7 @@ export function ChooseExercise({ challenges, after }: Props) {
       {smallest !== null && (
         <TextField
           id="exercise-size"
-          label={t.training.size(unitOf(unit), local(String(smallest)), local(String(largest)))}
+          label={t.training.size(unitName(unit), local(String(smallest)), local(String(largest)))}
           value={size}
           numeric
         />

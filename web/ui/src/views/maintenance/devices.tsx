@@ -5,6 +5,7 @@ import { newKey, start } from "../../api";
 import { duration, fixed } from "../../format";
 import { connected, station } from "../../live";
 import { t } from "../../messages";
+import { said } from "../../messages/said";
 import { deviceName } from "../../names";
 import { keepOperator, operator } from "../../operator";
 import { ConfirmedButton } from "../../parts/confirm";
@@ -76,7 +77,7 @@ function DeviceRow({ device }: { device: DeviceDetail }) {
           {wrong && "▲ "}
           {t.devices[device.state].name}
         </strong>
-        {device.text && <small> {device.text}</small>}
+        {device.text && <small> {said(device.text)}</small>}
       </td>
       <td class="text wrapped">{device.identity || "–"}</td>
       <td class="text">{heard}</td>

@@ -1,7 +1,7 @@
 /** Exercises: what was wrong, what the station said, and the score. */
 import { local, percent } from "../../format";
 import { t } from "../../messages";
-import { effectName, readable } from "../../names";
+import { effectName, readable, unitName } from "../../names";
 import { Link } from "../../parts/link";
 import type { Exercise } from "../../types";
 import { Table } from "./table";
@@ -15,8 +15,6 @@ const ALARM: Record<NonNullable<Exercise["score"]>, string> = {
   missed: "alarm act",
 };
 
-export const unitOf = (unit: string) => (unit === "deg" ? "°" : unit);
-
 export const challengeName = (kind: string) =>
   t.training.kinds[kind]?.name ?? effectName({ effect: kind, joint: null });
 
@@ -25,7 +23,7 @@ export function wrongWith({ challenge, joint, size }: Exercise): string {
   if (challenge === null) return t.training.notRevealed;
   const name = challengeName(challenge.kind);
   const at = joint === null ? name : t.training.at(name, joint);
-  return size === null ? at : t.training.sized(at, `${local(String(size))} ${unitOf(challenge.unit)}`);
+  return size === null ? at : t.training.sized(at, `${local(String(size))} ${unitName(challenge.unit)}`);
 }
 
 /** What the run found, in words. */

@@ -3,6 +3,7 @@ import { useSignal } from "@preact/signals";
 import { fixed } from "../../format";
 import { station } from "../../live";
 import { t } from "../../messages";
+import { said } from "../../messages/said";
 import { useLoaded } from "../../parts/load";
 import { navigate, query } from "../../router";
 import type { WireExchange } from "../../types";
@@ -82,11 +83,12 @@ function Exchanges({ run, cursor }: { run: number; cursor: number }) {
 export function inWords(exchange: WireExchange): string {
   const m = t.maintenance;
   const device = m.wireDevices[exchange.device];
-  if (exchange.action === "broken") return m.wireBroken(exchange.answer);
-  if (exchange.action === "refused") return m.wireRefused(exchange.answer);
+  const answer = said(exchange.answer);
+  if (exchange.action === "broken") return m.wireBroken(answer);
+  if (exchange.action === "refused") return m.wireRefused(answer);
   const beside = exchange.beside ? ` (${m.wireBeside})` : "";
   if (exchange.angle_deg != null) return m.wirePosition(device, fixed(exchange.angle_deg, 3)) + beside;
   const say = { read: m.wireRead, write: m.wireWrite, other: m.wireOther }[exchange.action];
   const silent = exchange.action === "other" ? "–" : m.wireSilent;
-  return `${say(device, exchange.subject)} → ${exchange.took_ms === null ? silent : exchange.answer}${beside}`;
+  return `${say(device, said(exchange.subject))} → ${exchange.took_ms === null ? silent : answer}${beside}`;
 }

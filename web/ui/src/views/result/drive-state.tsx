@@ -21,7 +21,7 @@ export function DriveState({ result: { id, application } }: { result: Calibratio
 }
 
 function progress({ walk, step, steps }: Run): string {
-  return t.result.step(walk?.title ?? t.shared.waiting, t.shared.stepOf(step ?? 0, steps || "?"));
+  return t.result.step(walk ? said(walk.title) : t.shared.waiting, t.shared.stepOf(step ?? 0, steps || "?"));
 }
 
 /** What the drives hold, and whether fresh readings agreed. */

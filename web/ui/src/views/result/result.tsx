@@ -16,6 +16,7 @@ import { Memory } from "./memory";
 import { NextStep } from "./next-step";
 import { ResidualChart } from "./residual-chart";
 import { ResultSummary, RunFacts, Ways } from "./result-summary";
+import { Translate } from "./translate";
 import { WeakDirection } from "./weak-direction";
 import { ZeroOffsets } from "./zero-offsets";
 
@@ -90,6 +91,11 @@ function Shown({ result, experiments, children }: ShownProps) {
       {result.application && (
         <Fold name="drives" title={t.result.drives}>
           <Application result={result} />
+        </Fold>
+      )}
+      {result.application?.state === "applied" && (
+        <Fold name="taught" title={t.result.translate.title}>
+          <Translate id={id} />
         </Fold>
       )}
       {residuals.length > 0 && (

@@ -1,16 +1,22 @@
+import { calibrationHolds } from "../../api";
 import { station } from "../../live";
 import { t } from "../../messages";
+import { said } from "../../messages/said";
+import { useLoaded } from "../../parts/load";
 
 /** A failed check locks calibrated work; the operator must see it before anything else. */
 export function CalibrationHolds() {
-  const holds = station.value?.calibration;
+  const now = station.value;
+  // the feed has it in its snapshot only, and each run that ends may lock or unlock
+  const { value } = useLoaded(`${now?.last?.id} ${now?.calibration?.text}`, calibrationHolds).value;
+  const holds = value ?? now?.calibration;
   return (
     <section class="panel" aria-label={t.station.locked} hidden={!holds?.locked}>
       {holds?.locked && (
         <>
           <h2>{t.station.locked}</h2>
           <p class="alarm act">
-            ▲ {holds.robot_serial}: {holds.text}
+            ▲ {holds.robot_serial}: {said(holds.text)}
           </p>
         </>
       )}

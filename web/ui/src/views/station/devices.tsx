@@ -1,5 +1,6 @@
 import { connected, station } from "../../live";
 import { t } from "../../messages";
+import { said } from "../../messages/said";
 import { deviceName, interlockLimits, interlockName } from "../../names";
 import type { DeviceState } from "../../types";
 
@@ -25,7 +26,7 @@ export function Devices() {
               {ALARMS[online ? state : "unknown"].shape}
               {online ? t.devices[state].name : t.station.notKnown}
             </strong>
-            {online && state !== "ok" && <small>{text || t.devices[state].text}</small>}
+            {online && state !== "ok" && <small>{said(text) || t.devices[state].text}</small>}
           </li>
         ))}
       </ul>
@@ -43,7 +44,7 @@ export function Devices() {
                   ? t.station.interlockOk
                   : t.station.interlockNotMet}
             </strong>
-            {online && !interlock.ok && interlock.detail && <small>{interlock.detail}</small>}
+            {online && !interlock.ok && interlock.detail && <small>{said(interlock.detail)}</small>}
             {online && interlock.ok && interlock.shows && <small>{interlock.shows}</small>}
             {online && interlock.last_trip && (
               <small>

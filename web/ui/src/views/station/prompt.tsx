@@ -1,9 +1,11 @@
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { answer } from "../../api";
-import { duration } from "../../format";
+import { duration, local } from "../../format";
 import { clock, connected, station } from "../../live";
 import { t } from "../../messages";
+import { said } from "../../messages/said";
+import { unitName } from "../../names";
 import { operator } from "../../operator";
 import { ConfirmedButton } from "../../parts/confirm";
 import { MotionWarning } from "../../parts/motion-warning";
@@ -22,12 +24,13 @@ export function Prompt() {
     if (prompt) (field.current ?? button.current)?.focus();
   }, [prompt?.id]);
   if (!run || !prompt) return null;
+  const unit = unitName(prompt.unit ?? "");
   const leftS = Math.max(0, (Date.parse(prompt.expires_at) - clock.value.getTime()) / 1000);
   const text = typed.value.trim().replace(",", ".");
   const isNumber = prompt.kind === "number";
   const check = () => {
     const wrong = isNumber && (text === "" || !Number.isFinite(Number(text)));
-    trouble.value = wrong ? t.station.promptNumber(prompt.unit ?? "") : "";
+    trouble.value = wrong ? t.station.promptNumber(unit) : "";
     if (wrong) field.current?.focus();
     return !wrong;
   };
@@ -41,11 +44,11 @@ export function Prompt() {
       autocomplete="off"
     >
       <p role="status">
-        <strong>{prompt.text}</strong>
+        <strong>{said(prompt.text)}</strong>
       </p>
       {isNumber && (
         <p class="field">
-          <label for="answer">{t.station.promptValue(prompt.unit ?? "")}</label>
+          <label for="answer">{t.station.promptValue(unit)}</label>
           <input
             id="answer"
             ref={field}
@@ -71,7 +74,9 @@ export function Prompt() {
         check={check}
         act={() => answer(run.id, prompt.id, isNumber ? Number(text) : null, operator.value.trim() || "page")}
       >
-        {isNumber && <strong>{t.station.promptAnswer(`${text} ${prompt.unit ?? ""}`)} </strong>}
+        {isNumber && (
+          <strong>{t.station.promptAnswer(`${local(text)}${unit === "°" ? "" : " "}${unit}`)} </strong>
+        )}
         <MotionWarning serial={run.robot_serial} />
       </ConfirmedButton>
     </form>

@@ -1,6 +1,7 @@
 import { newKey, retract } from "../../api";
 import { connected, station } from "../../live";
 import { t } from "../../messages";
+import { said } from "../../messages/said";
 import { keepOperator, operator } from "../../operator";
 import { ConfirmedButton } from "../../parts/confirm";
 import { OperatorField } from "../../parts/operator-field";
@@ -18,10 +19,10 @@ export function Retract() {
       {now?.retract.needed && (
         <>
           <h2>{t.station.wayBack}</h2>
-          <p class="alarm warn">◆ {now.retract.text}</p>
+          <p class="alarm warn">◆ {said(now.retract.text)}</p>
           <OperatorField id="retract-operator" />
           <ConfirmedButton label={t.station.retract} disabled={!idle} act={act}>
-            <strong>{now.retract.text}</strong>
+            <strong>{said(now.retract.text)}</strong>
             {t.station.retractHow} {t.shared.clear}
           </ConfirmedButton>
         </>

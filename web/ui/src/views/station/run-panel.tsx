@@ -1,6 +1,7 @@
 import { duration, fixed } from "../../format";
 import { machineAgeS, remainingS, shownRun, station } from "../../live";
 import { t } from "../../messages";
+import { said } from "../../messages/said";
 import { AbortButton } from "./abort";
 import { MapKey, WorkspaceMap } from "./map";
 import { Outcome, outcome } from "./outcome";
@@ -18,11 +19,15 @@ export function RunPanel() {
       <div class="top">
         <Outcome />
         <div class="progress" hidden={outcome.value !== null}>
-          <h2>{run ? (run.walk?.title ?? t.shared.waiting) : t.station.noRun}</h2>
+          <h2>{run ? (run.walk ? said(run.walk.title) : t.shared.waiting) : t.station.noRun}</h2>
           <p>{run && t.station.runLine(run.robot_serial, run.id, run.operator)}</p>
           <progress aria-label={t.station.progress} value={run?.progress ?? 0} max={1} />
-          <p>{run ? t.shared.stepOf(step, steps || "?") : ""}</p>
-          <p>{run && remainingS.value !== null ? t.station.remaining(duration(remainingS.value)) : ""}</p>
+          <p>{run && steps > 0 ? t.shared.stepOf(step, steps) : ""}</p>
+          <p>
+            {run && run.state !== "waiting" && remainingS.value !== null
+              ? t.station.remaining(duration(remainingS.value))
+              : ""}
+          </p>
         </div>
         <AbortButton />
       </div>

@@ -12,9 +12,9 @@ export function StationView() {
       <h1 class="hidden">{t.station.title}</h1>
       <div class="side">
         <CalibrationHolds />
+        <Retract />
         <StartForm />
         <Devices />
-        <Retract />
       </div>
       <div class="work">
         <RunPanel />

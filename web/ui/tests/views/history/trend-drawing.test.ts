@@ -1,6 +1,6 @@
 import { expect, it } from "vitest";
 import type { Trend } from "../../../src/types";
-import { type Charted, changes, trendOption } from "../../../src/views/history/trend-drawing";
+import { type Charted, changes, markOf, trendOption } from "../../../src/views/history/trend-drawing";
 
 const NO_LINES = {
   centre: null,
@@ -65,4 +65,11 @@ it("marks the first run of another version, of those that say which", () => {
   const versions = ["0.1.0", null, "0.1.0", "0.2.0", "0.2.0"];
   const items = versions.map((software, n) => ({ ...item(n + 1, 0.5), software }) as Trend["items"][number]);
   expect(changes({ items })).toEqual([{ id: 4, software: "0.2.0" }]);
+});
+
+it("marks the runs after which the mechanism is mounted anew, and what was written", () => {
+  expect(markOf({ kind: "calibrate", plan: "two_mounts" })).toBe("mount");
+  expect(markOf({ kind: "gauge_study", plan: "gauge_study" })).toBe("mount");
+  expect(markOf({ kind: "rollback", plan: "full" })).toBe("rollback");
+  expect(markOf({ kind: "calibrate", plan: "full" })).toBeUndefined();
 });

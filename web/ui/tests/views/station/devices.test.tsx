@@ -1,8 +1,8 @@
 import { render } from "preact";
 import { beforeEach, expect, it } from "vitest";
-import { now, station } from "../../../src/live";
+import { station } from "../../../src/live";
 import { Devices } from "../../../src/views/station/devices";
-import { interlock, stationNow } from "../../samples";
+import { interlock, stationNow, stopClock } from "../../samples";
 
 const shown = () => {
   const place = document.createElement("div");
@@ -11,7 +11,7 @@ const shown = () => {
 };
 
 beforeEach(() => {
-  now.value = performance.now();
+  stopClock();
 });
 
 it("shows each interlock with its limits, its value and its last trip", () => {

@@ -3,10 +3,10 @@ import { act } from "preact/test-utils";
 import { afterEach, beforeEach, expect, it, vi } from "vitest";
 import type * as Api from "../../../src/api";
 import { confirm } from "../../../src/armed";
-import { now, station } from "../../../src/live";
+import { station } from "../../../src/live";
 import { operator } from "../../../src/operator";
 import { Prompt } from "../../../src/views/station/prompt";
-import { run, stationNow, summary } from "../../samples";
+import { run, stationNow, stopClock, summary } from "../../samples";
 
 const sent = vi.hoisted(() => vi.fn<typeof Api.answer>());
 vi.mock("../../../src/api", async (load) => ({ ...(await load<typeof Api>()), answer: sent }));
@@ -25,7 +25,7 @@ const confirmed = () =>
 
 beforeEach(() => {
   sent.mockReset().mockResolvedValue(summary());
-  now.value = performance.now();
+  stopClock();
   operator.value = "ada";
   place = document.body.appendChild(document.createElement("div"));
 });

@@ -3,10 +3,10 @@ import { act } from "preact/test-utils";
 import { afterEach, beforeEach, expect, it, vi } from "vitest";
 import type * as Api from "../../../src/api";
 import { confirm } from "../../../src/armed";
-import { now, station } from "../../../src/live";
+import { station } from "../../../src/live";
 import { operator } from "../../../src/operator";
 import { Retract } from "../../../src/views/station/retract";
-import { stationNow, summary } from "../../samples";
+import { stationNow, stopClock, summary } from "../../samples";
 
 const sent = vi.hoisted(() => vi.fn<typeof Api.retract>());
 vi.mock("../../../src/api", async (load) => ({ ...(await load<typeof Api>()), retract: sent }));
@@ -17,7 +17,7 @@ const shown = () => act(() => render(<Retract />, place));
 
 beforeEach(() => {
   sent.mockReset().mockResolvedValue(summary());
-  now.value = performance.now();
+  stopClock();
   operator.value = "ada";
   place = document.body.appendChild(document.createElement("div"));
 });

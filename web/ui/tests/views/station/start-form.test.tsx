@@ -9,10 +9,14 @@ import { operator } from "../../../src/operator";
 import { chosenPlan, serial, takeSerial, trouble } from "../../../src/views/station/start";
 import { StartForm } from "../../../src/views/station/start-form";
 import { wishes } from "../../../src/views/station/wishes";
-import { run, stationNow, summary } from "../../samples";
+import { run, stationNow, stopClock, summary } from "../../samples";
 
 const sent = vi.hoisted(() => vi.fn<typeof Api.start>());
-vi.mock("../../../src/api", async (load) => ({ ...(await load<typeof Api>()), start: sent }));
+vi.mock("../../../src/api", async (load) => ({
+  ...(await load<typeof Api>()),
+  start: sent,
+  plan: () => new Promise(() => {}),
+}));
 
 let place: HTMLElement;
 let unwatch: () => void;
@@ -50,7 +54,7 @@ beforeEach(async () => {
   chosenPlan.value = "paper";
   trouble.value = null;
   disarm();
-  now.value = performance.now();
+  stopClock();
   station.value = stationNow();
   place = document.body.appendChild(document.createElement("div"));
   unwatch = watchArmed();

@@ -7,9 +7,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from station.records import Measurements, Real
-from station.records.guesses import with_guesses
-from station.serial_arm.robot_file import Arm
+from station.records import Measurements, Real, with_guesses
+from station.serial_arm import Arm
 
 UR_LIKE = {
     "robot": {

@@ -1,0 +1,114 @@
+"""People and programs that ask the station over REST: the requests that a browser or a MES would send."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from starlette.types import Message, Scope
+
+from station.simulation.plant import NotRunning, Plant
+
+API = "/api/v1"
+_HOST = b"127.0.0.1:8000"
+
+
+@dataclass(frozen=True, slots=True)
+class Answer:
+    """What came back."""
+
+    status: int
+    body: Any
+    cookie: str | None
+
+    @property
+    def run(self) -> int:
+        """Number of the run that was started; 0 where none was."""
+        return int(self.body["id"]) if self.status == 202 else 0
+
+
+@dataclass
+class Client:
+    """One that shows the same key or session with each request."""
+
+    plant: Plant
+    name: str
+    """Under which the audit knows it."""
+    headers: dict[str, str] = field(default_factory=dict)
+    address: str = "127.0.0.1"
+
+    def send(
+        self,
+        method: str,
+        path: str,
+        body: Mapping[str, object] | None = None,
+        *,
+        key: str | None = None,
+        query: str = "",
+    ) -> Answer:
+        """Ask, and wait for the answer.
+
+        :param key: of idempotency
+        :raises NotRunning: the station does not run, or was killed before it had answered
+        """
+        content = b"" if body is None else json.dumps(body).encode()
+        headers = {**self.headers, **({"Idempotency-Key": key} if key else {})}
+        if body is not None:
+            headers |= {"Content-Type": "application/json", "Content-Length": str(len(content))}
+        scope: Scope = {
+            "type": "http",
+            "asgi": {"version": "3.0", "spec_version": "2.3"},
+            "http_version": "1.1",
+            "method": method,
+            "scheme": "http",
+            "path": f"{API}{path}",
+            "raw_path": f"{API}{path}".encode(),
+            "root_path": "",
+            "query_string": query.encode(),
+            "headers": [(b"host", _HOST), *((k.lower().encode(), v.encode()) for k, v in headers.items())],
+            "client": (self.address, 50_000),
+            "server": ("127.0.0.1", 8000),
+            "state": {},
+        }
+        exchange = _Exchange(content)
+        self.plant.serve(scope, exchange)
+        if not exchange.done:
+            raise NotRunning
+        return exchange.answer
+
+
+class _Exchange:
+    """The client's end of one request."""
+
+    def __init__(self, content: bytes) -> None:
+        self._content: bytes | None = content
+        self._start: Message = {}
+        self._received = b""
+        self.done = False
+        """Whether the whole answer has come; what the server does afterwards the client does not see."""
+
+    async def receive(self) -> Message:
+        if self._content is None:
+            return {"type": "http.disconnect"}
+        content, self._content = self._content, None
+        return {"type": "http.request", "body": content, "more_body": False}
+
+    async def send(self, message: Message) -> None:
+        if message["type"] == "http.response.start":
+            self._start = message
+        elif message["type"] == "http.response.body":
+            self._received += message.get("body", b"")
+            self.done = not message.get("more_body", False)
+
+    @property
+    def answer(self) -> Answer:
+        headers = dict(self._start["headers"])
+        cookie = headers.get(b"set-cookie")
+        is_json = b"json" in headers.get(b"content-type", b"")
+        return Answer(
+            self._start["status"],
+            json.loads(self._received) if is_json else None,
+            None if cookie is None else cookie.decode().partition(";")[0],
+        )

@@ -1,0 +1,103 @@
+"""Who works at the station: an operator who signs in, a MES with a key, and somebody who may do nothing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from random import Random
+from typing import Any
+
+from station.people import Administration, NewUser
+from station.records import Actor
+from station.simulation.clients import Answer, Client
+from station.simulation.plant import Plant
+from station.store import Store
+
+_PASSWORD = "correct horse battery"  # noqa: S105 - of somebody who does not exist
+_ROOT = Actor(name="root", via="terminal")
+_UNAUTHORIZED = 401
+
+
+@dataclass
+class Operator(Client):
+    """Signs in with a password whenever a session is refused."""
+
+    def send(
+        self,
+        method: str,
+        path: str,
+        body: Mapping[str, object] | None = None,
+        *,
+        key: str | None = None,
+        query: str = "",
+    ) -> Answer:
+        answer = super().send(method, path, body, key=key, query=query)
+        if answer.status == _UNAUTHORIZED:
+            signed_in = super().send("POST", "/session", {"name": self.name, "password": _PASSWORD})
+            if signed_in.cookie is not None:
+                self.headers["Cookie"] = signed_in.cookie
+                answer = super().send(method, path, body, key=key, query=query)
+        return answer
+
+
+@dataclass
+class People:
+    """Of one station; they outlive every process of it."""
+
+    plant: Plant
+    random: Random
+    pulled: int = 0
+    """Number of the last event that the MES has fetched."""
+    _keys: int = 0
+    _revoked: list[str] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.operator = Operator(self.plant, "Ada")
+        self.mes = Client(self.plant, "MES 0", address="10.0.0.7")
+
+    def begin(self) -> None:
+        """On the first day: an account and a key."""
+        self._administration().add_user(_ROOT, NewUser(self.operator.name, "operator", _PASSWORD))
+        self.renew_key()
+
+    def renew_key(self) -> None:
+        """The MES gets another key; the one that it had is refused from now on."""
+        if bearer := self.mes.headers.get("Authorization"):
+            self._store.revoke_key(_ROOT, self.mes.name)
+            self._revoked.append(bearer)
+        self._keys += 1
+        self.mes.name = f"MES {self._keys}"
+        _, key = self._administration().add_key(_ROOT, self.mes.name, "mes")
+        self.mes.headers["Authorization"] = f"Bearer {key}"
+
+    def try_without_right(self, order: Mapping[str, object], passed: int | None) -> Answer:
+        """Somebody without a key, with a revoked one, or with one that may not do this, asks for motion."""
+        start = ("POST", "/calibrations", order)
+        stranger = Client(self.plant, "nobody", address="10.0.0.66")
+        tries = [lambda: stranger.send(*start), lambda: stranger.send("POST", "/stop")]
+        if self._revoked:
+            stranger.headers["Authorization"] = self.random.choice(self._revoked)
+        if passed is not None:
+            tries.append(lambda: self.mes.send("POST", f"/calibrations/{passed}/apply", {"operator": "x"}))
+        return self.random.choice(tries)()
+
+    def pull(self) -> list[Mapping[str, Any]]:
+        """What the MES has not fetched yet of what happened, in order."""
+        events: list[Mapping[str, Any]] = []
+        while True:
+            answer = self.mes.send("GET", "/events", query=f"after={self.pulled}")
+            if answer.status != 200:
+                return events
+            events += answer.body["items"]
+            if events:
+                self.pulled = int(events[-1]["n"])
+            if answer.body["next"] is None:
+                return events
+
+    @property
+    def _store(self) -> Store:
+        assert self.plant.runtime is not None
+        return self.plant.runtime.store
+
+    def _administration(self) -> Administration:
+        return Administration(self._store)
