@@ -44,7 +44,7 @@ KINDS = {**RUN_KINDS, "calibrate": replace(RUN_KINDS["calibrate"], procedure=six
 
 
 @contextmanager
-def service(home: Path) -> Iterator[int]:
+def serving(home: Path) -> Iterator[int]:
     """Start it on a home folder; its port."""
     command = [sys.executable, "-m", __name__, str(home)]
     process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)

@@ -18,7 +18,7 @@ from websockets.sync.client import connect
 
 from station.records import uid7
 from station.settings import database_path
-from station.studies.bench.served import SETTINGS, service
+from station.studies.bench.served import SETTINGS, serving
 from station.studies.bench.timing import Figure, figure, time_ms
 
 RUNS = 200
@@ -47,7 +47,7 @@ def _run_times(home: Path, count: int) -> list[float]:
     body = {"robot_serial": "B-1", "plan": "paper", "operator": "bench"}
     taken = []
     with (
-        service(home) as port,
+        serving(home) as port,
         closing(connected(port)) as http,
         connect(f"ws://127.0.0.1:{port}/api/v1/live") as feed,
     ):
@@ -77,7 +77,7 @@ def history(count: int) -> dict[str, Any]:
         home = Path(folder)
         _run_times(home, 1)
         _fill(database_path(SETTINGS, home), count)
-        with service(home) as port, closing(connected(port)) as http:
+        with serving(home) as port, closing(connected(port)) as http:
             page = _get(http)
             return {"ms": time_ms(lambda: _get(http), most=200), "page_bytes": len(page)}
 

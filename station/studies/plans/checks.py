@@ -13,7 +13,7 @@ from station.records import CheckFound, Real
 from station.run_kinds import check_run
 from station.studies.drawn import Drawn, drawn, robot_of
 from station.studies.plans.references import measured
-from station.studies.plans.walked import walk
+from station.studies.walked import walk
 
 SIZES = (0.25, 0.5, 0.75, 1.0)
 """Of the smallest shift that is stated."""

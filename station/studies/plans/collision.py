@@ -15,7 +15,7 @@ from station.run_kinds import adaptive_run, fit_in_sequence, memory_test
 from station.studies.drawn import Drawn, drawn, robot_of
 from station.studies.plans.promise import Kept, kept
 from station.studies.plans.references import measured
-from station.studies.plans.walked import walk
+from station.studies.walked import walk
 
 REMOUNT_MM, LINK_MM = 1.0, 0.3
 WISH = 1.01

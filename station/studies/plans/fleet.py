@@ -14,7 +14,7 @@ from station.run_kinds import adaptive_run, fit_in_sequence
 from station.studies.drawn import Drawn, robot_of, zero_offsets
 from station.studies.plans.promise import Kept, kept
 from station.studies.plans.references import measured
-from station.studies.plans.walked import walk
+from station.studies.walked import walk
 
 OWN = 0.2
 """Share of the tolerance by which robots of a type differ; the rest they have in common."""

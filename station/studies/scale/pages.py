@@ -10,8 +10,7 @@ from http.client import HTTPConnection
 from pathlib import Path
 from statistics import median
 
-from station.studies.bench.served import service
-from station.studies.bench.service import connected
+from station.studies.bench import connected, serving
 
 ANSWERS = (
     "calibrations", "calibrations?state=failed", "calibrations?search=R12",
@@ -26,7 +25,7 @@ ANSWERS = (
 
 def answered(home: Path, times: int) -> Iterator[tuple[str, float, float]]:
     """Each address with the median time of its answer by the clock and of all processors, ms."""
-    with service(home) as port, closing(connected(port)) as http:
+    with serving(home) as port, closing(connected(port)) as http:
         (process,) = _children()
         for path in ANSWERS:
             _get(http, path)  # what is read for the first time comes from the disk

@@ -23,8 +23,8 @@ from station.store import Store
 from station.studies.confusion import KINDS, of_usual_size
 from station.studies.drawn import drawn, robot_of
 from station.studies.engine import Engine
-from station.studies.plans.walked import Machine, walk
 from station.studies.population import PlainMachine
+from station.studies.walked import Machine, walk
 
 Kind = Literal["calibrate", "diagnose"]
 PLANS: dict[Kind, PlanName] = {"calibrate": "full", "diagnose": "diagnostic"}

@@ -14,7 +14,7 @@ from station.plans import USUAL, make_plan
 from station.records import JointAngle, Real, Remembered
 from station.run_kinds.adaptive import adaptive_run, fit_in_sequence
 from station.studies.drawn import Drawn, drawn, robot_of
-from station.studies.plans.walked import Walked, walk
+from station.studies.walked import Walked, walk
 
 ROBOT = robot_of(0.03)
 WISH = 1.02

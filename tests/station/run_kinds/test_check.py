@@ -18,7 +18,7 @@ from station.run_kinds import RUN_KINDS
 from station.run_kinds.check import check_run, compared_with
 from station.store.store import Store
 from station.studies.drawn import Drawn, drawn, robot_of
-from station.studies.plans.walked import walk
+from station.studies.walked import walk
 from tests.station.asking import asked
 from tests.station.fakes import result_of
 
