@@ -5,10 +5,8 @@ from __future__ import annotations
 import json
 import time
 from pathlib import Path
-from typing import Any
 
 import click
-from pydantic import JsonValue
 from rich.console import Console
 
 from station.cli.files import check_folders, write_json
@@ -67,7 +65,7 @@ def study_command(
     check_folders(json_file)
     engine = Engine(Console(stderr=True), workers, resume, scheduler)
     began = time.perf_counter()
-    found: dict[str, Any] | list[JsonValue]
+    found: object
     if study == "confusion":
         found = confusion_figures(confusion(machines, seed, engine))
     elif study == "arms":

@@ -17,8 +17,8 @@ from tempfile import TemporaryDirectory
 from playwright.sync_api import Browser, Page, sync_playwright
 
 from station.settings import database_path
-from station.studies.bench.served import SETTINGS, service
-from station.studies.bench.service import connected, _fill, _json, _run_times
+from station.studies.bench.served import SETTINGS, serving
+from station.studies.bench.service import _fill, _json, _run_times, connected
 from tests.browser.conftest import FLAGS, SMALL
 
 COLD_STARTS, RUNS, LOOKS = 20, 500, 20
@@ -104,7 +104,7 @@ def with_history(browser: Browser, count: int) -> list[float]:
         home = Path(folder)
         _run_times(home, 1)
         _fill(database_path(SETTINGS, home), count)
-        with service(home) as port:
+        with serving(home) as port:
             page = browser.new_context(viewport=SMALL).new_page()  # type: ignore[arg-type]
             times = looks(page, f"http://127.0.0.1:{port}/")
             page.context.close()
@@ -116,13 +116,13 @@ def spread(times: list[float]) -> str:
 
 
 def start(browser: Browser) -> None:
-    with TemporaryDirectory() as folder, service(Path(folder)) as port:
+    with TemporaryDirectory() as folder, serving(Path(folder)) as port:
         times = cold_starts(browser, f"http://127.0.0.1:{port}/")
     row(f"from the request to READY, nothing in the cache, {COLD_STARTS} starts", spread(times), "400 ms")
 
 
 def tab(browser: Browser) -> None:
-    with TemporaryDirectory() as folder, service(Path(folder)) as port:
+    with TemporaryDirectory() as folder, serving(Path(folder)) as port:
         page = browser.new_context(viewport=SMALL).new_page()  # type: ignore[arg-type]
         page.add_init_script(f"({WATCH_EVENTS})()")
         page.goto(f"http://127.0.0.1:{port}/")

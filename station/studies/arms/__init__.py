@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from station.studies.arms.figures import figures
 from station.studies.arms.one import Judged, arms
+from station.studies.arms.summary import figures
 
 __all__ = ["Judged", "arms", "figures"]

@@ -4,12 +4,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from typing import Any
 
 from station.studies.arms.one import Judged
 
 
-def figures(found: Sequence[Judged]) -> dict[str, Any]:
+def figures(found: Sequence[Judged]) -> dict[str, object]:
     """Counts over all logs and by kind; tracebacks and refusals word for word."""
     kinds = sorted({one.kind for one in found})
     return {
@@ -22,7 +21,7 @@ def figures(found: Sequence[Judged]) -> dict[str, Any]:
     }
 
 
-def _of_kind(found: Sequence[Judged]) -> dict[str, Any]:
+def _of_kind(found: Sequence[Judged]) -> dict[str, object]:
     return {
         "logs": len(found),
         "verdicts": dict(sorted(Counter(one.verdict or "refused" for one in found).items())),
