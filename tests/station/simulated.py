@@ -118,7 +118,7 @@ class Drawn:
 
     def sequence(self) -> Measurements:
         """120 readings: ten places three times over, a 9 x 5 grid there and back."""
-        grid = ROBOT.workspace_grid(9, 5).reshape(9, 5)
+        grid = ROBOT.workspace_grid(9, 5).reshape(9, 5).copy()
         grid[1::2] = grid[1::2, ::-1]
         there = grid.ravel()
         places = np.concatenate([np.tile(self._interior(TEN), 3), there, there[::-1]])
