@@ -70,10 +70,10 @@ def look_at(pages: Pages, name: str, besides: str = "code") -> None:
 
     :param besides: selector of what may be in English, names and identifiers on record
     """
-    found = [
-        *violations(pages["en"]),
-        *(f"in English: {word}" for word in foreign_words(pages["zh"], besides)),
+    found = [  # pictures first: some states last ten seconds
         *(trouble_with(page, f"{language}/{name}") for language, page in pages.items()),
+        *(f"in English: {word}" for word in foreign_words(pages["zh"], besides)),
+        *violations(pages["en"]),
     ]
     pages["de"].set_viewport_size(PHONE)
     found += [f"on a phone: {text}" for text in spoiled(pages["de"])]
@@ -85,6 +85,8 @@ def show(pages: Pages, station: Station, address: str, last: str) -> None:
     for page in pages.values():
         page.goto(f"{station.url}{address}")
         expect(page.locator(last).first).to_be_visible()
+        if page.locator(".start").count():  # what the plan promises comes later
+            expect(page.locator("#plan-promise")).to_be_visible()
 
 
 @dataclass(frozen=True)
