@@ -190,7 +190,7 @@ def test_a_failure_while_storing_leaves_nothing_half_stored(
     def broken(*_: object) -> None:
         raise RuntimeError("disk full")
 
-    monkeypatch.setattr("station.store.store.pack_document", broken)
+    monkeypatch.setattr("station.store.results.pack_document", broken)
     problem_of(send(service, *worn), 500)
     nothing_is_stored(service)
 
