@@ -1,8 +1,7 @@
 """How views look: compared with reference pictures, and free of texts that cannot be read.
 
 Pictures are small (an eighth of the size, 16 greys), drawn with fonts that Debian does not change and with
-every row of digits two zeros without a sign, so that another computer, another day and other noise give the
-same.
+two zeros for every number and every hash, so that another computer, another day and other noise give the same.
 `make pictures` makes them again; look at what changed before you commit it.
 """
 
@@ -39,7 +38,7 @@ STYLED = """css => {
 ZEROS = r"""() => {
   const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
   for (let node = walker.nextNode(); node; node = walker.nextNode()) {
-    const zeros = node.data.replace(/\d+/g, "00").replace(/[+−]/g, "");
+    const zeros = node.data.replace(/\b[\da-f]*\d[\da-f]*\b|\d+/g, "00").replace(/[+−]/g, "");
     if (zeros !== node.data) node.data = zeros;
   }
 }"""
