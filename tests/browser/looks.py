@@ -1,7 +1,7 @@
 """How views look: compared with reference pictures, and free of texts that cannot be read.
 
 Pictures are small (an eighth of the size, 16 greys), drawn with fonts that Debian does not change and with
-two zeros for every number and every hash, so that another computer, another day and other noise give the same.
+two zeros for every number and hash, so that another computer, another day and other noise give the same.
 `make pictures` makes them again; look at what changed before you commit it.
 """
 
