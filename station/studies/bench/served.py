@@ -1,6 +1,6 @@
 """The service on instant devices, as a process of its own: real HTTP, real SQLite file.
 
-Run as `python -m station.studies.bench.served HOME`; it prints its port and serves until its input closes.
+A process of its own, which prints its port and serves until its input closes.
 """
 
 from __future__ import annotations
@@ -46,7 +46,8 @@ KINDS = {**RUN_KINDS, "calibrate": replace(RUN_KINDS["calibrate"], procedure=six
 @contextmanager
 def serving(home: Path) -> Iterator[int]:
     """Start it on a home folder; its port."""
-    command = [sys.executable, "-m", __name__, str(home)]
+    program = f"from {__name__} import _serve; _serve({str(home)!r})"
+    command = [sys.executable, "-c", program]
     process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
     assert process.stdin is not None and process.stdout is not None
     try:
@@ -57,7 +58,8 @@ def serving(home: Path) -> Iterator[int]:
         process.stdout.close()
 
 
-def _serve(home: Path) -> None:
+def _serve(folder: str) -> None:
+    home = Path(folder)
     with ExitStack() as opened:
         store = Store(database_path(SETTINGS, home))
         opened.callback(store.close)
@@ -78,7 +80,3 @@ def _serve(home: Path) -> None:
 def _until_input_closes(server: uvicorn.Server) -> None:
     sys.stdin.read()
     server.should_exit = True
-
-
-if __name__ == "__main__":
-    _serve(Path(sys.argv[1]))
