@@ -1,7 +1,4 @@
-"""The service on instant devices, as a process of its own: real HTTP, real SQLite file.
-
-A process of its own, which prints its port and serves until its input closes.
-"""
+"""The service on instant devices, as a process of its own: real HTTP, real SQLite file."""
 
 from __future__ import annotations
 
