@@ -13,15 +13,13 @@ from station.records import uid7
 A_MINUTE_MS = 60_000
 BATCH = 20_000
 ROBOTS = 1000
-_RUN, _OF_RUN = (
-    "calibrations",
-    {
-        "results": "calibration_id",
-        "findings": "calibration_id",
-        "readings": "calibration_id",
-        "made_by": "run_id",
-    },
-)
+_RUN = "calibrations"
+_OF_RUN = {
+    "results": "calibration_id",
+    "findings": "calibration_id",
+    "readings": "calibration_id",
+    "made_by": "run_id",
+}
 """Tables of what a run leaves, with the column that names it."""
 
 
