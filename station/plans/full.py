@@ -78,7 +78,7 @@ def _choose(robot: Robot, candidates: Complex, count: int) -> Complex:
 
 def position_weight(mechanism: FiveBar) -> Real:
     """(P, P) M: trace(C M) is the mean square position error over the workspace, mm^2."""
-    mean = np.array([p.prior_mean for p in mechanism.parameters])
+    mean = mechanism.start
     jacobian = mechanism.position_errors(mean)[1]
     return np.asarray(np.einsum("gdi,gdj->ij", jacobian, jacobian) / (GRID[0] * GRID[1]))
 

@@ -17,7 +17,7 @@ def predict(robot: Robot, places: Complex) -> PlanPrediction:
     mechanism = measured_at(robot, places)
     rows = information_rows(mechanism)
     covariance = np.linalg.inv(known_beforehand(mechanism) + rows.T @ rows)
-    mean = np.array([p.prior_mean for p in mechanism.parameters])
+    mean = mechanism.start
     error, jacobian = mechanism.position_errors(mean)
     sd = np.degrees(np.sqrt(np.diag(covariance)[:2]))
     sd_mm = np.sqrt(np.einsum("gdi,ij,gdj->g", jacobian, covariance, jacobian))
@@ -66,7 +66,7 @@ def measured_at(robot: Robot, places: Complex) -> FiveBar:
 
 def information_rows(mechanism: FiveBar) -> Real:
     """(R, P) derivatives of the readings, in units of their noise."""
-    mean = np.array([p.prior_mean for p in mechanism.parameters])
+    mean = mechanism.start
     at = mechanism.observe(mean, mechanism.theta)
     return np.asarray(at.by_parameter / mechanism.row_sd[:, None])
 

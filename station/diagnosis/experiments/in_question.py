@@ -25,7 +25,7 @@ class Hypothesis:
         """The same for a mechanism with further parameters, of which the prior alone is known."""
         names = [p.name for p in learned.parameters]
         old, q = self.settled, len(self.settled.x) - self.settled.size
-        mean = np.array([p.prior_mean for p in mechanism.parameters])
+        mean = mechanism.start
         sd = np.array([min(p.prior_sd, FLAT_SD_MM) for p in mechanism.parameters])
         size = len(mean)
         x = np.concatenate([mean, old.x[old.size :]])

@@ -96,7 +96,7 @@ def fit(
     """
     mechanism = FiveBar(robot, m)
     names = [p.name for p in mechanism.parameters]
-    mean: Real = np.array([p.prior_mean for p in mechanism.parameters])
+    mean: Real = mechanism.start
     spread = np.array([min(p.prior_sd, OFFSET_SD_MM) for p in mechanism.parameters])
     for name, value in (loosened or {}).items():
         spread[names.index(name)] = value

@@ -56,7 +56,7 @@ def _allowed(machine: Drawn, mechanism: FiveBar, rng: np.random.Generator) -> tu
     root = tolerance_prior(mechanism).root
     covariance = np.linalg.inv(by_parameter.T @ by_parameter + root.T @ root)
     left = zeros_only(mechanism, covariance)
-    at = np.array([p.prior_mean for p in mechanism.parameters])
+    at = mechanism.start
     at[:2] = 0.0
     jacobian: Real = mechanism.position_errors_at(at, machine.robot.workspace_grid(*GRID))[1]
     drawn = rng.multivariate_normal(np.zeros(SIZE), left[:SIZE, :SIZE], DRAWS, method="eigh")

@@ -56,7 +56,7 @@ class _Linear:
 
     def prior_error(self) -> Real:
         """(N, P) of the tolerances' means."""
-        mean = np.array([p.prior_mean for p in self.mechanism.parameters])
+        mean = self.mechanism.start
         return np.tile(mean - self.truth, (SAMPLES, 1))
 
     def largest(self, errors: Real) -> float:
