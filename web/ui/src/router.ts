@@ -4,10 +4,9 @@ import { computed, signal } from "@preact/signals";
 /** How often the view has been changed since the page was loaded. */
 export const navigations = signal(0);
 const address = signal(location.pathname + location.search);
-/** How far a view that one goes back to was scrolled; it is there again once the view has its data. */
-export let scrolledTo = 0;
+let stay = new AbortController();
 addEventListener("popstate", (event) => {
-  scrolledTo = (event.state as { scroll?: number } | null)?.scroll ?? 0;
+  holdAt((event.state as { scroll?: number } | null)?.scroll ?? 0);
   navigations.value += 1;
   address.value = location.pathname + location.search;
 });
@@ -20,8 +19,19 @@ export function navigate(to: string, options: { replace?: boolean } = {}): void 
   else {
     history.replaceState({ scroll: scrollY }, "");
     history.pushState(null, "", to);
-    scrolledTo = 0;
+    stay.abort();
   }
   if (to.split("?")[0] !== path.peek()) navigations.value += 1;
   address.value = to;
+}
+
+/** Holds the view where it was when one left it, while its parts arrive, until the person moves it. */
+function holdAt(top: number): void {
+  stay.abort();
+  stay = new AbortController();
+  const grown = new ResizeObserver(() => scrollTo(0, top));
+  grown.observe(document.body);
+  stay.signal.addEventListener("abort", () => grown.disconnect());
+  for (const moved of ["wheel", "touchmove", "pointerdown", "keydown"])
+    addEventListener(moved, () => stay.abort(), { signal: stay.signal, passive: true });
 }

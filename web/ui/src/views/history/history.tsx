@@ -1,12 +1,11 @@
 /** Every run.  Filters, order, page, comparison and charts live in the address. */
-import { useEffect } from "preact/hooks";
 import { calibrations, countRuns } from "../../api";
 import { K } from "../../format";
 import { station } from "../../live";
 import { t } from "../../messages";
 import { Link } from "../../parts/link";
 import { useLoaded } from "../../parts/load";
-import { navigate, query, scrolledTo } from "../../router";
+import { navigate, query } from "../../router";
 import { address, newest, older, showing, toApi, toWholeList, withFilter } from "./address";
 import { Compare } from "./compare";
 import { Filters } from "./filters";
@@ -24,10 +23,6 @@ export function HistoryView() {
     countRuns(toWholeList(filters)),
   ).value;
   const next = page?.next ?? null;
-  const shown = page !== null;
-  useEffect(() => {
-    if (shown && scrolledTo > 0) scrollTo(0, scrolledTo);
-  }, [shown]);
   const charts = filters.get("show") === "process";
   return (
     <div class="history">
