@@ -20,6 +20,7 @@ RARE = 0.5
 TURNS = ({"per_turn": 1.0}, {"per_turn": 2.0}, {"per_turn": 3.0})
 PLACE_FACTORS = 6
 LOADS = 4
+STRETCH = sizes(0.004, 1.0)
 Field = Callable[[Situation, Sequence[Hidden]], Real]
 
 
@@ -218,20 +219,25 @@ def _both_bearings(axis: str, sign: float) -> Family:
     return unnamed("frame under load", "place", 0.3, sizes(0.004, 1.0), _numbered(3), actions)
 
 
+def _stretch_forms(s: Situation, kind: str, i: int, hidden: Sequence[Hidden]) -> Real:
+    """By the pull of the platform and by the weight of the arm; a distal link also hangs through between its
+    ends, by the square of how flat it lies."""
+    flat = s.theta[:, i] if kind == "L" else s.phi[:, i]
+    return _chosen((s.force[:, i], np.cos(s.theta[:, i]), np.cos(flat) ** 2), hidden)
+
+
 def _stretch(target: str, weight: float) -> Family:
     """A link stretches under the pull of the platform, or bends under the weight of the arm."""
     i = int(target[1]) - 1
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
-        return [Action(target, _chosen((s.force[:, i], np.cos(s.theta[:, i])), hidden))]
+        return [Action(target, _stretch_forms(s, target[0], i, hidden))]
 
-    return unnamed("link under load", f"joint{i + 1}", weight, sizes(0.004, 0.15), _numbered(2), actions)
+    return unnamed("link under load", f"joint{i + 1}", weight, STRETCH, _numbered(3), actions)
 
 
 def _both_stretch(kind: str) -> Family:
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
-        return [
-            Action(f"{kind}{i + 1}", _chosen((s.force[:, i], np.cos(s.theta[:, i])), hidden)) for i in (0, 1)
-        ]
+        return [Action(f"{kind}{i + 1}", _stretch_forms(s, kind, i, hidden)) for i in (0, 1)]
 
-    return unnamed("link under load", "place", 0.2, sizes(0.004, 0.15), _numbered(2), actions)
+    return unnamed("link under load", "place", 0.2, STRETCH, _numbered(3), actions)
