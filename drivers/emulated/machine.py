@@ -156,6 +156,11 @@ class Machine:
         """
         seed = spec.seed if seed is None else seed
         self._spec = self._mounted = spec
+        # links and centres A_1 and A_2 at rest and cold
+        self._L_mm = [length + error for length, error in zip(spec.L_mm, spec.L_error_mm, strict=True)]
+        self._l_mm = [length + error for length, error in zip(spec.l_mm, spec.l_error_mm, strict=True)]
+        x1, y1, x2, y2 = spec.e_error_mm
+        self._centres_mm = _sum((spec.e_mm[0], (x1, y1))), _sum((spec.e_mm[1], (x2, y2)))
         self._clock = clock
         self._noise = Random(f"{seed} scale")
         self._lock = RLock()
@@ -312,11 +317,8 @@ class Machine:
             for joint in _JOINTS:
                 scene.theta_deg[joint - 1] += effect.on_joint_deg(joint, scene)
         spec = self._spec
-        lengths = Lengths(
-            [length + error for length, error in zip(spec.L_mm, spec.L_error_mm, strict=True)],
-            [length + error for length, error in zip(spec.l_mm, spec.l_error_mm, strict=True)],
-        )
-        centres = self._centres()
+        lengths = Lengths(list(self._L_mm), list(self._l_mm))
+        centres = self._centres_mm
         self._place(scene, lengths, centres)
         if self._effects:
             for effect in self._effects:
@@ -331,12 +333,6 @@ class Machine:
         scene.rho_mm = math.dist(head, foot)
         scene.travel_mm = scene.rho_mm - spec.head_zero_mm
         return scene
-
-    def _centres(self) -> tuple[Point, Point]:
-        """A_1 and A_2 of the machine at rest and cold."""
-        (x1, y1), (x2, y2) = self._spec.e_mm
-        errors = self._spec.e_error_mm
-        return (x1 + errors[0], y1 + errors[1]), (x2 + errors[2], y2 + errors[3])
 
     def _place(self, scene: Scene, lengths: Lengths, centres: tuple[Point, Point]) -> None:
         """Elbows and P for the arms' angles."""

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Motion:
     """Starts at `start` with `speed` at t = 0 and goes through `phases` of (duration_s, acceleration)."""
 
@@ -15,11 +16,11 @@ class Motion:
     phases: tuple[tuple[float, float], ...]
     end: float
 
-    @property
+    @cached_property
     def duration_s(self) -> float:
         return sum(duration_s for duration_s, _ in self.phases)
 
-    @property
+    @cached_property
     def top_speed(self) -> float:
         """The highest speed on the way, never negative."""
         highest, speed = abs(self.speed), self.speed
@@ -30,6 +31,8 @@ class Motion:
 
     def at(self, t_s: float) -> tuple[float, float]:
         """Position and speed at `t_s` after the start."""
+        if t_s > self.duration_s:
+            return self.end, 0.0
         position, speed = self.start, self.speed
         for duration_s, acceleration in self.phases:
             spent_s = min(t_s, duration_s)
