@@ -99,5 +99,5 @@ $(VENV)/installed: deploy/requirements.lock pyproject.toml $(PAGE) | $(VENV)/bin
 
 $(VENV)/installed-for-tests: tests/requirements.lock $(VENV)/installed
 	@echo "Installing what tests and checks need (a minute)"
-	$(PIP) install --require-hashes -r tests/requirements.lock
+	$(PIP) install --require-hashes --no-deps --no-compile -r tests/requirements.lock
 	touch $@

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from station.diagnosis.explanations.coupled_families import coupled_families
 from station.diagnosis.explanations.family import Family
 from station.diagnosis.explanations.motion_families import motion_families
 from station.diagnosis.explanations.rough_families import rough_families
@@ -19,6 +20,7 @@ def catalogue(s: Situation, lengths: Mapping[str, float], *, thermometer: bool) 
         *rough_families(s, lengths, thermometer=thermometer),
         *smooth_families(s),
         *structured_families(),
+        *coupled_families(s),
         *motion_families(s),
         *processes(s),
     )

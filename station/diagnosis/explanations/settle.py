@@ -123,10 +123,10 @@ def _solved(
 ) -> Settled:
     A = _tangent(at, families, choices) * prior_sd
     U, D, Vt = np.linalg.svd(A, full_matrices=A.shape[1] > len(A))
-    z = Vt[: len(D)].T @ (D / (1.0 + D**2) * (U.T @ at.observed))
-    cost = float(np.sum((at.observed - A @ z) ** 2) + z @ z)
+    rotated = U.T @ at.observed
+    cost = float(at.observed @ at.observed - np.sum(D**2 / (1.0 + D**2) * rotated**2))
     level = noise.level(cost)
-    # a noisier head leaves the same minimum nearly, and a wider posterior
+    z = Vt[: len(D)].T @ (D / (level**2 + D**2) * rotated)
     left = np.ones(len(prior_sd))
     left[: len(D)] = level**2 / (level**2 + D**2)
     covariance = (Vt.T * left) @ Vt

@@ -1,0 +1,80 @@
+"""Unnamed errors of a part that something else drives: another part, or time.
+
+A joint yields as the other arm turns, a distal link drags the platform round, frame and links move slowly.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from station.diagnosis.explanations.family import Family, Hidden, side_by_side, sizes
+from station.diagnosis.explanations.rough_families import DEG, wave
+from station.diagnosis.explanations.situation import Action, Situation
+from station.diagnosis.explanations.structured_families import unnamed
+from station.records import Real
+
+
+def coupled_families(s: Situation) -> tuple[Family, ...]:
+    """For the readings of `s`."""
+    low, span = float(s.t_s.min()), float(np.ptp(s.t_s)) or 1.0
+    slow = (low, span)
+    return (
+        *(_by_other_joint(joint) for joint in (1, 2)),
+        *(_dragged(joint) for joint in (1, 2)),
+        *(_slow(targets, "frame in time", slow) for targets in (("e1x", "e1y"), ("e2x", "e2y"))),
+        *(_slow((link,), "link in time", slow) for link in ("L1", "L2", "l1", "l2")),
+        _mounting(slow),
+    )
+
+
+def _by_other_joint(joint: int) -> Family:
+    """The angle of a joint, by that of the other."""
+
+    def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
+        return [Action(f"joint{joint}", wave(s.theta[:, 2 - joint], [h["per_turn"] for h in hidden]))]
+
+    hidden = ({"per_turn": 1.0}, {"per_turn": 2.0})
+    return unnamed("joint by joint", f"joint{3 - joint}", 0.2, sizes(0.002 * DEG, 0.3 * DEG), hidden, actions)
+
+
+def _dragged(joint: int) -> Family:
+    """A distal link drags the platform round, and the point where the mechanism hangs with it: sideways and
+    down, with the link's turn and its square."""
+
+    def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
+        turn = s.phi[:, joint - 1] + np.pi / 2  # from straight down
+        return [_of_mechanism(s, np.column_stack([turn, turn**2]))]
+
+    return unnamed("mechanism by link", "place", 0.2, sizes(0.004, 3.0), ({},), actions)
+
+
+def _slow(targets: tuple[str, ...], kind: str, slow: tuple[float, float]) -> Family:
+    """A part moves steadily, or ever faster or slower."""
+
+    def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
+        return side_by_side(targets, [_course(s, slow)[None] for _ in targets])
+
+    return unnamed(kind, "time", 0.2 / len(targets), sizes(0.002, 0.5), ({},), actions)
+
+
+def _mounting(slow: tuple[float, float]) -> Family:
+    """The same of the point where the mechanism hangs."""
+
+    def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
+        return [_of_mechanism(s, _course(s, slow))]
+
+    return unnamed("mechanism in time", "time", 0.2, sizes(0.002, 0.5), ({},), actions)
+
+
+def _course(s: Situation, slow: tuple[float, float]) -> Real:
+    """(K, 2)"""
+    low, span = slow
+    part = (s.t_s - low) / span
+    return np.column_stack([part, part * part])
+
+
+def _of_mechanism(s: Situation, shapes: Real) -> Action:
+    """Shapes (K, q) of a shift in x, and the same in y."""
+    return Action("reading", np.hstack([shapes * s.direction[:, [k]] for k in (0, 1)])[None])
