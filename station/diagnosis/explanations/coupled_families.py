@@ -1,6 +1,6 @@
 """Unnamed errors of a part that something else drives: another part, or time.
 
-A joint yields as the other arm turns, a distal link drags the platform round, frame and links move slowly.
+A joint yields as the other arm turns, a distal link drags the platform round, frame and links move slowly or slip.
 """
 
 from __future__ import annotations
@@ -10,10 +10,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from station.diagnosis.explanations.family import Family, Hidden, side_by_side, sizes
-from station.diagnosis.explanations.rough_families import DEG, wave
+from station.diagnosis.explanations.rough_families import DEG, beginnings, stepped, wave
 from station.diagnosis.explanations.situation import Action, Situation
 from station.diagnosis.explanations.structured_families import unnamed
 from station.records import Real
+
+PARTS = ("L1", "L2", "l1", "l2", "e1x", "e1y", "e2x", "e2y")
+SLIPS_SELDOM = 0.01
+"""Prior weight of a part that moves once: a head or a drive does so far more often."""
 
 
 def coupled_families(s: Situation) -> tuple[Family, ...]:
@@ -26,6 +30,7 @@ def coupled_families(s: Situation) -> tuple[Family, ...]:
         *(_slow(targets, "frame in time", slow) for targets in (("e1x", "e1y"), ("e2x", "e2y"))),
         *(_slow((link,), "link in time", slow) for link in ("L1", "L2", "l1", "l2")),
         _mounting(slow),
+        *(_slipped(part, beginnings(s)) for part in PARTS),
     )
 
 
@@ -66,6 +71,15 @@ def _mounting(slow: tuple[float, float]) -> Family:
         return [_of_mechanism(s, _course(s, slow))]
 
     return unnamed("mechanism in time", "time", 0.2, sizes(0.002, 0.5), ({},), actions)
+
+
+def _slipped(part: str, moments: tuple[Hidden, ...]) -> Family:
+    """A link in its clamp, or a bearing in its seat, moves once."""
+
+    def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
+        return [Action(part, stepped(s.t_s, hidden))]
+
+    return unnamed("part slips", "time", SLIPS_SELDOM, sizes(0.002, 5.0), moments, actions)
 
 
 def _course(s: Situation, slow: tuple[float, float]) -> Real:

@@ -109,15 +109,17 @@ def _ripple(s: Situation, joint: int) -> Family:
     )  # fmt: skip
 
 
-def _stepped(t_s: Real, hidden: Sequence[Hidden]) -> Real:
+def stepped(t_s: Real, hidden: Sequence[Hidden]) -> Real:
     """(V, K, 1) one from a moment on, until another where there is one."""
     begin = np.array([h["from_s"] for h in hidden])[:, None]
     end = np.array([h.get("until_s", np.inf) for h in hidden])[:, None]
     return ((t_s >= begin) & (t_s < end)).astype(float)[:, :, None]
 
 
-def _moments(s: Situation) -> Real:
-    return np.sort(s.t_s)
+def beginnings(s: Situation) -> tuple[Hidden, ...]:
+    """Every moment at which something may have moved for good."""
+    t = np.sort(s.t_s)
+    return tuple({"from_s": float(v)} for v in t[EDGE : len(t) - EDGE + 1])
 
 
 def _step_size(joint: int | None, t: Callable[[Hidden], tuple[Quantity, ...]]) -> Quantities:
@@ -131,25 +133,20 @@ def _when(hidden: Hidden) -> tuple[Quantity, ...]:
 
 
 def _slip(s: Situation, target: str, joint: int | None) -> Family:
-    t = _moments(s)
-    hidden = tuple({"from_s": float(v)} for v in t[EDGE : len(t) - EDGE + 1])
-    return replace(_step("step", 1.0 if joint is None else 0.5, target, joint, hidden), repeats=True)
+    return replace(_step("step", 1.0 if joint is None else 0.5, target, joint, beginnings(s)), repeats=True)
 
 
 def _both_slip(s: Situation) -> Family:
-    t = _moments(s)
-    hidden = tuple({"from_s": float(v)} for v in t[EDGE : len(t) - EDGE + 1])
-
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
-        step = _stepped(s.t_s, hidden)
+        step = stepped(s.t_s, hidden)
         return side_by_side(("joint1", "joint2"), (step, step))
 
     parts = tuple(Part("count_slip", i, None, (i - 1,), _step_size(i, _when)) for i in (1, 2))
-    return Family("step", parts, 0.2, sizes(5e-4 * DEG, 4.0 * DEG), hidden, actions)
+    return Family("step", parts, 0.2, sizes(5e-4 * DEG, 4.0 * DEG), beginnings(s), actions)
 
 
 def _healing(s: Situation, target: str, joint: int | None) -> Family:
-    t = _moments(s)
+    t = np.sort(s.t_s)
     every = max(2, len(t) // 40)
     hidden = tuple(
         {"from_s": float(t[k]), "until_s": float(t[k + length])}
@@ -182,7 +179,7 @@ def _step(
     """A step of the reading (no joint) or of one joint's counts, at the moments that are tried."""
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
-        return [Action(target, _stepped(s.t_s, hidden))]
+        return [Action(target, stepped(s.t_s, hidden))]
 
     effect, part = ("reading_step", "reading") if joint is None else ("count_slip", None)
     return Family(
