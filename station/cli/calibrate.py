@@ -7,6 +7,7 @@ from pathlib import Path
 
 import click
 
+from station.cli.files import file_path
 from station.cli.machine_options import machine_options, read_settings
 from station.cli.one_run import one_run
 from station.cli.references import LENGTH, references_option
@@ -45,7 +46,7 @@ class Study(click.ParamType[StudyDesign]):
 @click.command("calibrate")
 @click.option("--plan", type=click.Choice(tuple(PLANS)), default="paper", show_default=True)
 @click.option("--serial", help="Of the robot; else the robot file's.")
-@click.option("--robot", "robot_file", type=click.Path(path_type=Path), help="Robot file, kept from then on.")
+@click.option("--robot", "robot_file", type=file_path, help="Robot file, kept from then on.")
 @click.option("--operator", help="Who is responsible; else the user of this terminal.")
 @click.option("--work-order", help="Kept with the run.")
 @references_option

@@ -11,6 +11,7 @@ from typing import Any, TypeVar
 
 import click
 
+from station.cli.files import file_path
 from station.errors import InputRefused
 from station.settings import Settings, load_settings
 
@@ -26,8 +27,8 @@ def machine_options(command: _Command) -> _Command:
         click.option(
             "--speed", type=click.FloatRange(0, 1000, min_open=True), help="Of the emulated machine."
         ),
-        click.option("--emulate", type=click.Path(path_type=Path), help="Rig file of the emulated machine."),
-        click.option("--config", type=click.Path(path_type=Path), help="Station file; without it, emulated."),
+        click.option("--emulate", type=file_path, help="Rig file of the emulated machine."),
+        click.option("--config", type=file_path, help="Station file; without it, emulated."),
     ):
         command = option(command)
     return command

@@ -8,7 +8,7 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station.cli.files import existing, write_json, write_text
+from station.cli.files import file_path, json_option, robot_option, write_json, write_text
 from station.five_bar import Robot
 from station.plans import PLANS, make_plan, plan_as_text, plan_page
 from station.records import PlanName
@@ -16,9 +16,9 @@ from station.records import PlanName
 
 @click.command("plan")
 @click.option("--plan", "name", type=click.Choice(tuple(PLANS)), default="paper")
-@click.option("--robot", "robot_file", type=existing, help="Robot file; without it the paper's Table 1.")
-@click.option("--json", "json_file", type=existing, help="Write the plan here.")
-@click.option("--html", "html_file", type=existing, help="Write the plan as a page with drawings here.")
+@robot_option
+@json_option("the plan")
+@click.option("--html", "html_file", type=file_path, help="Write the plan as a page with drawings here.")
 def plan_command(
     name: PlanName, robot_file: Path | None, json_file: Path | None, html_file: Path | None
 ) -> None:

@@ -8,20 +8,20 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station.cli.files import check_folders, write_json, write_text
+from station.cli.files import check_folders, json_option, new_file, write_json, write_text
 from station.studies.bench import bench
 from station.studies.engine import Engine
+from station.studies.options import resume_option, workers_option
 from station.studies.reproduce import make_page, run_study
 
-_file = click.Path(dir_okay=False, path_type=Path)
 SEEDS = 200
 
 
 @click.command("reproduce")
-@click.option("--json", "json_file", type=_file, help="Write every figure here.")
-@click.option("--html", "html_file", type=_file, help="Write tables and plots as one page here.")
-@click.option("--workers", type=click.IntRange(1), help="Processes; one for each core without it.")
-@click.option("--resume", type=click.Path(file_okay=False, path_type=Path), help="Folder to go on from.")
+@json_option("every figure")
+@click.option("--html", "html_file", type=new_file, help="Write tables and plots as one page here.")
+@workers_option
+@resume_option
 @click.option("--seeds", type=click.IntRange(2), default=SEEDS, show_default=True, help="Machines a row.")
 def reproduce_command(
     json_file: Path | None,
@@ -56,7 +56,7 @@ def reproduce_command(
 
 
 @click.command("bench")
-@click.option("--json", "json_file", type=_file, help="Write every figure here.")
+@json_option("every figure")
 @click.option("--quick", is_flag=True, help="Short histories and few repeats, to see that it works.")
 def bench_command(json_file: Path | None, quick: bool) -> None:
     """How fast and how small, peers beside ours."""
