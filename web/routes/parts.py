@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Annotated
+from typing import Annotated, Any
 
 from fastapi import Depends, Header, Path, Response
 from pydantic import BeforeValidator
@@ -12,6 +12,7 @@ from starlette.requests import HTTPConnection
 from station.people import Access
 from station.records import LARGEST_ID
 from station.service import Runtime
+from web.problems import documented
 
 
 async def _runtime(connection: HTTPConnection) -> Runtime:
@@ -34,6 +35,14 @@ CallerName = Annotated[str | None, Header(alias="X-Operator", max_length=64, des
 IdempotencyKey = Annotated[str | None, Header(alias="Idempotency-Key", min_length=1, max_length=255)]
 LOCATION = {"Location": {"description": "the run's address", "schema": {"type": "string"}}}
 """The header of an answer that made a run, for OpenAPI."""
+
+
+def file_of(media_type: str) -> dict[int | str, dict[str, Any]]:
+    """Answers of a route that makes a file from a run, for OpenAPI."""
+    schema = {"type": "string", "format": "binary"}
+    return {200: {"content": {media_type: {"schema": schema}}}, **documented(404, 409)}
+
+
 CalibrationId = Annotated[int, Path(ge=1, le=LARGEST_ID)]
 
 
