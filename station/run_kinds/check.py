@@ -30,7 +30,7 @@ from station.records import (
 )
 from station.run_kinds.apply import source_of
 from station.run_kinds.fits import wandered
-from station.run_kinds.kind import RUN_KINDS, RunKind, Start, register
+from station.run_kinds.kind import RunKind, Start, has_offsets, register
 from station.run_kinds.zero_state import application
 from station.store import Store
 
@@ -40,14 +40,13 @@ MOST_LOOKED_AT = 500
 def compared_with(store: Store, serial: str) -> CalibrationSummary | None:
     """The last applied run of a robot, else its last pass; None where there is neither."""
     passes = store.calibrations(limit=MOST_LOOKED_AT, robot_serial=serial, verdict="pass").items
-    offsets = [run for run in passes if (kind := RUN_KINDS.get(run.kind)) and kind.offsets]
     for run in passes:
         if run.kind == "apply" and run.of is not None:
             applied = store.summary(run.of)
             known = application(store, applied)
             if known is not None and known.state == "applied":
                 return applied
-    return offsets[0] if offsets else None
+    return next((run for run in passes if has_offsets(run)), None)
 
 
 def check_check(store: Store, request: CalibrationRequest) -> None:
