@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import partial
 from typing import Any
 
 from starlette.types import Message, Scope
@@ -13,6 +14,7 @@ from station.simulation.plant import NotRunning, Plant
 
 API = "/api/v1"
 _HOST = b"127.0.0.1:8000"
+_UNAUTHORIZED = 401
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +55,23 @@ class Client:
         :param key: of idempotency
         :raises NotRunning: the station does not run, or was killed before it had answered
         """
+        ask = partial(self._ask, method, path, body, key, query)
+        answer = ask()
+        return ask() if answer.status == _UNAUTHORIZED and self._sign_in() else answer
+
+    def _sign_in(self) -> bool:
+        """After a refusal: whether there is something else to show now."""
+        return False
+
+    def _ask(
+        self,
+        method: str,
+        path: str,
+        body: Mapping[str, object] | None = None,
+        key: str | None = None,
+        query: str = "",
+    ) -> Answer:
+        """Once, with what there is to show.  :raises NotRunning:"""
         content = b"" if body is None else json.dumps(body).encode()
         headers = {**self.headers, **({"Idempotency-Key": key} if key else {})}
         if body is not None:
