@@ -10,8 +10,8 @@ from rich.console import Console
 
 from station.store import Store
 from station.studies.engine import Engine
+from station.studies.long_history import lengthen
 from station.studies.options import resume_option, seed_option, workers_option
-from station.studies.scale.copies import lengthen
 from station.studies.scale.pages import answered
 from station.studies.scale.simulated_runs import MAKE, Kind, add_simulated
 
