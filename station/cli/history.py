@@ -12,11 +12,10 @@ from pathlib import Path
 
 import click
 from pydantic import JsonValue
-from rich.box import SIMPLE
 from rich.console import Console
-from rich.table import Table
 
 from station.cli.kept import at_terminal, config_option, kept, run_argument
+from station.cli.listing import print_list
 from station.records import Reading, State, harmless
 from station.store import Store
 
@@ -78,7 +77,8 @@ def runs_command(
                 for row in islice(rows, limit)
             )
         else:
-            _print_table(list(islice(rows, limit or 20)))
+            header = [column.split("_")[0] for column in _SHOWN]
+            print_list(header, [_shown_run(row) for row in islice(rows, limit or 20)], "No runs.")
 
 
 def _every(store: Store, **wanted: str | None) -> Iterator[dict[str, JsonValue]]:
@@ -97,16 +97,10 @@ def _every(store: Store, **wanted: str | None) -> Iterator[dict[str, JsonValue]]
             return
 
 
-def _print_table(rows: list[dict[str, JsonValue]]) -> None:
-    console = Console()
-    if not rows:
-        console.print("No runs.")
-        return
-    table = Table(*(column.split("_")[0] for column in _SHOWN), box=SIMPLE, padding=(0, 1, 0, 0))
-    for row in rows:
-        created = str(row["created_at"])[:16].replace("T", " ")
-        table.add_row(*(_cell(value) for value in ({**row, "created_at": created}.get(c) for c in _SHOWN)))
-    console.print(table)
+def _shown_run(row: dict[str, JsonValue]) -> list[str]:
+    created = str(row["created_at"])[:16].replace("T", " ")
+    shown = {**row, "created_at": created}
+    return [_cell(shown[column]) for column in _SHOWN]
 
 
 def _cell(value: object) -> str:
