@@ -138,12 +138,6 @@ def _possible(found: Fit) -> bool:
     return term.effect.possible(term.hidden, *found.amplitudes(k))
 
 
-def helps(before: Fit, after: Fit, by: float = HELPFUL) -> bool:
-    """Whether readings that a fit has not seen are predicted better, block by block."""
-    errors = [left_out_rms(f.solution, f.model.mechanism, f.row_sd) for f in (before, after)]
-    return errors[1] < by * errors[0]
-
-
 def significant(p_value: float, tests: int, level: float) -> bool:
     """The smallest of so many p-values, family-wise (Holm)."""
     return p_value * tests < level
@@ -287,7 +281,9 @@ def _add(
         fits.append((_score(refit, c), c, refit))
     if not fits:
         return None
-    fits = [item for item in fits if _possible(item[2]) and helps(current, item[2], helpful)]
+    # readings that a fit has not seen must be predicted better, block by block
+    most_mm = helpful * left_out_rms(current)
+    fits = [item for item in fits if _possible(item[2]) and left_out_rms(item[2]) < most_mm]
     if not fits:
         return None
     fits.sort(key=lambda item: item[0])

@@ -8,6 +8,7 @@ from numpy.typing import NDArray
 from station.errors import InputRefused
 from station.fitting import Solution, solved
 from station.mechanism import Mechanism
+from station.model import Fit
 from station.records import Index, Measurements, Real
 
 DETERMINED = 1e-9
@@ -58,10 +59,11 @@ def without_a_quarter(m: Measurements) -> tuple[Measurements, Measurements]:
     return m.take(~aside), m.take(aside)
 
 
-def left_out_rms(solution: Solution, mechanism: Mechanism, row_sd: Real) -> float:
+def left_out_rms(found: Fit) -> float:
     """mm, RMS of readings predicted without the fold of blocks that they are in."""
+    mechanism = found.model.mechanism
     fold = folds(mechanism.measurements)[mechanism.reading_of_row]
-    rows = held_out_folds(solution, fold) * row_sd
+    rows = held_out_folds(found.solution, fold) * found.row_sd
     return float(np.sqrt(rows @ rows / len(mechanism.measurements)))
 
 
