@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.errors import InputRefused
 from station.fitting import Solution, solved
 from station.mechanism import Mechanism
 from station.model import Fit
-from station.records import Index, Measurements, Real
+from station.records import Flags, Index, Measurements, Real
 
 DETERMINED = 1e-9
 """A block that alone holds a direction cannot be predicted in it by the others."""
@@ -76,7 +75,7 @@ def held_out_folds(solution: Solution, fold: Index) -> Real:
     return out
 
 
-def left_without(solution: Solution, own: NDArray[np.bool_]) -> Real:
+def left_without(solution: Solution, own: Flags) -> Real:
     """(R,) whitened measured less predicted of all rows, by the linear fit without the rows `own` (R,).
 
     r + J (C^-1 - J_B'J_B)^-1 J_B' r_B.
