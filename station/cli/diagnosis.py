@@ -180,6 +180,18 @@ def _print(findings: Findings) -> None:
     joints = findings.measurements.joints
     for q in findings.parameters[:joints]:
         console.print(f"{q.name} = {shown(q)}")
+    _print_causes(console, findings)
+    console.print(_errors(findings))
+    if findings.measurements.guessed:
+        console.print(guesses_in_words(findings.measurements))
+    _print_position_errors(console, findings)
+    for hint in findings.hints:
+        console.print(f"Hint: {hint.text} ({100 * hint.strength:.0f} %)")
+    for outlier in findings.outliers:
+        console.print(f"Left out: reading {outlier.reading}, {outlier.reason}.")
+
+
+def _print_causes(console: Console, findings: Findings) -> None:
     for found in findings.effects:
         sizes = ", ".join(f"{q.name} {shown(q)}" for q in found.parameters)
         console.print(f"[bold]{found.label}[/bold]: {sizes}; {100 * found.share:.0f} % of the residual")
@@ -198,15 +210,20 @@ def _print(findings: Findings) -> None:
         console.print(f"{100 * experiment.decides:.0f} % probable to decide: {experiment.text}")
     if findings.mistake is not None:
         console.print(f"Mistake: {findings.mistake.text}")
+
+
+def _errors(findings: Findings) -> Table:
+    """Of every model on the way."""
     table = Table("model", "unknowns", "fit", "left out", "worst", "fresh", "worst", title="errors, µm rms")
     for column in table.columns[1:]:
         column.justify = "right"
     for s in findings.stages:
         sizes_mm = (s.fit_rms_mm, s.holdout_rms_mm, s.holdout_max_mm, s.confirm_rms_mm, s.confirm_max_mm)
         table.add_row(s.model, str(s.unknowns), *("" if v is None else f"{v * 1e3:.2f}" for v in sizes_mm))
-    console.print(table)
-    if findings.measurements.guessed:
-        console.print(guesses_in_words(findings.measurements))
+    return table
+
+
+def _print_position_errors(console: Console, findings: Findings) -> None:
     predicted = f"over {findings.extent}, predicted"
     for what, errors in (
         (predicted, findings.position_errors),
@@ -220,7 +237,3 @@ def _print(findings: Findings) -> None:
             )
             if after.bound_95 is not None:
                 console.print(f"With 95 % probability no error is above {after.bound_95:.4f} mm.")
-    for hint in findings.hints:
-        console.print(f"Hint: {hint.text} ({100 * hint.strength:.0f} %)")
-    for outlier in findings.outliers:
-        console.print(f"Left out: reading {outlier.reading}, {outlier.reason}.")
