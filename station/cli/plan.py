@@ -10,7 +10,7 @@ from rich.table import Table
 
 from station.cli.files import file_path, json_option, robot_option, write_json, write_text
 from station.five_bar import Robot
-from station.plans import PLANS, make_plan, plan_as_text, plan_page
+from station.plans import PLANS, STOP_COLUMNS, make_plan, plan_as_text, plan_page, stop_rows
 from station.records import PlanName
 
 
@@ -29,15 +29,9 @@ def plan_command(
         write_json(json_file, plan.document())
     if html_file:
         write_text(html_file, plan_page(plan).to_html())
-    table = Table("stop", "position", "x mm", "y mm", "theta1 deg", "theta2 deg", "approach")
-    for k, stop in enumerate(plan.stops):
-        table.add_row(
-            str(k + 1),
-            stop.position,
-            *(f"{v:.1f}" for v in stop.target_mm),
-            *(f"{v:.4f}" for v in stop.theta_deg),
-            " ".join(f"{a:+d}" if a else "any" for a in stop.approach),
-        )
+    table = Table(*STOP_COLUMNS)
+    for row in stop_rows(plan):
+        table.add_row(*row)
     console = Console()
     console.print(table)
     click.echo(plan_as_text(plan, robot))
