@@ -6,10 +6,11 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from station.diagnosis.mistakes.mistake import Kind
 from station.five_bar import Robot
-from station.records import Flags, Measurements, Real
+from station.records import Measurements, Real
 
 SCALE_UNITS = {
     "inches": 25.4, "metres": 1e3, "micrometres": 1e-3, "centimetres": 10.0, "tenths of a millimetre": 0.1,
@@ -28,10 +29,6 @@ SHIFTS = (1, -1, 2, -2, 3, -3)
 BOTH: tuple[tuple[int, ...], ...] = ((0,), (1,), (0, 1))
 AT_MOST_ONE: tuple[tuple[int, ...], ...] = ((), (0,), (1,))
 
-Corrected = tuple[Measurements, Flags]
-"""The corrected file, and the rows (K,) that still have all they need."""
-Change = Callable[[Measurements], Corrected]
-
 
 @dataclass(frozen=True)
 class Correction:
@@ -43,7 +40,8 @@ class Correction:
     action: str
     """What to do, an imperative clause."""
     column: str
-    apply: Change
+    apply: Callable[[Measurements], tuple[Measurements, NDArray[np.bool_]]]
+    """The corrected file, and the rows that still have all they need."""
 
 
 def joint_names(joints: tuple[int, ...]) -> str:
@@ -58,12 +56,6 @@ def columns_of(joints: tuple[int, ...]) -> str:
 
 def corrections(robot: Robot) -> Iterator[Correction]:
     """Every one that needs no number found first."""
-    yield from _of_readings()
-    yield from _of_angles(robot)
-    yield from _of_rows()
-
-
-def _of_readings() -> Iterator[Correction]:
     yield Correction(
         "scale_sign", "scale_mm counts backwards", "reverse the sign of scale_mm", "scale_mm", _scaled(-1.0)
     )
@@ -80,9 +72,6 @@ def _of_readings() -> Iterator[Correction]:
             "scale_factor", f"scale_mm is {share} the travel", f"multiply scale_mm by {factor:g}", "scale_mm",
             _scaled(factor),
         )  # fmt: skip
-
-
-def _of_angles(robot: Robot) -> Iterator[Correction]:
     for unit, factor in ANGLE_UNITS.items():
         for joints in BOTH:
             yield Correction(
@@ -108,9 +97,6 @@ def _of_angles(robot: Robot) -> Iterator[Correction]:
         "joints_exchanged", "the joints are numbered from the other side", "exchange the joints",
         "theta1_deg and theta2_deg", _mirrored,
     )  # fmt: skip
-
-
-def _of_rows() -> Iterator[Correction]:
     for by in SHIFTS:
         rows = "one row" if abs(by) == 1 else f"{abs(by)} rows"
         way = "late" if by > 0 else "early"
@@ -152,19 +138,21 @@ def offset_angles(offsets_deg: tuple[float, float]) -> Correction:
     )  # fmt: skip
 
 
-def _all(m: Measurements) -> Flags:
+def _all(m: Measurements) -> NDArray[np.bool_]:
     return np.ones(len(m), dtype=bool)
 
 
-def _scaled(factor: float) -> Change:
-    def apply(m: Measurements) -> Corrected:
+def _scaled(factor: float) -> Callable[[Measurements], tuple[Measurements, NDArray[np.bool_]]]:
+    def apply(m: Measurements) -> tuple[Measurements, NDArray[np.bool_]]:
         return replace(m, distance=m.distance * factor, came_from=None), _all(m)
 
     return apply
 
 
-def _turned(joints: tuple[int, ...], factor: float, about_deg: tuple[float, float]) -> Change:
-    def apply(m: Measurements) -> Corrected:
+def _turned(
+    joints: tuple[int, ...], factor: float, about_deg: tuple[float, float]
+) -> Callable[[Measurements], tuple[Measurements, NDArray[np.bool_]]]:
+    def apply(m: Measurements) -> tuple[Measurements, NDArray[np.bool_]]:
         theta = m.theta.copy()
         for i in joints:
             about = np.radians(about_deg[i])
@@ -176,25 +164,27 @@ def _turned(joints: tuple[int, ...], factor: float, about_deg: tuple[float, floa
 
 def _offset(
     offsets_deg: tuple[float, float],
-) -> Change:
-    def apply(m: Measurements) -> Corrected:
+) -> Callable[[Measurements], tuple[Measurements, NDArray[np.bool_]]]:
+    def apply(m: Measurements) -> tuple[Measurements, NDArray[np.bool_]]:
         return _with_angles(m, m.theta + np.radians(offsets_deg)), _all(m)
 
     return apply
 
 
-def _exchanged(m: Measurements) -> Corrected:
+def _exchanged(m: Measurements) -> tuple[Measurements, NDArray[np.bool_]]:
     return _with_angles(m, m.theta[:, ::-1].copy()), _all(m)
 
 
-def _mirrored(m: Measurements) -> Corrected:
+def _mirrored(m: Measurements) -> tuple[Measurements, NDArray[np.bool_]]:
     return _with_angles(m, np.pi - m.theta[:, ::-1]), _all(m)
 
 
-def _shifted(joints: tuple[int, ...], by: int) -> Change:
+def _shifted(
+    joints: tuple[int, ...], by: int
+) -> Callable[[Measurements], tuple[Measurements, NDArray[np.bool_]]]:
     """Take each value from `by` rows further down."""
 
-    def apply(m: Measurements) -> Corrected:
+    def apply(m: Measurements) -> tuple[Measurements, NDArray[np.bool_]]:
         source = np.arange(len(m)) + by
         there = (source >= 0) & (source < len(m))
         source = np.clip(source, 0, len(m) - 1)
@@ -212,7 +202,7 @@ def _with_angles(m: Measurements, theta: Real) -> Measurements:
     return replace(m, theta=theta, came_from=None)
 
 
-def on_rows(m: Measurements, corrected: Measurements, rows: Flags) -> Measurements:
+def on_rows(m: Measurements, corrected: Measurements, rows: NDArray[np.bool_]) -> Measurements:
     """The file with the correction on some rows (K,) only."""
     return replace(
         m,
