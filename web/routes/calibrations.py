@@ -12,7 +12,6 @@ from station.errors import Forbidden
 from station.machines import robot_of
 from station.people import Permission
 from station.records import (
-    LARGEST_ID,
     Actor,
     Calibration,
     CalibrationRequest,
@@ -34,7 +33,7 @@ from web.bodies import (
 )
 from web.guarded import Router, needs
 from web.problems import documented
-from web.routes.parts import CalibrationId, CallerName, Moment, TheRuntime
+from web.routes.parts import CalibrationId, CallerName, Cursor, Moment, TheRuntime
 from web.routes.starting import FOLLOWED, STARTED, Operating, StarterWithoutKey, TheStarter
 
 ABORT_TIMEOUT_S = 5.0
@@ -81,7 +80,7 @@ def list_calibrations(
     runtime: TheRuntime,
     filters: TheFilters,
     limit: Annotated[int, Query(ge=1, le=500)] = 50,
-    cursor: Annotated[int | None, Query(ge=1, le=LARGEST_ID, description="`next` of the page before")] = None,
+    cursor: Cursor = None,
     order: TheOrder = "newest",
 ) -> CalibrationList:
     """Page by page, newest first unless asked otherwise."""

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from datetime import datetime
-from typing import Annotated, Any
+from typing import Annotated, Any, TypeVar
 
-from fastapi import Depends, Header, Path, Response
+from fastapi import Depends, Header, Path, Query, Response
 from pydantic import BeforeValidator
 from starlette.requests import HTTPConnection
 
@@ -54,5 +54,14 @@ def _no_number(text: object) -> object:
     raise ValueError("must be a date or time as 2026-03-31T14:00:00Z")
 
 
+T = TypeVar("T")
+
+
+def page_of(found: list[T], limit: int) -> tuple[list[T], T | None]:
+    """A page of what was read with one item more, and its last item where another page follows."""
+    return found[:limit], found[limit - 1] if len(found) > limit else None
+
+
+Cursor = Annotated[int | None, Query(ge=1, le=LARGEST_ID, description="`next` of the page before")]
 Moment = Annotated[datetime, BeforeValidator(_no_number)]
 """A number is refused: `2026` would be taken for seconds since 1970, and the filter would let all pass."""
