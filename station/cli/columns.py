@@ -9,8 +9,8 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station.cli.files import content_of, file_path
-from station.records import proposed_map, read_foreign
+from station.cli.files import file_path
+from station.records import content_of, proposed_map, read_foreign
 
 FIRST_ROWS = 3
 

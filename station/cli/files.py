@@ -10,7 +10,6 @@ from typing import Any, TypeVar, get_args
 
 import click
 
-from station.errors import InputRefused
 from station.records import ColumnMap, DataSource, Measured, Record
 
 _Command = TypeVar("_Command", bound=Callable[..., Any])
@@ -46,14 +45,6 @@ columns_option = click.option(
 def json_option(content: str) -> Callable[[_Command], _Command]:
     """--json, under which a command writes `content`."""
     return click.option("--json", "json_file", type=new_file, help=f"Write {content} here.")
-
-
-def content_of(path: Path) -> bytes:
-    """What a file holds.  :raises InputRefused: it cannot be read."""
-    try:
-        return path.read_bytes()
-    except OSError as error:
-        raise InputRefused(f"{path} cannot be read: {error.strerror}.") from error
 
 
 def describe(path: Path, readings: int, guessed: Iterable[str] = ()) -> DataSource:

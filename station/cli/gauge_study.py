@@ -10,7 +10,6 @@ from rich.table import Table
 
 from station.cli.files import (
     check_folders,
-    content_of,
     file_path,
     json_option,
     write_bytes,
@@ -20,7 +19,7 @@ from station.cli.files import (
 from station.cli.kept import config_option, kept
 from station.errors import InputRefused
 from station.quality import GaugeStudy, gauge_study
-from station.records import read_table
+from station.records import content_of, read_table
 from station.report import as_pdf
 from station.run_kinds import StationGauge, gauge_page, judgement, station_gauge
 from station.settings import load_settings

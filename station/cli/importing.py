@@ -9,7 +9,7 @@ from pathlib import Path
 
 import click
 
-from station.cli.files import columns_option, content_of, file_path, measured_option
+from station.cli.files import columns_option, file_path, measured_option
 from station.cli.kept import config_option, new_history
 from station.errors import NotFound
 from station.five_bar import Robot
@@ -23,6 +23,7 @@ from station.records import (
     Measured,
     checked_name,
     checked_serial,
+    content_of,
     translated,
 )
 from station.run_kinds import ArmLog, Upload, import_dataset, import_log

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import click
 
-from station.cli.files import content_of, file_path
-from station.records import sections_to_toml
+from station.cli.files import file_path
+from station.records import content_of, sections_to_toml
 from station.serial_arm import arm_from_urdf
 
 

@@ -50,6 +50,7 @@ from station.records.diagnosis_document import (
     TermOfModel,
 )
 from station.records.error_map import ErrorMap, FreshReading
+from station.records.files import content_of
 from station.records.foreign_table import ForeignTable, read_foreign
 from station.records.guesses import TIME, guesses_in_words, with_guesses
 from station.records.happenings import Backlog, Delivery, DeliveryCount, DeliveryState, Event, EventType
@@ -364,6 +365,7 @@ __all__ = [
     "because",
     "checked_name",
     "checked_serial",
+    "content_of",
     "csv_text",
     "field_docstrings",
     "from_readings",
