@@ -1,4 +1,4 @@
-"""The history of a data folder, for commands that only read it."""
+"""How commands open the history of a data folder, and what names it and a run."""
 
 from __future__ import annotations
 

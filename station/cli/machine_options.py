@@ -1,4 +1,4 @@
-"""What `serve` and `calibrate` share: which machine, and where the log goes."""
+"""What the commands share that need the machine: which one it is, and where the log goes."""
 
 from __future__ import annotations
 

@@ -59,7 +59,7 @@ class Effect(ABC):
     """One sentence."""
     remedy: ClassVar[str]
     experiment: ClassVar[str]
-    """What separates it from its look-alikes."""
+    """What separates it from its aliases."""
     repeats: ClassVar[bool] = False
     """Whether one place can have it more than once, with other hidden parameters."""
     by_approach: ClassVar[bool] = False

@@ -1,6 +1,6 @@
 """From residual to cause: add the effect that explains most, fit everything again, until it fits.
 
-Winner and look-alikes are told apart by refitting the full nonlinear model with each of them: an
+Winner and aliases are distinguished by refitting the full nonlinear model with each of them: an
 alias is whatever explains the readings as well, no more and no less (docs/decisions/0005).
 """
 
@@ -40,7 +40,7 @@ ODD_SHARE = 0.03
 END_SHARE = 0.12
 """Share of the sequence in which readings that deviate to one side look like a step, not like slips."""
 ALIAS = 11.0
-"""Chi-square by which a look-alike may be worse and still be the cause (true cause kept in 99.9 %)."""
+"""Chi-square by which an alias may be worse and still be the cause (true cause kept in 99.9 %)."""
 
 
 Refitted = Callable[[Scan, Candidate], Fit]
@@ -213,7 +213,7 @@ def _staged(
 
 
 def with_alias(found: Trace, at: int, alias: Term, prior: Prior, specified_sd: Real) -> Trace:
-    """The same way with a look-alike in the place of finding number `at`."""
+    """The same way with an alias in the place of finding number `at`."""
     old = found.findings[at]
     others = (old.term, *(t for t in old.aliases if t is not alias))
     findings = list(found.findings)
