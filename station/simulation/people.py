@@ -9,7 +9,7 @@ from typing import Any
 
 from station.people import Administration, NewUser
 from station.records import Actor
-from station.simulation.clients import Answer, Client
+from station.simulation.clients import Answer, Client, Request
 from station.simulation.plant import Plant
 from station.store import Store
 
@@ -22,7 +22,7 @@ class Operator(Client):
     """Signs in with a password whenever a session is refused."""
 
     def _sign_in(self) -> bool:
-        answer = self._ask("POST", "/session", {"name": self.name, "password": _PASSWORD})
+        answer = self._ask(Request("POST", "/session", {"name": self.name, "password": _PASSWORD}))
         if answer.cookie is None:
             return False
         self.headers["Cookie"] = answer.cookie
