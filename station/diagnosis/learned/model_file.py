@@ -113,14 +113,6 @@ def read_part(path: Path) -> ModelDocument | MixtureDocument:
     return part_of(content, str(path))
 
 
-def model_of(content: Any, source: str) -> LearnedModel:
-    """A five-bar's, from a diagnosis document; `source` says where that is from.
-
-    :raises InputRefused: as `read_model`.
-    """
-    return learned_model(part_of(content, source), source)
-
-
 def part_of(content: Any, source: str) -> ModelDocument | MixtureDocument:
     """:raises InputRefused: as `read_part`."""
     part = content.get("model") if isinstance(content, dict) else None
