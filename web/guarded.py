@@ -16,9 +16,9 @@ from station.errors import NotSignedIn, StoreUnavailable
 from station.people import Access, Permission
 from station.records import Actor
 from web.aside import aside
-from web.cookies import SESSION
 from web.strict_json import StrictRequest, is_json
 
+COOKIE = "station_session"
 NOBODY = Actor(name="nobody", via="open")
 """Who has not said who they are, on the way in."""
 LOOKUP_LIMIT_S = 1.0
@@ -73,7 +73,7 @@ async def who_asks(
 ) -> Actor:
     """By key, else by session.  :raises NotSignedIn: says why."""
     access: Access = connection.app.state.access
-    key, cookie = bearer(connection), SESSION.shown_by(connection)
+    key, cookie = bearer(connection), connection.cookies.get(COOKIE)
     if access.open and key is None and cookie is None:
         return access.actor(None, None, named=named(connection))  # nothing to look up
     return await aside(

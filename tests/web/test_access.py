@@ -14,7 +14,7 @@ from station.people import hashed_password, hashed_pin, secret_hash
 from station.records import Actor
 from station.store import Store
 from tests.web.conftest import LIMIT_S, Service
-from web import cookies
+from web.guarded import COOKIE
 from web.routes import live
 
 ROOT = Actor(name="root", via="terminal")
@@ -39,10 +39,10 @@ def ada(closed: Service) -> Service:
 
 def test_who_signs_in_takes_the_place_of_who_was_there(ada: Service) -> None:
     sign_in(ada)
-    earlier = ada.client.cookies[cookies.SESSION.name]
+    earlier = ada.client.cookies[COOKIE]
     assert sign_in(ada).status_code == 201
     ada.client.cookies.clear()
-    ada.client.cookies.set(cookies.SESSION.name, earlier)
+    ada.client.cookies.set(COOKIE, earlier)
     assert "has ended" in refusal(ada.client.get(SESSION))[1]
 
 
@@ -190,7 +190,7 @@ def test_the_live_feed_asks_too_and_ends_with_the_session(
     with pytest.raises(WebSocketDisconnect), ada.client.websocket_connect("/api/v1/live"):
         pass
     sign_in(ada)
-    cookie = {"cookie": f"{cookies.SESSION.name}={ada.client.cookies[cookies.SESSION.name]}"}
+    cookie = {"cookie": f"{COOKIE}={ada.client.cookies[COOKIE]}"}
     with ada.client.websocket_connect("/api/v1/live", headers=cookie) as feed:
         assert feed.receive_json()["type"] == "snapshot"
         ada.client.delete(SESSION)

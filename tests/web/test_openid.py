@@ -30,7 +30,8 @@ from station.records import Actor
 from station.settings import OpenIdSettings, load_settings
 from tests.station.conftest import SETTINGS
 from tests.web.conftest import LIMIT_S, Service, a_service
-from web import cookies
+from web.guarded import COOKIE
+from web.routes.openid import BROWSER
 
 FOLDER = Path(__file__).parent / "provider"
 OPENID, SESSION = "/api/v1/session/openid", "/api/v1/session"
@@ -155,7 +156,7 @@ def test_the_provider_decides_the_role_at_every_sign_in(
     browser: Browser, service: Service, issuer: str
 ) -> None:
     assert browser.sign_in("ada") == "/"
-    earlier = service.client.cookies[cookies.SESSION.name]
+    earlier = service.client.cookies[COOKIE]
     lower = settings_of(issuer, roles={"everybody": "viewer"})
     service.client.app.state.openid._settings = lower  # type: ignore[attr-defined]
     assert browser.sign_in("ada") == "/"
@@ -163,7 +164,7 @@ def test_the_provider_decides_the_role_at_every_sign_in(
     (user,) = service.runtime.store.users()
     assert user.role == "viewer", "the same user"
     service.client.cookies.clear()
-    service.client.cookies.set(cookies.SESSION.name, earlier)
+    service.client.cookies.set(COOKIE, earlier)
     assert nobody_is_signed_in(service), "who signs in takes the place of who was there"
 
 
@@ -203,12 +204,12 @@ def test_a_disabled_user_stays_out(browser: Browser, service: Service) -> None:
 
 def test_an_answer_counts_once_for_its_browser_and_for_a_while(browser: Browser, service: Service) -> None:
     address = service.client.get(OPENID).headers["location"]
-    cookie = service.client.cookies[cookies.SIGN_IN.name]
+    cookie = service.client.cookies[BROWSER]
     back = browser.at_provider(address, "bo")
-    service.client.cookies.delete(cookies.SIGN_IN.name)
+    service.client.cookies.delete(BROWSER)
     assert browser.bring(back) == "/sign-in#refused=expired", "another browser"
     assert browser.bring(f"{OPENID}/callback") == "/sign-in#refused=expired"
-    service.client.cookies.set(cookies.SIGN_IN.name, cookie)
+    service.client.cookies.set(BROWSER, cookie)
     assert browser.bring(back) == "/sign-in#refused=expired", "it was used"
     back = browser.at_provider(service.client.get(OPENID).headers["location"], "bo")
     service.client.app.state.openid._clock = lambda: float("inf")  # type: ignore[attr-defined]

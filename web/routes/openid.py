@@ -13,13 +13,16 @@ from station.errors import NotFound
 from station.people import OpenId, Permission, SignInRefused
 from station.records import Actor, Record
 from web.aside import aside, record_later
-from web.cookies import SESSION, SIGN_IN
-from web.guarded import Router, needs
+from web.guarded import COOKIE, Router, needs
 from web.problems import documented
 from web.routes.parts import TheAccess, TheRuntime
+from web.routes.sessions import set_session
 
 log = logging.getLogger(__name__)
 
+BROWSER = "station_openid"
+"""Cookie that binds a sign-in to the browser that began it."""
+PATH = "/api/v1/session/openid"
 _SEE_OTHER = 303
 
 router = Router(prefix="/session", tags=["session"])
@@ -58,13 +61,15 @@ async def read_ways(request: Request) -> SignInWays:
 )
 async def begin(provider: TheProvider, request: Request) -> RedirectResponse:
     """For a browser: on to the provider's page."""
-    earlier = SESSION.shown_by(request)
+    earlier = request.cookies.get(COOKIE)
     try:
-        begun = await aside(lambda: provider.begin(_here(request, f"{SIGN_IN.path}/callback"), earlier))
+        begun = await aside(lambda: provider.begin(_here(request, f"{PATH}/callback"), earlier))
     except SignInRefused as refused:
         return _refused(refused)
     answer = RedirectResponse(begun.url, _SEE_OTHER)
-    SIGN_IN.give(answer, begun.state, request)
+    secure = request.url.scheme == "https"
+    # lax: the provider's page leads back here
+    answer.set_cookie(BROWSER, begun.state, path=PATH, httponly=True, samesite="lax", secure=secure)
     return answer
 
 
@@ -83,7 +88,7 @@ async def complete(
     later: BackgroundTasks,
 ) -> RedirectResponse:
     """Back from the provider: signed in at the page, or at the sign-in with the reason."""
-    given, browser = dict(request.query_params), SIGN_IN.shown_by(request)
+    given, browser = dict(request.query_params), request.cookies.get(BROWSER)
     try:
         user, earlier = await aside(lambda: provider.complete(given, browser))
     except SignInRefused as refused:
@@ -94,8 +99,8 @@ async def complete(
     actor = Actor(name=user.name, via="user", role=user.role)
     later.add_task(record_later, runtime.orchestrator, actor, "session.begun", f"user {user.id}")
     answer = RedirectResponse("/", _SEE_OTHER)
-    SIGN_IN.take_back(answer)
-    SESSION.give(answer, cookie, request)
+    answer.delete_cookie(BROWSER, path=PATH)
+    set_session(answer, cookie, request)
     return answer
 
 

@@ -12,8 +12,7 @@ from station.people import FEWEST_CHARACTERS, Access, Permission
 from station.records import Actor, PersonName, SignedIn, User
 from web.aside import aside, record_later
 from web.bodies import Body
-from web.cookies import SESSION
-from web.guarded import Router, needs
+from web.guarded import COOKIE, Router, needs
 from web.problems import documented
 from web.routes.parts import TheAccess, TheRuntime
 
@@ -73,7 +72,7 @@ async def sign_in(
         cookie, user = await aside(lambda: access.sign_in(name, password, address))
     else:
         raise FieldRefused("name", "Give name and password, or badge and PIN.")
-    if earlier := SESSION.shown_by(request):  # who signed in before at this page is not there any more
+    if earlier := request.cookies.get(COOKIE):  # who signed in before at this page is not there any more
         await aside(lambda: access.sign_out(earlier))
     actor = _actor(user)
     later.add_task(record_later, runtime.orchestrator, actor, "session.begun", f"user {user.id}")
@@ -92,9 +91,9 @@ async def make_first_administrator(
 @router.delete("", status_code=204, dependencies=[needs(Permission.ENTER)])
 async def sign_out(access: TheAccess, request: Request, response: Response) -> None:
     """Sign out; again is harmless."""
-    if cookie := SESSION.shown_by(request):
+    if cookie := request.cookies.get(COOKIE):
         await aside(lambda: access.sign_out(cookie))
-    SESSION.take_back(response)
+    response.delete_cookie(COOKIE, path="/", httponly=True, samesite="strict")
 
 
 def _actor(user: User) -> Actor:
@@ -102,5 +101,12 @@ def _actor(user: User) -> Actor:
 
 
 def _signed_in(access: Access, actor: Actor, cookie: str, request: Request, response: Response) -> SignedIn:
-    SESSION.give(response, cookie, request)
+    set_session(response, cookie, request)
     return access.session(actor)
+
+
+def set_session(response: Response, cookie: str, request: Request) -> None:
+    """Only this station's page can send it."""
+    response.set_cookie(
+        COOKIE, cookie, path="/", httponly=True, samesite="strict", secure=request.url.scheme == "https"
+    )
