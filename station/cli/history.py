@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from itertools import islice
 from pathlib import Path
@@ -16,7 +16,7 @@ from rich.console import Console
 
 from station.cli.kept import at_terminal, config_option, kept, run_argument
 from station.cli.listing import print_list
-from station.records import Reading, State, harmless
+from station.records import Calibration, Reading, State, StoredEvent, harmless
 from station.store import Store
 
 _COLUMNS = (
@@ -136,27 +136,27 @@ def show_command(home: Path, calibration_id: int, as_json: bool, config: Path | 
         click.echo(json.dumps(content, indent=1))
         return
     console = Console(highlight=False)
+    for name, said in _described(calibration, len(readings), events):
+        console.print(f"{name:>14}  {said}", soft_wrap=True)
+
+
+def _described(
+    calibration: Calibration, readings: int, events: Sequence[StoredEvent]
+) -> Iterator[tuple[str, object]]:
+    """Name and what is said under it, line by line."""
     row = calibration.model_dump(mode="json", include=set(_DETAILS))
     for key in _DETAILS:
-        console.print(f"{key.removesuffix('_at').replace('_', ' '):>14}  {row[key] or ''}", soft_wrap=True)
+        yield key.removesuffix("_at").replace("_", " "), row[key] or ""
     if memory := calibration.memory:
-        console.print(
-            f"{'memory':>14}  of run {memory.from_calibration}, {memory.age_days or 0.0:.1f} days old:"
-            f" {memory.text}",
-            soft_wrap=True,
-        )
+        age_days = memory.age_days or 0.0
+        yield "memory", f"of run {memory.from_calibration}, {age_days:.1f} days old: {memory.text}"
     if fleet := calibration.fleet:
-        console.print(
-            f"{'others':>14}  {', '.join(fleet.prior.serials)}: {fleet.text}",
-            soft_wrap=True,
-        )
+        yield "others", f"{', '.join(fleet.prior.serials)}: {fleet.text}"
     for zero in calibration.zero_offsets:
-        console.print(
-            f"{'dtheta' + str(zero.joint):>14}  {zero.value_deg or 0.0:+.4f} deg, sd {zero.sd_deg or 0.0:.4f}"
-        )
-    console.print(f"{'readings':>14}  {len(readings)}")
+        yield f"dtheta{zero.joint}", f"{zero.value_deg or 0.0:+.4f} deg, sd {zero.sd_deg or 0.0:.4f}"
+    yield "readings", readings
     for event in events:
-        console.print(f"{event.kind:>14}  {event.at} {event.data}", soft_wrap=True)
+        yield event.kind, f"{event.at} {event.data}"
 
 
 @click.command("memory")
