@@ -28,6 +28,7 @@ from station.records import (
     Real,
     Sections,
     WeakDirection,
+    content_of,
     parse_measurements,
     translated,
     with_guesses,
@@ -178,11 +179,7 @@ def read_readings(
 
     :raises InputRefused: anything malformed, with row, column and what to do.
     """
-    try:
-        content = path.read_bytes()
-    except OSError as error:
-        raise InputRefused(f"{path} cannot be read: {error.strerror}.") from error
-    return read_log(robot, content, path.name, measured, in_order=in_order, mapping=mapping)
+    return read_log(robot, content_of(path), path.name, measured, in_order=in_order, mapping=mapping)
 
 
 def read_log(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal, Self
@@ -26,7 +25,7 @@ from drivers.scaling import JointScaling
 from drivers.strict_numbers import StrictNumbers
 from station.errors import InputRefused
 from station.interlock_settings import InterlockSettings
-from station.records import EventType, ScaleCertificate, said
+from station.records import EventType, ScaleCertificate, content_of, said, sections_of_toml
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 
@@ -393,13 +392,7 @@ def load_settings(path: Path | None) -> Settings:
     """
     if path is None:
         return Settings()
-    try:
-        with path.open("rb") as file:
-            data = tomllib.load(file)
-    except OSError as error:
-        raise InputRefused(f"Station file {path} cannot be read: {error.strerror}.") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputRefused(f"Station file {path} is not valid TOML: {error}.") from error
+    data = sections_of_toml(content_of(path, "Station file"), f"Station file {path}")
     try:
         return Settings.model_validate(data)
     except ValidationError as error:

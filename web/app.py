@@ -11,6 +11,7 @@ from fastapi import Depends, FastAPI
 from station import __version__
 from station.people import Access, OpenId
 from station.service import Runtime, Timer, listens_on_loopback
+from station.settings import ServiceSettings
 from web import etags, methods, pages, problems
 from web.application import Application
 from web.borders import Borders, Forwarded
@@ -104,20 +105,30 @@ def create_app(runtime: Runtime, *, access: Access | None = None, static: Path =
     app.state.openid = OpenId(openid_settings, runtime.store) if openid_settings else None
     app.state.feed = LiveFeed(runtime.orchestrator, build=pages.build_id(static), open=access.open)
     app.state.metrics = Metrics(runtime, lambda: app.state.feed.clients)
+    _add_routes(app, dataset_bytes=round(service.body_mb * 1e6))
+    pages.add(app, static)
+    problems.add(app)
+    _add_middleware(app, service)
+    return app
+
+
+def _add_routes(app: Application, *, dataset_bytes: int) -> None:
     for module in ROUTES:
         app.include_router(
             module.router,
             prefix=API,
             dependencies=[Depends(known_query)],
-            max_body_size=round(service.body_mb * 1e6) if module is datasets else None,
+            max_body_size=dataset_bytes if module is datasets else None,
         )
     for module in (*LIVE_ROUTES, *PROVIDER_ROUTES):
         app.include_router(module.router, prefix=API)
     app.include_router(health.router)
     for module in TOP_ROUTES:
         app.include_router(module.router)
-    pages.add(app, static)
-    problems.add(app)
+
+
+def _add_middleware(app: Application, service: ServiceSettings) -> None:
+    """The last one is the first that a request meets."""
     app.add_middleware(SlowBodies)
     app.add_middleware(etags.ETags, prefix=f"{API}/calibrations/")
     app.add_middleware(Compression)
@@ -125,7 +136,6 @@ def create_app(runtime: Runtime, *, access: Access | None = None, static: Path =
     app.add_middleware(Forwarded, proxies=service.trusted_proxies)
     app.add_middleware(SecurityHeaders)
     app.add_middleware(methods.HeadAsGet)
-    return app
 
 
 def access_of(runtime: Runtime, host: str) -> Access:

@@ -11,6 +11,9 @@ CONTENT_SECURITY_POLICY = (
 )
 """Own files only.  Style attributes are allowed because the SVG charts are drawn with them."""
 
+SELF_CONTAINED = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
+"""Of a page that needs nothing but the styles in itself, so that it can be saved and mailed."""
+
 POLICIES = {
     "Content-Security-Policy": CONTENT_SECURITY_POLICY,
     "X-Content-Type-Options": "nosniff",

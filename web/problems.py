@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Awaitable, Callable, Mapping
 from http import HTTPStatus
 from typing import Any
 
@@ -105,8 +105,26 @@ def add_schema(document: dict[str, Any]) -> dict[str, Any]:
     return document
 
 
+PLAIN: Mapping[type[Exception], tuple[int, str]] = {
+    InputRefused: (422, "refused"),
+    NotFound: (404, "not-found"),
+    NotApplicable: (409, "not-applicable"),
+    Forbidden: (403, "forbidden"),
+}
+"""Errors whose text is the whole answer, with status and kind."""
+
+
+def _in_its_own_words(status: int, kind: str) -> Callable[[Request, Exception], Awaitable[ProblemResponse]]:
+    async def answer(request: Request, error: Exception) -> ProblemResponse:
+        return problem(status, str(error), kind=kind)
+
+    return answer
+
+
 def add(app: FastAPI) -> None:
     """Turn every exception that leaves a route into its problem document."""
+    for error_class, (status, kind) in PLAIN.items():
+        app.add_exception_handler(error_class, _in_its_own_words(status, kind))
 
     @app.exception_handler(RequestValidationError)
     async def invalid(request: Request, error: RequestValidationError) -> ProblemResponse:
@@ -116,26 +134,14 @@ def add(app: FastAPI) -> None:
             422, f"{first.field}: {first.detail}", kind="invalid", field=first.field, errors=errors
         )
 
-    @app.exception_handler(InputRefused)
-    async def refused(request: Request, error: InputRefused) -> ProblemResponse:
-        return problem(422, str(error), kind="refused")
-
     @app.exception_handler(FieldRefused)
     async def field_refused(request: Request, error: FieldRefused) -> ProblemResponse:
         errors = [FieldAtFault(field=error.field, detail=str(error))]
         return problem(422, str(error), kind="refused", field=error.field, errors=errors)
 
-    @app.exception_handler(NotFound)
-    async def not_found(request: Request, error: NotFound) -> ProblemResponse:
-        return problem(404, str(error), kind="not-found")
-
     @app.exception_handler(Busy)
     async def busy(request: Request, error: Busy) -> ProblemResponse:
         return problem(409, str(error), kind="busy", headers=RETRY_AFTER, calibration_id=error.calibration_id)
-
-    @app.exception_handler(NotApplicable)
-    async def not_applicable(request: Request, error: NotApplicable) -> ProblemResponse:
-        return problem(409, str(error), kind="not-applicable")
 
     @app.exception_handler(StoreUnavailable)
     async def store_unavailable(request: Request, error: StoreUnavailable) -> ProblemResponse:
@@ -146,10 +152,6 @@ def add(app: FastAPI) -> None:
     async def not_signed_in(request: Request, error: NotSignedIn) -> ProblemResponse:
         headers = {"WWW-Authenticate": 'Bearer realm="station"'}
         return problem(401, str(error), kind="not-signed-in", headers=headers)
-
-    @app.exception_handler(Forbidden)
-    async def forbidden(request: Request, error: Forbidden) -> ProblemResponse:
-        return problem(403, str(error), kind="forbidden")
 
     @app.exception_handler(TooManyTries)
     async def too_many_tries(request: Request, error: TooManyTries) -> ProblemResponse:

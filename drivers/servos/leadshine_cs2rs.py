@@ -6,11 +6,8 @@ need neither a control mode nor functions of outputs.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-from drivers.driver import Drive, ServoDriver
+from drivers.driver import ServoDriver
 from drivers.errors import DeviceFault
-from drivers.lines import ModbusBus
 from drivers.servos.leadshine_el7 import (
     FEEDBACK,
     PATH_0,
@@ -42,11 +39,6 @@ class LeadshineCS2RS(LeadshineEL7):
         return MotionStatus.ENABLED in motion, MotionStatus.FAULT in motion
 
 
-def _make(settings: LeadshineSettings, drives: Sequence[Drive]) -> tuple[LeadshineCS2RS, ...]:
-    bus = ModbusBus(settings.url, timeout_s=settings.timeout_s)
-    return tuple(LeadshineCS2RS(bus, drive.unit, drive.scaling, name=drive.name) for drive in drives)
-
-
 REGISTERS = {
     PULSES_PER_REV: "pulses a turn",
     SWITCH_ON: "switch on",
@@ -59,4 +51,4 @@ REGISTERS = {
     PATH_0 + 1: "target of path 0, pulses",
 }
 
-DRIVER = ServoDriver(LeadshineSettings, _make, REGISTERS, FEEDBACK)
+DRIVER = ServoDriver(LeadshineSettings, LeadshineCS2RS.on_line, REGISTERS, FEEDBACK)

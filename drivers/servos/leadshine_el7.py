@@ -12,14 +12,14 @@ from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from enum import IntFlag
+from typing import Self
 
 from drivers.driver import Drive, DriverSettings, Seconds, ServoDriver
-from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
+from drivers.errors import DeviceError, DeviceFault
 from drivers.lines import ModbusBus, UnansweredWrite
 from drivers.protocols import AxisStatus
 from drivers.scaling import JointScaling
-from drivers.servos.joint_commands import JointCommands
-from drivers.servos.on_bus import OnBus
+from drivers.servos.on_bus import POLL_S, OnBus
 from drivers.servos.registers import values_of, words_of
 
 CONTROL_MODE = 0x0003
@@ -44,11 +44,7 @@ OUTPUT_IS_ALARM = 0x01
 OUTPUT_IS_SERVO_ON = 0x12
 
 _RAMP_MS_PER_1000_RPM = 100
-_MAX_RPM = 3000
-_IN_POSITION_PULSES = 20
 _ENABLE_TIMEOUT_S = 2.0
-_RESET_TIMEOUT_S = 1.0
-_POLL_S = 0.01
 
 
 class MotionStatus(IntFlag):
@@ -86,18 +82,15 @@ class LeadshineEL7(OnBus):
     _registers = FamilyRegisters(MOTION_STATUS, ALARM, ALARM_RESET, (DIGITAL_INPUT_1, SERVO_ON_ALWAYS))
 
     def __init__(self, bus: ModbusBus, unit: int, scaling: JointScaling, *, name: str) -> None:
-        super().__init__(bus)
-        self._unit = unit
-        self._scaling = scaling
-        self._name = name
-        self._commands = JointCommands(name, scaling, _MAX_RPM)
-        self._target_pulses: int | None = None
+        super().__init__(bus, unit, scaling, name=name)
         self._servo_on_bit = 0
         self._alarm_bit = 0
 
-    @property
-    def name(self) -> str:
-        return self._name
+    @classmethod
+    def on_line(cls, settings: LeadshineSettings, drives: Sequence[Drive]) -> tuple[Self, ...]:
+        """One axis a drive; nothing is opened yet.  :raises BadUrl:"""
+        bus = ModbusBus(settings.url, timeout_s=settings.timeout_s)
+        return tuple(cls(bus, drive.unit, drive.scaling, name=drive.name) for drive in drives)
 
     def connect(self) -> None:
         """Open the line, check that the drive is in PR mode, learn which output says "servo on".
@@ -135,11 +128,6 @@ class LeadshineEL7(OnBus):
         alarmed = MotionStatus.FAULT in motion or bool(outputs & self._alarm_bit)
         return bool(outputs & self._servo_on_bit), alarmed
 
-    def make_safe(self) -> None:
-        """Stop; the axis stays powered, since an arm without torque would fall."""
-        with suppress(DeviceError):  # the caller has other axes to stop and cannot do more here
-            self.quick_stop()
-
     def close(self) -> None:
         self._bus.release(self)
 
@@ -159,7 +147,7 @@ class LeadshineEL7(OnBus):
                 raise DeviceFault(
                     f"{self._commands.title} does not switch on; check its power stage and safety input."
                 )
-            time.sleep(_POLL_S)
+            time.sleep(POLL_S)
 
     def move_to(self, theta_deg: float, speed_deg_s: float) -> None:
         """Start an absolute move and return at once (one frame on the wire).
@@ -172,10 +160,7 @@ class LeadshineEL7(OnBus):
         asked_at = self._bus.stops
         target = self._commands.pulses(theta_deg)
         rpm = self._commands.rpm(speed_deg_s)
-        status = self.status()
-        self._commands.refuse_on_alarm(status)
-        if not status.enabled:
-            raise DeviceFault(f"{self._commands.title} is not switched on.")
+        self._check_ready()
         block = [
             MOVE_ABSOLUTE,
             *words_of(target),
@@ -195,10 +180,6 @@ class LeadshineEL7(OnBus):
         self._target_pulses = target
 
     def status(self) -> AxisStatus:
-        """One look at the drive; in position means: at the target of this object's latest move.
-
-        :raises DeviceError:
-        """
         motion = MotionStatus(self._read(self._registers.motion_status))
         enabled, alarmed = self._enabled_and_alarmed(motion)
         alarm = None
@@ -212,10 +193,6 @@ class LeadshineEL7(OnBus):
             alarm=alarm,
         )
 
-    def feedback_deg(self) -> float:
-        """The encoder's joint angle.  :raises DeviceError:"""
-        return self._scaling.to_deg(self._feedback_pulses())
-
     def reset_alarm(self) -> None:
         """Clear the present alarm.
 
@@ -224,25 +201,10 @@ class LeadshineEL7(OnBus):
         """
         with suppress(UnansweredWrite):  # the alarm register tells
             self._bus.write_one(self._unit, self._registers.alarm_reset, RESET_PRESENT_ALARM)
-        deadline_s = time.monotonic() + _RESET_TIMEOUT_S
-        while (status := self.status()).alarm is not None:
-            if time.monotonic() > deadline_s:
-                self._commands.refuse_on_alarm(status)
-            time.sleep(_POLL_S)
+        self._wait_for_reset()
 
     def quick_stop(self) -> None:
-        """Stop now, ahead of any queued request on the line.
-
-        :raises DeviceError: no attempt was confirmed
-        """
-        self._target_pulses = None
-        try:
-            self._bus.stop(self._unit, TRIGGER, QUICK_STOP, look_at=self._registers.motion_status)
-        except (LinkLost, GarbledReply) as error:
-            cause = str(error).rstrip(".")
-            raise LinkLost(
-                f"{self._commands.title} did not confirm its stop; use the emergency stop. {cause}."
-            ) from error
+        self._write_stop(TRIGGER, QUICK_STOP, look_at=self._registers.motion_status)
 
     def preset(self, theta_deg: float) -> None:
         """Declare the present place to be `theta_deg`.
@@ -257,12 +219,7 @@ class LeadshineEL7(OnBus):
         self._commands.refuse_while_moving(self.status())
         with suppress(UnansweredWrite):  # the position read back tells
             self._bus.write_one(self._unit, TRIGGER, DECLARE_ZERO)
-        self._target_pulses = None
-        pulses = self._feedback_pulses()
-        if abs(pulses) > _IN_POSITION_PULSES:
-            raise DeviceFault(
-                f"{self._commands.title} stands at {pulses} pulses after its zero was set; it was not taken."
-            )
+        self._check_zero_taken()
 
     def _read(self, address: int) -> int:
         return self._bus.read(self._unit, address, 1)[0]
@@ -270,23 +227,13 @@ class LeadshineEL7(OnBus):
     def _feedback_pulses(self) -> int:
         return values_of(self._bus.read(self._unit, FEEDBACK, 2))[0]
 
-    def _is_at_target(self) -> bool:
-        """The complete bit alone may still be that of the previous move."""
-        target = self._target_pulses  # a stop may take it away meanwhile
-        return target is not None and abs(self._feedback_pulses() - target) <= _IN_POSITION_PULSES
-
     def _holds_target(self, target: int) -> bool:
         """After a lost reply: whether the drive got the move."""
         return values_of(self._bus.read(self._unit, PATH_0 + 1, 2)) == [target]
 
     def _runs_or_stands_at(self, target: int) -> bool:
         motion = MotionStatus(self._read(self._registers.motion_status))
-        return MotionStatus.RUNNING in motion or abs(self._feedback_pulses() - target) <= _IN_POSITION_PULSES
-
-
-def _make(settings: LeadshineSettings, drives: Sequence[Drive]) -> tuple[LeadshineEL7, ...]:
-    bus = ModbusBus(settings.url, timeout_s=settings.timeout_s)
-    return tuple(LeadshineEL7(bus, drive.unit, drive.scaling, name=drive.name) for drive in drives)
+        return MotionStatus.RUNNING in motion or self._stands_at(target)
 
 
 REGISTERS = {
@@ -303,4 +250,4 @@ REGISTERS = {
     PATH_0 + 1: "target of path 0, pulses",
 }
 
-DRIVER = ServoDriver(LeadshineSettings, _make, REGISTERS, FEEDBACK)
+DRIVER = ServoDriver(LeadshineSettings, LeadshineEL7.on_line, REGISTERS, FEEDBACK)

@@ -13,17 +13,16 @@ from collections.abc import Callable, Sequence
 from contextlib import suppress
 from enum import IntFlag
 from threading import Event, Thread
-from typing import Annotated
+from typing import Annotated, Self
 
 from pydantic import Field
 
 from drivers.driver import Drive, DriverSettings, Seconds, ServoDriver
-from drivers.errors import DeviceError, DeviceFault, GarbledReply, LinkLost
+from drivers.errors import DeviceError, DeviceFault
 from drivers.lines import ModbusBus, UnansweredWrite
 from drivers.protocols import AxisStatus
 from drivers.scaling import JointScaling
-from drivers.servos.joint_commands import JointCommands
-from drivers.servos.on_bus import OnBus
+from drivers.servos.on_bus import POLL_S, OnBus
 from drivers.servos.registers import values_of, words_of
 
 DIRECT_DATA, POSITION_DATA = 0x0058, 0x005C
@@ -37,11 +36,7 @@ SERVO_ON, QUICK_STOP = 1 << 0, 1 << 4
 MOVE_ABSOLUTE, START, FULL_TORQUE = 1, 1, 1000
 
 _RAMP_MS = 100
-_MAX_RPM = 3000
-_IN_POSITION_PULSES = 20
 _ENABLE_TIMEOUT_S = 2.0
-_RESET_TIMEOUT_S = 1.0
-_POLL_S = 0.01
 _FEEDS_PER_TIMEOUT = 10
 
 
@@ -71,19 +66,19 @@ class OrientalMotorBLVR(OnBus):
     def __init__(
         self, bus: ModbusBus, unit: int, scaling: JointScaling, *, name: str, watchdog_ms: int
     ) -> None:
-        super().__init__(bus)
-        self._unit = unit
-        self._scaling = scaling
-        self._name = name
-        self._commands = JointCommands(name, scaling, _MAX_RPM)
+        super().__init__(bus, unit, scaling, name=name)
         self._watchdog_ms = watchdog_ms
-        self._target_pulses: int | None = None
         self._stop_is_held = False
         self._feeder: _Feeder | None = None
 
-    @property
-    def name(self) -> str:
-        return self._name
+    @classmethod
+    def on_line(cls, settings: OrientalMotorSettings, drives: Sequence[Drive]) -> tuple[Self, ...]:
+        """One axis a drive; nothing is opened yet.  :raises BadUrl:"""
+        bus = ModbusBus(settings.url, timeout_s=settings.timeout_s)
+        return tuple(
+            cls(bus, drive.unit, drive.scaling, name=drive.name, watchdog_ms=settings.watchdog_ms)
+            for drive in drives
+        )
 
     def connect(self) -> None:
         """Open the line, compare the resolution, set the watchdog and begin to feed it.
@@ -108,11 +103,6 @@ class OrientalMotorBLVR(OnBus):
         if self._watchdog_ms and not self.line.is_played_back:
             period_s = self._watchdog_ms / 1000 / _FEEDS_PER_TIMEOUT
             self._feeder = _Feeder(self._feed, lambda: self._bus.silent_s(self._unit), period_s, self._name)
-
-    def make_safe(self) -> None:
-        """Stop; the axis stays powered, since an arm without torque would fall."""
-        with suppress(DeviceError):  # the caller has other axes to stop and cannot do more here
-            self.quick_stop()
 
     def close(self) -> None:
         """A drive that is no longer spoken to must not raise an alarm for that."""
@@ -140,7 +130,7 @@ class OrientalMotorBLVR(OnBus):
                 raise DeviceFault(
                     f"{self._commands.title} does not switch on; check its power stage and safety input."
                 )
-            time.sleep(_POLL_S)
+            time.sleep(POLL_S)
         if not outputs & Output.POSITION_KNOWN:
             raise DeviceFault(
                 f"{self._commands.title} does not know its position; home it or preset it first."
@@ -156,10 +146,7 @@ class OrientalMotorBLVR(OnBus):
         """
         asked_at = self._bus.stops
         target, rpm = self._commands.pulses(theta_deg), self._commands.rpm(speed_deg_s)
-        status = self.status()
-        self._commands.refuse_on_alarm(status)
-        if not status.enabled:
-            raise DeviceFault(f"{self._commands.title} is not switched on.")
+        self._check_ready()
         if self._stop_is_held:
             self._bus.write(self._unit, INPUTS, words_of(SERVO_ON), stops_seen=asked_at)
             self._stop_is_held = False
@@ -170,32 +157,22 @@ class OrientalMotorBLVR(OnBus):
         except UnansweredWrite:
             if self._read(POSITION_DATA) != target:
                 self._bus.write(self._unit, DIRECT_DATA, block, stops_seen=asked_at)
-            elif not (self._outputs() & Output.MOVING or self._is_at(target)):
+            elif not (self._outputs() & Output.MOVING or self._stands_at(target)):
                 raise
         self._target_pulses = target
 
     def status(self) -> AxisStatus:
-        """One look at the drive; in position means: at the target of this object's latest move.
-
-        :raises DeviceError:
-        """
         outputs = self._outputs()
         alarm = None
         if outputs & Output.ALARM:
             alarm = self._read(ALARM) & 0xFFFF or None  # it may have been reset between two reads
         moving = bool(outputs & Output.MOVING)
-        target = self._target_pulses  # a stop may take it away meanwhile
-        arrived = bool(outputs & Output.IN_POSITION) and not moving and target is not None
         return AxisStatus(
             enabled=bool(outputs & Output.SERVO_ON),
             moving=moving,
-            in_position=arrived and target is not None and self._is_at(target),
+            in_position=bool(outputs & Output.IN_POSITION) and not moving and self._is_at_target(),
             alarm=alarm,
         )
-
-    def feedback_deg(self) -> float:
-        """The encoder's joint angle.  :raises DeviceError:"""
-        return self._scaling.to_deg(self._read(FEEDBACK))
 
     def reset_alarm(self) -> None:
         """Clear the present alarm.
@@ -204,26 +181,15 @@ class OrientalMotorBLVR(OnBus):
         :raises LinkLost: no reply
         """
         self._edge(ALARM_RESET)
-        deadline_s = time.monotonic() + _RESET_TIMEOUT_S
-        while (status := self.status()).alarm is not None:
-            if time.monotonic() > deadline_s:
-                self._commands.refuse_on_alarm(status)
-            time.sleep(_POLL_S)
+        self._wait_for_reset()
 
     def quick_stop(self) -> None:
         """Stop now, ahead of any queued request on the line; the stop is held until the next move.
 
         :raises DeviceError: no attempt was confirmed
         """
-        self._target_pulses = None
         self._stop_is_held = True
-        try:
-            self._bus.stop(self._unit, INPUTS, words_of(SERVO_ON | QUICK_STOP), look_at=OUTPUTS)
-        except (LinkLost, GarbledReply) as error:
-            cause = str(error).rstrip(".")
-            raise LinkLost(
-                f"{self._commands.title} did not confirm its stop; use the emergency stop. {cause}."
-            ) from error
+        self._write_stop(INPUTS, words_of(SERVO_ON | QUICK_STOP), look_at=OUTPUTS)
 
     def preset(self, theta_deg: float) -> None:
         """Declare the present place to be `theta_deg`, which must be the joint's `zero_at_deg`.
@@ -234,12 +200,7 @@ class OrientalMotorBLVR(OnBus):
         self._commands.check_zero_angle(theta_deg)
         self._commands.refuse_while_moving(self.status())
         self._edge(PRESET)
-        self._target_pulses = None
-        pulses = self._read(FEEDBACK)
-        if abs(pulses) > _IN_POSITION_PULSES:
-            raise DeviceFault(
-                f"{self._commands.title} stands at {pulses} pulses after its zero was set; it was not taken."
-            )
+        self._check_zero_taken()
 
     def _set_watchdog(self, timeout_ms: int) -> None:
         """:raises DeviceFault: the drive did not take it"""
@@ -270,8 +231,8 @@ class OrientalMotorBLVR(OnBus):
             with suppress(UnansweredWrite):
                 self._write(address, value)
 
-    def _is_at(self, target: int) -> bool:
-        return abs(self._read(FEEDBACK) - target) <= _IN_POSITION_PULSES
+    def _feedback_pulses(self) -> int:
+        return self._read(FEEDBACK)
 
 
 class _Feeder:
@@ -301,14 +262,6 @@ class _Feeder:
                 wait_s = self._period_s
 
 
-def _make(settings: OrientalMotorSettings, drives: Sequence[Drive]) -> tuple[OrientalMotorBLVR, ...]:
-    bus = ModbusBus(settings.url, timeout_s=settings.timeout_s)
-    return tuple(
-        OrientalMotorBLVR(bus, drive.unit, drive.scaling, name=drive.name, watchdog_ms=settings.watchdog_ms)
-        for drive in drives
-    )
-
-
 REGISTERS = {
     DIRECT_DATA: "direct data: number, type, position, speed, ramps, torque, trigger",
     POSITION_DATA: "position of the direct data, steps",
@@ -322,4 +275,4 @@ REGISTERS = {
     WATCHDOG: "communication watchdog, ms",
 }
 
-DRIVER = ServoDriver(OrientalMotorSettings, _make, REGISTERS, FEEDBACK)
+DRIVER = ServoDriver(OrientalMotorSettings, OrientalMotorBLVR.on_line, REGISTERS, FEEDBACK)

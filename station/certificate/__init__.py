@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from station.certificate.document import CertificateDocument
-from station.certificate.html import CONTENT_SECURITY_POLICY
 from station.certificate.issuing import FORMATS, Format, Issued, issue
 from station.certificate.signature import public_key_of, public_key_pem, station_key
 from station.certificate.verification import Verified, verify_certificate
 
 __all__ = [
-    "CONTENT_SECURITY_POLICY",
     "FORMATS",
     "CertificateDocument",
     "Format",

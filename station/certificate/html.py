@@ -10,8 +10,6 @@ from station.certificate.sheet import Sheet
 from station.messages import local_number
 from station.report import environment
 
-CONTENT_SECURITY_POLICY = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
-"""Of the page: no script at all, and nothing from anywhere."""
 _OPEN, _CLOSE = '<script type="application/json" id="certificate">', "</script>"
 _END = "</body>"
 

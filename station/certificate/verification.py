@@ -16,6 +16,7 @@ from station.certificate.document import CertificateDocument, Page
 from station.certificate.html import html_sha256, split_document
 from station.certificate.signature import digests_of, holds, leaves, raw
 from station.errors import InputRefused, NotFound
+from station.records import content_of
 from station.store import Store, link_hash
 
 
@@ -46,7 +47,7 @@ def verify_certificate(path: Path, store: Store | None, key: Ed25519PublicKey | 
             "A certificate is checked against the history of its station (--home) or against its public key"
             " (--key FILE, from `station key public`); there is neither."
         )
-    content = _content(path)
+    content = content_of(path)
     form, text, page_text = _opened(content, path)
     fields = _fields(text, path)
     document = _document(fields, path)
@@ -62,13 +63,6 @@ def verify_certificate(path: Path, store: Store | None, key: Ed25519PublicKey | 
         if known is not None
     )
     return Verified(document.certificate.number, document.certificate.run, tuple(dict.fromkeys(faults)), by)
-
-
-def _content(path: Path) -> bytes:
-    try:
-        return path.read_bytes()
-    except OSError as error:
-        raise InputRefused(f"{path} cannot be read: {error.strerror}.") from error
 
 
 def _opened(content: bytes, path: Path) -> tuple[str, str, str]:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import getpass
 from pathlib import Path
 
 import click
 
-from station.cli.machine_options import machine_options, read_settings
-from station.cli.one_run import one_run
+from station.cli.files import file_path
+from station.cli.machine_options import Machine, machine_options
+from station.cli.one_run import one_run, operator_option
 from station.cli.references import LENGTH, references_option
 from station.five_bar import Robot
 from station.plans import PLANS
@@ -45,8 +45,8 @@ class Study(click.ParamType[StudyDesign]):
 @click.command("calibrate")
 @click.option("--plan", type=click.Choice(tuple(PLANS)), default="paper", show_default=True)
 @click.option("--serial", help="Of the robot; else the robot file's.")
-@click.option("--robot", "robot_file", type=click.Path(path_type=Path), help="Robot file, kept from then on.")
-@click.option("--operator", help="Who is responsible; else the user of this terminal.")
+@click.option("--robot", "robot_file", type=file_path, help="Robot file, kept from then on.")
+@operator_option
 @click.option("--work-order", help="Kept with the run.")
 @references_option
 @click.option(
@@ -73,18 +73,15 @@ def calibrate_command(
     plan: PlanName,
     serial: str | None,
     robot_file: Path | None,
-    operator: str | None,
+    operator: str,
     work_order: str | None,
     references: tuple[AnyReference, ...],
     until_mm: float | None,
     study: StudyDesign | None,
     resume: int | None,
-    config: Path | None,
-    emulate: Path | None,
-    speed: float | None,
+    machine: Machine,
 ) -> None:
     """One calibration run, with live progress."""
-    settings = read_settings(config, speed)
     robot = Robot.from_toml(robot_file) if robot_file else Robot.default()
     if robot_file and serial not in (None, robot.serial):
         raise click.UsageError(
@@ -93,7 +90,7 @@ def calibrate_command(
 
     if study is not None and (plan != "gauge_study" or resume is not None):
         raise click.UsageError("--study belongs to a new run of --plan gauge_study.")
-    named, who = checked_serial(serial or robot.serial), checked_name(operator or getpass.getuser())
+    named, who = checked_serial(serial or robot.serial), checked_name(operator)
     if work_order is not None:
         checked_name(work_order)
 
@@ -115,4 +112,4 @@ def calibrate_command(
             )
         )
 
-    one_run(home, settings, emulate, submit)
+    one_run(home, machine, submit)

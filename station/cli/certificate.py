@@ -11,6 +11,7 @@ from station.certificate import FORMATS, issue, public_key_of, station_key, veri
 from station.cli.kept import config_option, kept, run_argument
 from station.errors import InputRefused, NotApplicable
 from station.messages import LANGUAGES, Language
+from station.records import content_of
 from station.settings import database_path, load_settings
 
 
@@ -68,10 +69,7 @@ def verify_certificate_command(
     there = database_path(load_settings(config), home).exists()
     key = station_key(home)
     if key_file is not None:
-        try:
-            key = public_key_of(key_file.read_bytes(), str(key_file))
-        except OSError as error:
-            raise InputRefused(f"{key_file} cannot be read: {error.strerror}.") from error
+        key = public_key_of(content_of(key_file), str(key_file))
     with kept(home, config) if there else nullcontext() as store:
         found = verify_certificate(file, store, key)
     for fault in found.faults:

@@ -9,14 +9,14 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station.cli.files import content_of
-from station.records import proposed_map, read_foreign
+from station.cli.files import file_path
+from station.records import content_of, proposed_map, read_foreign
 
 FIRST_ROWS = 3
 
 
 @click.command("columns")
-@click.argument("data", type=click.Path(path_type=Path))
+@click.argument("data", type=file_path)
 @click.option("--no-header", is_flag=True, help="No row names the columns.")
 @click.option("--sheet", default="", help="Of a spreadsheet; by default the one with most numbers.")
 def columns_command(data: Path, no_header: bool, sheet: str) -> None:

@@ -8,14 +8,15 @@ from pathlib import Path
 import click
 from rich.console import Console
 
-from station.cli.files import check_folders, write_json, write_text
+from station.cli.files import check_folders, file_path, json_option, write_json, write_text
 from station.studies.confusion import KINDS, figures, label, markdown, run
 from station.studies.engine import Engine, digest
+from station.studies.options import resume_option, seed_option, workers_option
 
 
 @click.command("confusion")
 @click.option("--machines", default=300, show_default=True, type=click.IntRange(1), help="Of each kind.")
-@click.option("--seed", default=1, show_default=True, type=click.IntRange(0))
+@seed_option
 @click.option(
     "--kind",
     "kinds",
@@ -23,10 +24,10 @@ from station.studies.engine import Engine, digest
     type=click.Choice([label(kind) for kind in KINDS]),
     help="Only machines of this kind; may be given again.",
 )
-@click.option("--workers", type=click.IntRange(1), help="Processes; one for each core without it.")
-@click.option("--resume", type=click.Path(file_okay=False, path_type=Path), help="Folder to go on from.")
-@click.option("--json", "json_file", type=click.Path(path_type=Path), help="Write every figure here.")
-@click.option("--markdown", "out", type=click.Path(path_type=Path), help="Write the page here.")
+@workers_option
+@resume_option
+@json_option("every figure")
+@click.option("--markdown", "out", type=file_path, help="Write the page here.")
 def confusion_command(
     machines: int,
     seed: int,

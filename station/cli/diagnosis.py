@@ -9,7 +9,17 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station.cli.files import check_folders, columns_option, describe, measured_option, write_json, write_text
+from station.cli.files import (
+    check_folders,
+    columns_option,
+    describe,
+    file_path,
+    json_option,
+    measured_option,
+    robot_option,
+    write_json,
+    write_text,
+)
 from station.diagnosis import (
     Context,
     Findings,
@@ -38,20 +48,18 @@ from station.records import (
     recorded_columns,
 )
 
-_file = click.Path(path_type=Path)
-
 
 @click.command("diagnose")
-@click.argument("data", type=_file)
-@click.option("--confirm", "fresh_file", type=_file, help="Fresh readings to confirm the cause with.")
-@click.option("--robot", "robot_file", type=_file, help="Robot file; without it the paper's Table 1.")
+@click.argument("data", type=file_path)
+@click.option("--confirm", "fresh_file", type=file_path, help="Fresh readings to confirm the cause with.")
+@robot_option
 @click.option(
     "--hold-out", is_flag=True, help="Judge by a quarter of the readings that nothing is learned from."
 )
 @measured_option
 @columns_option
-@click.option("--json", "json_file", type=_file, help="Write the whole diagnosis here.")
-@click.option("--html", "html_file", type=_file, help="Write the report page here.")
+@json_option("the whole diagnosis")
+@click.option("--html", "html_file", type=file_path, help="Write the report page here.")
 @click.pass_context
 def diagnose_command(
     context: click.Context,
@@ -97,9 +105,9 @@ def diagnose_command(
 
 
 @click.command("solve")
-@click.argument("targets", type=_file)
-@click.option("--model", "model_file", type=_file, required=True, help="What `diagnose --json` wrote.")
-@click.option("--csv", "csv_file", type=_file, help="Write the commands here instead of to the terminal.")
+@click.argument("targets", type=file_path)
+@click.option("--model", "model_file", type=file_path, required=True, help="What `diagnose --json` wrote.")
+@click.option("--csv", "csv_file", type=file_path, help="Write the commands here instead of to the terminal.")
 def solve_command(targets: Path, model_file: Path, csv_file: Path | None) -> None:
     """Joint commands for target positions x_mm, y_mm under the identified model."""
     check_folders(csv_file)
@@ -116,11 +124,11 @@ def solve_command(targets: Path, model_file: Path, csv_file: Path | None) -> Non
 
 
 @click.command("transfer")
-@click.argument("data", type=_file)
-@click.option("--model", "model_file", type=_file, required=True, help="What `diagnose --json` wrote.")
+@click.argument("data", type=file_path)
+@click.option("--model", "model_file", type=file_path, required=True, help="What `diagnose --json` wrote.")
 @measured_option
 @columns_option
-@click.option("--json", "json_file", type=_file, help="Write the figures here.")
+@json_option("the figures")
 def transfer_command(
     data: Path, model_file: Path, measured: Measured, mapping: ColumnMap | None, json_file: Path | None
 ) -> None:
@@ -172,6 +180,18 @@ def _print(findings: Findings) -> None:
     joints = findings.measurements.joints
     for q in findings.parameters[:joints]:
         console.print(f"{q.name} = {shown(q)}")
+    _print_causes(console, findings)
+    console.print(_errors(findings))
+    if findings.measurements.guessed:
+        console.print(guesses_in_words(findings.measurements))
+    _print_position_errors(console, findings)
+    for hint in findings.hints:
+        console.print(f"Hint: {hint.text} ({100 * hint.strength:.0f} %)")
+    for outlier in findings.outliers:
+        console.print(f"Left out: reading {outlier.reading}, {outlier.reason}.")
+
+
+def _print_causes(console: Console, findings: Findings) -> None:
     for found in findings.effects:
         sizes = ", ".join(f"{q.name} {shown(q)}" for q in found.parameters)
         console.print(f"[bold]{found.label}[/bold]: {sizes}; {100 * found.share:.0f} % of the residual")
@@ -190,15 +210,20 @@ def _print(findings: Findings) -> None:
         console.print(f"{100 * experiment.decides:.0f} % probable to decide: {experiment.text}")
     if findings.mistake is not None:
         console.print(f"Mistake: {findings.mistake.text}")
+
+
+def _errors(findings: Findings) -> Table:
+    """Of every model on the way."""
     table = Table("model", "unknowns", "fit", "left out", "worst", "fresh", "worst", title="errors, µm rms")
     for column in table.columns[1:]:
         column.justify = "right"
     for s in findings.stages:
         sizes_mm = (s.fit_rms_mm, s.holdout_rms_mm, s.holdout_max_mm, s.confirm_rms_mm, s.confirm_max_mm)
         table.add_row(s.model, str(s.unknowns), *("" if v is None else f"{v * 1e3:.2f}" for v in sizes_mm))
-    console.print(table)
-    if findings.measurements.guessed:
-        console.print(guesses_in_words(findings.measurements))
+    return table
+
+
+def _print_position_errors(console: Console, findings: Findings) -> None:
     predicted = f"over {findings.extent}, predicted"
     for what, errors in (
         (predicted, findings.position_errors),
@@ -212,7 +237,3 @@ def _print(findings: Findings) -> None:
             )
             if after.bound_95 is not None:
                 console.print(f"With 95 % probability no error is above {after.bound_95:.4f} mm.")
-    for hint in findings.hints:
-        console.print(f"Hint: {hint.text} ({100 * hint.strength:.0f} %)")
-    for outlier in findings.outliers:
-        console.print(f"Left out: reading {outlier.reading}, {outlier.reason}.")

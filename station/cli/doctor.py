@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.text import Text
 from rich.tree import Tree
 
-from station.cli.machine_options import logging_to, machine_options, read_settings
+from station.cli.machine_options import Machine, logging_to, machine_options
 from station.doctor import Condition, Finding, examine
 from station.five_bar import Robot
 from station.motion import equipment
@@ -28,14 +28,15 @@ _MARKS: dict[Condition, tuple[str, str]] = {
 @click.command("doctor")
 @machine_options
 @click.pass_obj
-def doctor_command(home: Path, config: Path | None, emulate: Path | None, speed: float | None) -> None:
+def doctor_command(home: Path, machine: Machine) -> None:
     """Look at every device and its line, and say what to do; nothing moves.
 
     Exit status 1: something does not work.
     """
-    settings = read_settings(config, speed)
+    settings = machine.settings
     robot = _robot_measured_last(database_path(settings, home))
-    with holding(home), logging_to(home, terminal=logging.ERROR), equipment(settings, home, emulate) as found:
+    rig = equipment(settings, home, machine.emulate)
+    with holding(home), logging_to(home, terminal=logging.ERROR), rig as found:
         tree = examine(found.settings, found.devices, robot)
     Console(highlight=False).print(_drawn(tree))
     if not tree.healthy:

@@ -4,16 +4,22 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
-from typing import get_args
+from typing import Any, TypeVar, get_args
 
 import click
 
-from station.errors import InputRefused
 from station.records import ColumnMap, DataSource, Measured, Record
 
-existing = click.Path(path_type=Path)
+_Command = TypeVar("_Command", bound=Callable[..., Any])
+
+file_path = click.Path(path_type=Path)
+"""Looked at when it is opened: what is wrong with it is said in this program's words."""
+new_file = click.Path(dir_okay=False, path_type=Path)
+robot_option = click.option(
+    "--robot", "robot_file", type=file_path, help="Robot file; without it the paper's Table 1."
+)
 measured_option = click.option(
     "--measured",
     type=click.Choice(get_args(Measured)),
@@ -30,18 +36,15 @@ def _column_map(_context: click.Context, _option: click.Parameter, path: Path | 
 columns_option = click.option(
     "--columns",
     "mapping",
-    type=click.Path(path_type=Path),
+    type=file_path,
     callback=_column_map,
     help="Column map of a file made elsewhere; `station columns` proposes one.",
 )
 
 
-def content_of(path: Path) -> bytes:
-    """What a file holds.  :raises InputRefused: it cannot be read."""
-    try:
-        return path.read_bytes()
-    except OSError as error:
-        raise InputRefused(f"{path} cannot be read: {error.strerror}.") from error
+def json_option(content: str) -> Callable[[_Command], _Command]:
+    """--json, under which a command writes `content`."""
+    return click.option("--json", "json_file", type=new_file, help=f"Write {content} here.")
 
 
 def describe(path: Path, readings: int, guessed: Iterable[str] = ()) -> DataSource:

@@ -8,11 +8,18 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station.cli.files import check_folders, content_of, existing, write_bytes, write_json, write_text
+from station.cli.files import (
+    check_folders,
+    file_path,
+    json_option,
+    write_bytes,
+    write_json,
+    write_text,
+)
 from station.cli.kept import config_option, kept
 from station.errors import InputRefused
 from station.quality import GaugeStudy, gauge_study
-from station.records import read_table
+from station.records import content_of, read_table
 from station.report import as_pdf
 from station.run_kinds import StationGauge, gauge_page, judgement, station_gauge
 from station.settings import load_settings
@@ -28,9 +35,9 @@ NAMES = {
 
 @click.command("gauge-study")
 @click.argument("data", nargs=-1, required=True, metavar="DATA.csv | RUN...")
-@click.option("--json", "json_file", type=existing, help="Write every figure here.")
-@click.option("--html", "html_file", type=existing, help="Write the report of runs here.")
-@click.option("--pdf", "pdf_file", type=existing, help="Write the report of runs here, without its charts.")
+@json_option("every figure")
+@click.option("--html", "html_file", type=file_path, help="Write the report of runs here.")
+@click.option("--pdf", "pdf_file", type=file_path, help="Write the report of runs here, without its charts.")
 @config_option
 @click.pass_obj
 def gauge_study_command(

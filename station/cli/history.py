@@ -5,19 +5,18 @@ from __future__ import annotations
 import csv
 import json
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import asdict
 from itertools import islice
 from pathlib import Path
 
 import click
 from pydantic import JsonValue
-from rich.box import SIMPLE
 from rich.console import Console
-from rich.table import Table
 
 from station.cli.kept import at_terminal, config_option, kept, run_argument
-from station.records import Reading, State, harmless
+from station.cli.listing import print_list
+from station.records import Calibration, Reading, State, StoredEvent, harmless
 from station.store import Store
 
 _COLUMNS = (
@@ -78,7 +77,8 @@ def runs_command(
                 for row in islice(rows, limit)
             )
         else:
-            _print_table(list(islice(rows, limit or 20)))
+            header = [column.split("_")[0] for column in _SHOWN]
+            print_list(header, [_shown_run(row) for row in islice(rows, limit or 20)], "No runs.")
 
 
 def _every(store: Store, **wanted: str | None) -> Iterator[dict[str, JsonValue]]:
@@ -97,16 +97,10 @@ def _every(store: Store, **wanted: str | None) -> Iterator[dict[str, JsonValue]]
             return
 
 
-def _print_table(rows: list[dict[str, JsonValue]]) -> None:
-    console = Console()
-    if not rows:
-        console.print("No runs.")
-        return
-    table = Table(*(column.split("_")[0] for column in _SHOWN), box=SIMPLE, padding=(0, 1, 0, 0))
-    for row in rows:
-        created = str(row["created_at"])[:16].replace("T", " ")
-        table.add_row(*(_cell(value) for value in ({**row, "created_at": created}.get(c) for c in _SHOWN)))
-    console.print(table)
+def _shown_run(row: dict[str, JsonValue]) -> list[str]:
+    created = str(row["created_at"])[:16].replace("T", " ")
+    shown = {**row, "created_at": created}
+    return [_cell(shown[column]) for column in _SHOWN]
 
 
 def _cell(value: object) -> str:
@@ -142,27 +136,27 @@ def show_command(home: Path, calibration_id: int, as_json: bool, config: Path | 
         click.echo(json.dumps(content, indent=1))
         return
     console = Console(highlight=False)
+    for name, said in _described(calibration, len(readings), events):
+        console.print(f"{name:>14}  {said}", soft_wrap=True)
+
+
+def _described(
+    calibration: Calibration, readings: int, events: Sequence[StoredEvent]
+) -> Iterator[tuple[str, object]]:
+    """Name and what is said under it, line by line."""
     row = calibration.model_dump(mode="json", include=set(_DETAILS))
     for key in _DETAILS:
-        console.print(f"{key.removesuffix('_at').replace('_', ' '):>14}  {row[key] or ''}", soft_wrap=True)
+        yield key.removesuffix("_at").replace("_", " "), row[key] or ""
     if memory := calibration.memory:
-        console.print(
-            f"{'memory':>14}  of run {memory.from_calibration}, {memory.age_days or 0.0:.1f} days old:"
-            f" {memory.text}",
-            soft_wrap=True,
-        )
+        age_days = memory.age_days or 0.0
+        yield "memory", f"of run {memory.from_calibration}, {age_days:.1f} days old: {memory.text}"
     if fleet := calibration.fleet:
-        console.print(
-            f"{'others':>14}  {', '.join(fleet.prior.serials)}: {fleet.text}",
-            soft_wrap=True,
-        )
+        yield "others", f"{', '.join(fleet.prior.serials)}: {fleet.text}"
     for zero in calibration.zero_offsets:
-        console.print(
-            f"{'dtheta' + str(zero.joint):>14}  {zero.value_deg or 0.0:+.4f} deg, sd {zero.sd_deg or 0.0:.4f}"
-        )
-    console.print(f"{'readings':>14}  {len(readings)}")
+        yield f"dtheta{zero.joint}", f"{zero.value_deg or 0.0:+.4f} deg, sd {zero.sd_deg or 0.0:.4f}"
+    yield "readings", readings
     for event in events:
-        console.print(f"{event.kind:>14}  {event.at} {event.data}", soft_wrap=True)
+        yield event.kind, f"{event.at} {event.data}"
 
 
 @click.command("memory")

@@ -9,7 +9,15 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station.cli.files import columns_option, describe, existing, measured_option, write_json
+from station.cli.files import (
+    columns_option,
+    describe,
+    file_path,
+    json_option,
+    measured_option,
+    robot_option,
+    write_json,
+)
 from station.cli.references import reference_line, references_option
 from station.five_bar import Robot
 from station.identification import Identification, identification_document, identify
@@ -18,12 +26,12 @@ from station.records import AnyReference, ColumnMap, IdentificationDocument, Mea
 
 
 @click.command("identify")
-@click.argument("data", type=existing)
-@click.option("--robot", "robot_file", type=existing, help="Robot file; without it the paper's Table 1.")
+@click.argument("data", type=file_path)
+@robot_option
 @measured_option
 @columns_option
 @references_option
-@click.option("--json", "json_file", type=existing, help="Write the whole result here.")
+@json_option("the whole result")
 def identify_command(
     data: Path,
     robot_file: Path | None,

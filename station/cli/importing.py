@@ -9,8 +9,8 @@ from pathlib import Path
 
 import click
 
-from station.cli.files import columns_option, content_of, measured_option
-from station.cli.kept import new_history
+from station.cli.files import columns_option, file_path, measured_option
+from station.cli.kept import config_option, new_history
 from station.errors import NotFound
 from station.five_bar import Robot
 from station.machines import AnyRobot, read_robot, robot_of
@@ -23,6 +23,7 @@ from station.records import (
     Measured,
     checked_name,
     checked_serial,
+    content_of,
     translated,
 )
 from station.run_kinds import ArmLog, Upload, import_dataset, import_log
@@ -30,19 +31,17 @@ from station.serial_arm import Arm
 from station.settings import database_path, load_settings
 from station.store import Store
 
-_file = click.Path(path_type=Path)
-
 
 @click.command("import")
-@click.argument("data", type=_file)
-@click.option("--confirm", "fresh_file", type=_file, help="Fresh readings to confirm the cause with.")
-@click.option("--robot", "robot_file", type=_file, help="Robot file; by default the one kept.")
+@click.argument("data", type=file_path)
+@click.option("--confirm", "fresh_file", type=file_path, help="Fresh readings to confirm the cause with.")
+@click.option("--robot", "robot_file", type=file_path, help="Robot file; by default the one kept.")
 @click.option("--serial", help="Robot that was measured; by default that of the robot file.")
 @click.option("--hold-out", is_flag=True, help="Judge an arm's log by a quarter of it, held out.")
 @measured_option
 @columns_option
 @click.option("--operator", default=getpass.getuser, help="Who imports; default: who is logged in.")
-@click.option("--config", type=_file, help="Station file that names the database.")
+@config_option
 @click.pass_context
 def import_command(
     context: click.Context,

@@ -1,4 +1,4 @@
-"""The history of a data folder, for commands that only read it."""
+"""How commands open the history of a data folder, and what names it and a run."""
 
 from __future__ import annotations
 
@@ -9,14 +9,13 @@ from pathlib import Path
 
 import click
 
+from station.cli.files import file_path
 from station.errors import InputRefused
 from station.records import LARGEST_ID, Actor
 from station.settings import database_path, load_settings
 from station.store import Store
 
-config_option = click.option(
-    "--config", type=click.Path(path_type=Path), help="Station file that names the database."
-)
+config_option = click.option("--config", type=file_path, help="Station file that names the database.")
 
 run_argument = click.argument("calibration_id", metavar="ID", type=click.IntRange(1, LARGEST_ID))
 

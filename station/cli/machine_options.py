@@ -1,39 +1,56 @@
-"""What `serve` and `calibrate` share: which machine, and where the log goes."""
+"""What the commands share that need the machine: which one it is, and where the log goes."""
 
 from __future__ import annotations
 
 import logging
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import wraps
 from logging.handlers import RotatingFileHandler
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import Any
 
 import click
 
+from station.cli.files import file_path
 from station.errors import InputRefused
 from station.settings import Settings, load_settings
-
-_Command = TypeVar("_Command", bound=Callable[..., Any])
 
 _FORMAT = "%(asctime)s %(levelname)s %(name)s: %(message)s"
 _LOG_BYTES, _LOG_FILES = 2_000_000, 5
 
 
-def machine_options(command: _Command) -> _Command:
-    """--config, --emulate and --speed."""
+@dataclass(frozen=True, slots=True)
+class Machine:
+    """Which one a command works with."""
+
+    settings: Settings
+    emulate: Path | None
+    """Rig file of the emulated machine."""
+
+
+def machine_options(command: Callable[..., Any]) -> Callable[..., Any]:
+    """--config, --emulate and --speed, which the command is given as `machine`."""
+
+    @wraps(command)
+    def on_machine(
+        *args: Any, config: Path | None, emulate: Path | None, speed: float | None, **others: Any
+    ) -> Any:
+        return command(*args, machine=Machine(_read_settings(config, speed), emulate), **others)
+
     for option in (
         click.option(
             "--speed", type=click.FloatRange(0, 1000, min_open=True), help="Of the emulated machine."
         ),
-        click.option("--emulate", type=click.Path(path_type=Path), help="Rig file of the emulated machine."),
-        click.option("--config", type=click.Path(path_type=Path), help="Station file; without it, emulated."),
+        click.option("--emulate", type=file_path, help="Rig file of the emulated machine."),
+        click.option("--config", type=file_path, help="Station file; without it, emulated."),
     ):
-        command = option(command)
-    return command
+        on_machine = option(on_machine)
+    return on_machine
 
 
-def read_settings(config: Path | None, speed: float | None) -> Settings:
+def _read_settings(config: Path | None, speed: float | None) -> Settings:
     """The station file with the terminal's word on top.  :raises InputRefused:"""
     settings = load_settings(config)
     if speed is None:

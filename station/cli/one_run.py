@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import getpass
 import logging
 import signal
 import sys
@@ -14,28 +15,35 @@ import click
 from rich.console import Console
 
 from station.cli.kept import new_history
-from station.cli.machine_options import logging_to
+from station.cli.machine_options import Machine, logging_to
 from station.cli.progress import progress
 from station.errors import FieldRefused, NotApplicable
 from station.records import Calibration, Prompt, State
 from station.service import Runtime, Submitted
-from station.settings import Settings, database_path
+from station.settings import database_path
 
 _STOP_LIMIT_S = 15.0
 _LOOK_S = 0.2
 
 
-def one_run(
-    home: Path, settings: Settings, emulate: Path | None, submit: Callable[[Runtime], Submitted]
-) -> NoReturn:
+def _who(_context: click.Context, _option: click.Parameter, name: str | None) -> str:
+    return name or getpass.getuser()
+
+
+operator_option = click.option(
+    "--operator", callback=_who, help="Who is responsible; else the user of this terminal."
+)
+
+
+def one_run(home: Path, machine: Machine, submit: Callable[[Runtime], Submitted]) -> NoReturn:
     """Take the rig, submit, wait for the end, say how it ended; exits with 0 for a good outcome, else 1.
 
     :raises InputRefused: the station cannot be opened or refuses the run.
     :raises click.UsageError: the offsets it is about cannot be written or taken back.
     """
-    new = new_history(database_path(settings, home))
+    new = new_history(database_path(machine.settings, home))
     logs = logging_to(home, terminal=logging.ERROR)
-    with _interruptible(), logs, Runtime.open(settings, home, emulate) as runtime:
+    with _interruptible(), logs, Runtime.open(machine.settings, home, machine.emulate) as runtime:
         console = Console(highlight=False)
         if new:
             click.echo(new, err=True)

@@ -3,17 +3,14 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Sequence
 from datetime import datetime
 from pathlib import Path
 
 import click
 from pydantic import TypeAdapter, ValidationError
-from rich.box import SIMPLE
-from rich.console import Console
-from rich.table import Table
 
 from station.cli.kept import at_terminal, config_option, kept, open_or_begin
+from station.cli.listing import print_list
 from station.errors import InputRefused
 from station.people import ROLES, Administration, NewUser, hashed_password
 from station.records import AuditEntry, PersonName, Role, csv_text
@@ -104,7 +101,7 @@ def list_users(home: Path, config: Path | None) -> None:
             )
             for u in store.users()
         ]  # fmt: skip
-    _print(("id", "name", "role", "badge", "disabled", "created"), rows, "No users.")
+    print_list(("id", "name", "role", "badge", "disabled", "created"), rows, "No users.")
 
 
 @click.group("key")
@@ -145,7 +142,7 @@ def list_keys(home: Path, config: Path | None) -> None:
             (str(k.id), k.name, k.role, *map(_date, (k.created_at, k.expires_at, k.revoked_at, k.used_at)))
             for k in store.api_keys()
         ]
-    _print(("id", "name", "role", "created", "expires", "revoked", "used"), rows, "No keys.")
+    print_list(("id", "name", "role", "created", "expires", "revoked", "used"), rows, "No keys.")
 
 
 @key_command.command("revoke")
@@ -175,7 +172,7 @@ def audit_command(home: Path, as_csv: bool, limit: int | None, config: Path | No
         click.echo(csv_text(columns, ([row[c] for c in columns] for row in rows)), nl=False)
     else:
         shown = [tuple("" if row[c] is None else str(row[c])[:19] for c in _SHOWN) for row in rows]
-        _print(_SHOWN, shown, "Nothing yet.")
+        print_list(_SHOWN, shown, "Nothing yet.")
     if checked.broken is not None:
         click.echo(f"Entry {checked.broken} of the audit is not as it was written.", err=True)
         raise SystemExit(1)
@@ -201,14 +198,3 @@ def _secret(what: str, from_input: bool) -> str:
 
 def _date(at: datetime | None) -> str:
     return f"{at:%Y-%m-%d %H:%M}" if at else ""
-
-
-def _print(header: Sequence[str], rows: Sequence[Sequence[str]], nothing: str) -> None:
-    console = Console(highlight=False)
-    if not rows:
-        console.print(nothing)
-        return
-    table = Table(*header, box=SIMPLE, padding=(0, 1, 0, 0))
-    for row in rows:
-        table.add_row(*row)
-    console.print(table, soft_wrap=True)

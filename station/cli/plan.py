@@ -8,17 +8,17 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station.cli.files import existing, write_json, write_text
+from station.cli.files import file_path, json_option, robot_option, write_json, write_text
 from station.five_bar import Robot
-from station.plans import PLANS, make_plan, plan_as_text, plan_page
+from station.plans import PLANS, STOP_COLUMNS, make_plan, plan_as_text, plan_page, stop_rows
 from station.records import PlanName
 
 
 @click.command("plan")
 @click.option("--plan", "name", type=click.Choice(tuple(PLANS)), default="paper")
-@click.option("--robot", "robot_file", type=existing, help="Robot file; without it the paper's Table 1.")
-@click.option("--json", "json_file", type=existing, help="Write the plan here.")
-@click.option("--html", "html_file", type=existing, help="Write the plan as a page with drawings here.")
+@robot_option
+@json_option("the plan")
+@click.option("--html", "html_file", type=file_path, help="Write the plan as a page with drawings here.")
 def plan_command(
     name: PlanName, robot_file: Path | None, json_file: Path | None, html_file: Path | None
 ) -> None:
@@ -29,15 +29,9 @@ def plan_command(
         write_json(json_file, plan.document())
     if html_file:
         write_text(html_file, plan_page(plan).to_html())
-    table = Table("stop", "position", "x mm", "y mm", "theta1 deg", "theta2 deg", "approach")
-    for k, stop in enumerate(plan.stops):
-        table.add_row(
-            str(k + 1),
-            stop.position,
-            *(f"{v:.1f}" for v in stop.target_mm),
-            *(f"{v:.4f}" for v in stop.theta_deg),
-            " ".join(f"{a:+d}" if a else "any" for a in stop.approach),
-        )
+    table = Table(*STOP_COLUMNS)
+    for row in stop_rows(plan):
+        table.add_row(*row)
     console = Console()
     console.print(table)
     click.echo(plan_as_text(plan, robot))

@@ -9,7 +9,7 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station.cli.files import check_folders, existing, write_json
+from station.cli.files import check_folders, json_option, write_json
 from station.cli.kept import config_option, kept
 from station.quality import RULE_TEXTS, Figure, Quality, quality
 from station.settings import load_settings
@@ -27,7 +27,7 @@ NAMES = {
 @click.option(
     "--since", type=click.DateTime(["%Y-%m-%d", "%Y-%m-%dT%H:%M:%S"]), help="Ended then or later, UTC."
 )
-@click.option("--json", "json_file", type=existing, help="Write every figure here.")
+@json_option("every figure")
 @config_option
 @click.pass_obj
 def quality_command(

@@ -6,16 +6,15 @@ from pathlib import Path
 
 import click
 
+from station.cli.files import file_path
 from station.machines import read_robot
 from station.serial_arm import Arm
 from station.studies.real_robot import study, write
 
-_file = click.Path(path_type=Path)
-
 
 @click.command("real-robot")
-@click.argument("logs", type=_file, nargs=-1, required=True)
-@click.option("--robot", "robot_file", type=_file, required=True, help="Robot file of the arm.")
+@click.argument("logs", type=file_path, nargs=-1, required=True)
+@click.option("--robot", "robot_file", type=file_path, required=True, help="Robot file of the arm.")
 @click.option(
     "--folder", type=click.Path(path_type=Path, file_okay=False, exists=True), required=True, help="Where to."
 )

@@ -8,11 +8,12 @@ import click
 from rich.console import Console
 from rich.table import Table
 
-from station.cli.files import check_folders, existing, write_json
+from station.cli.files import check_folders, json_option, write_json
 from station.cli.kept import config_option, kept
 from station.records import LARGEST_ID
 from station.settings import database_path, load_settings
 from station.studies.engine import Engine
+from station.studies.options import resume_option, workers_option
 from station.studies.refit import Refitted, candidates, refit
 
 MOST_SHOWN = 50
@@ -21,9 +22,9 @@ MOST_SHOWN = 50
 @click.command("refit")
 @click.argument("ids", metavar="[ID]...", nargs=-1, type=click.IntRange(1, LARGEST_ID))
 @click.option("--all", "everything", is_flag=True, help="Every finished calibration and diagnosis.")
-@click.option("--workers", type=click.IntRange(1), help="Processes; one for each core without it.")
-@click.option("--resume", type=click.Path(file_okay=False, path_type=Path), help="Folder to go on from.")
-@click.option("--json", "json_file", type=existing, help="Write every change here.")
+@workers_option
+@resume_option
+@json_option("every change")
 @config_option
 @click.pass_obj
 def refit_command(

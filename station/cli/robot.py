@@ -6,13 +6,13 @@ from pathlib import Path
 
 import click
 
-from station.cli.files import content_of
-from station.records import sections_to_toml
+from station.cli.files import file_path
+from station.records import content_of, sections_to_toml
 from station.serial_arm import arm_from_urdf
 
 
 @click.command("robot")
-@click.option("--urdf", required=True, type=click.Path(path_type=Path), help="The robot description.")
+@click.option("--urdf", required=True, type=file_path, help="The robot description.")
 @click.option("--base", required=True, help="Link that stands still.")
 @click.option("--tool", required=True, help="Link whose origin is measured.")
 @click.option("--serial", help="Serial number of the robot; the name of the file without it.")

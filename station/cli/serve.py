@@ -13,7 +13,7 @@ import click
 import uvicorn
 
 from station.cli.kept import new_history
-from station.cli.machine_options import logging_to, machine_options, read_settings
+from station.cli.machine_options import Machine, logging_to, machine_options
 from station.errors import InputRefused
 from station.service import Orchestrator, Runtime, check_entrance
 from station.settings import database_path
@@ -33,20 +33,18 @@ def serve_command(
     home: Path,
     host: str | None,
     port: int | None,
-    config: Path | None,
-    emulate: Path | None,
-    speed: float | None,
+    machine: Machine,
 ) -> None:
     """The service with the operator's page."""
-    settings = read_settings(config, speed)
+    settings = machine.settings
     new = new_history(database_path(settings, home))
     logs = logging_to(home, terminal=logging.WARNING)
     host = host or settings.service.host
-    emulated = emulate is not None or settings.scale is None
+    emulated = machine.emulate is not None or settings.scale is None
     if settings.openid is None:  # with a provider somebody can always sign in
         check_entrance(database_path(settings, home), host, emulated=emulated)
     listener = _listen(host, settings.service.port if port is None else port)
-    with logs, listener, Runtime.open(settings, home, emulate) as runtime:
+    with logs, listener, Runtime.open(settings, home, machine.emulate) as runtime:
         if new:
             click.echo(new, err=True)
         access = access_of(runtime, host)

@@ -11,7 +11,7 @@ from pathlib import Path
 import click
 from rich.console import Console
 
-from station.cli.files import check_folders, write_json
+from station.cli.files import check_folders, json_option, write_json
 from station.simulation import (
     INVARIANTS,
     Case,
@@ -27,6 +27,7 @@ from station.simulation import (
 )
 from station.simulation import orders as every_order
 from station.studies.engine import Engine
+from station.studies.options import resume_option, workers_option
 
 
 @click.command("simulate")
@@ -45,9 +46,9 @@ from station.studies.engine import Engine
 )
 @click.option("--writes", is_flag=True, help="Instead: a failure and a kill at every write of two runs.")
 @click.option("--shrink", type=click.IntRange(0), help="Instead: a month that broke a sentence, made short.")
-@click.option("--workers", type=click.IntRange(1), help="Processes; one for each core without it.")
-@click.option("--resume", type=click.Path(file_okay=False, path_type=Path), help="Folder to go on from.")
-@click.option("--json", "json_file", type=click.Path(path_type=Path), help="Write what is printed here.")
+@workers_option
+@resume_option
+@json_option("what is printed")
 def simulate_command(
     years: float,
     seed: int,

@@ -9,12 +9,13 @@ from pathlib import Path
 import click
 from rich.console import Console
 
-from station.cli.files import check_folders, write_json
+from station.cli.files import check_folders, json_option, write_json
 from station.studies.arms import arms
 from station.studies.arms import figures as arms_figures
 from station.studies.confusion import figures as confusion_figures
 from station.studies.confusion import run as confusion
 from station.studies.engine import Engine, digest
+from station.studies.options import resume_option, seed_option, workers_option
 from station.studies.population import FIGURES, population
 
 _KINDS = (*FIGURES, "confusion", "arms")
@@ -30,7 +31,7 @@ _PLANS = ("full", "rapid")
     required=True,
     help="How many; of each kind for confusion; logs for arms.",
 )
-@click.option("--seed", type=click.IntRange(0), default=1, show_default=True)
+@seed_option
 @click.option(
     "--plan", type=click.Choice(_PLANS), default="full", show_default=True, help="Not for confusion and arms."
 )
@@ -41,10 +42,10 @@ _PLANS = ("full", "rapid")
     show_default=True,
     help="Standard deviation of lengths and base joints, mm; not for confusion and arms.",
 )
-@click.option("--workers", type=click.IntRange(1), help="Processes; one for each core without it.")
+@workers_option
 @click.option("--scheduler", metavar="tcp://HOST:PORT", help="A Dask cluster that does it instead.")
-@click.option("--resume", type=click.Path(file_okay=False, path_type=Path), help="Folder to go on from.")
-@click.option("--json", "json_file", type=click.Path(path_type=Path), help="Write every figure here.")
+@resume_option
+@json_option("every figure")
 def study_command(
     study: str,
     machines: int,

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import click
 
-from station.cli.files import existing, write_text
+from station.cli.files import file_path, write_text
 from station.cli.kept import config_option, kept
 from station.errors import InputRefused, NotApplicable
 from station.records import read_taught, translated_to_csv
@@ -15,11 +15,11 @@ from station.settings import load_settings
 
 
 @click.command("translate")
-@click.argument("taught", type=existing)
+@click.argument("taught", type=file_path)
 @click.option("--from", "run", type=click.IntRange(1), required=True, help="The run that was applied.")
 @click.option("--taught-under", type=click.IntRange(1), help="The run under whose zeros they were taught.")
 @click.option("--back", is_flag=True, help="Take translated positions back to what they were.")
-@click.option("--csv", "csv_file", type=existing, help="Write the positions here instead of printing them.")
+@click.option("--csv", "csv_file", type=file_path, help="Write the positions here instead of printing them.")
 @config_option
 @click.pass_obj
 def translate_command(

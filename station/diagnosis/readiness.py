@@ -8,6 +8,7 @@ import numpy as np
 
 from station.diagnosis.tests_of_fit import FEWEST
 from station.errors import InputRefused
+from station.fitting import FEWEST_REPEATS
 from station.mechanism import Mechanism
 from station.records import Index, Measurements
 
@@ -15,7 +16,6 @@ FEWEST_READINGS = 30
 """Thirteen unknowns and an effect leave too little of fewer readings to judge a residual by."""
 FEWEST_OF_ARM = 24
 """Readings of an arm: three quarters of 32."""
-FEWEST_REPEATS = 6
 
 
 def check_enough(mechanism: Mechanism, *, labelled: bool = True) -> None:

@@ -72,9 +72,7 @@ class TracedDiagnosis:
         if self.confirmations:
             before, after = self.confirmations[0].rms_mm, self.confirmations[-1].rms_mm
         else:
-            before, after = (
-                left_out_rms(f.solution, f.model.mechanism, f.row_sd) for f in (self.base, self.last)
-            )
+            before, after = left_out_rms(self.base), left_out_rms(self.last)
         return float(1.0 - (after / before) ** 2) if before > 0.0 else 0.0
 
     @cached_property

@@ -13,10 +13,9 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.mechanism import Conditions, Observation
-from station.records import Index, Quantity, Real
+from station.records import Flags, Index, Quantity, Real
 
 
 @dataclass(frozen=True)
@@ -60,7 +59,7 @@ class Effect(ABC):
     """One sentence."""
     remedy: ClassVar[str]
     experiment: ClassVar[str]
-    """What separates it from its look-alikes."""
+    """What separates it from its aliases."""
     repeats: ClassVar[bool] = False
     """Whether one place can have it more than once, with other hidden parameters."""
     by_approach: ClassVar[bool] = False
@@ -105,7 +104,7 @@ class Effect(ABC):
         """Hidden parameters that may be refined beyond the search grid: name -> (low, high)."""
         return {}
 
-    def doubtful(self, c: Conditions) -> NDArray[np.bool_]:
+    def doubtful(self, c: Conditions) -> Flags:
         """(K,) readings under conditions in which it cannot be said how this effect acts."""
         return np.zeros(len(c), dtype=bool)
 
@@ -131,7 +130,7 @@ class JointEffect(Effect):
         return self.joint - 1
 
 
-def doubtful(effects: Iterable[Effect], c: Conditions) -> NDArray[np.bool_]:
+def doubtful(effects: Iterable[Effect], c: Conditions) -> Flags:
     """(K,) readings of which some of these effects can say nothing."""
     mask = np.zeros(len(c), dtype=bool)
     for effect in effects:

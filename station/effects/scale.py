@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.effects.base import ON_READING, Effect, Variants, amplitude_and_phase, one, scaled
 from station.effects.cyclic import OVERSAMPLING, wave, waves
 from station.mechanism import Conditions
-from station.records import Quantity, Real
+from station.records import Flags, Quantity, Real
 
 
 class ScaleGain(Effect):
@@ -109,7 +108,7 @@ class ScaleHysteresis(Effect):
     def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
         return (c.slider_direction if "last_motion" in hidden else c.slider_net)[:, None]
 
-    def doubtful(self, c: Conditions) -> NDArray[np.bool_]:
+    def doubtful(self, c: Conditions) -> Flags:
         """Where the slider turned round on the way, or the way is not known."""
         return np.asarray((c.slider_direction != c.slider_net) | (c.slider_direction == 0))
 

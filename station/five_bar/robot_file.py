@@ -13,7 +13,6 @@ multiplication by i and a unit vector u(theta) is exp(i theta).
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
@@ -36,7 +35,9 @@ from station.records import (
     Section,
     Sections,
     checked_serial,
+    content_of,
     refusal,
+    sections_of_toml,
 )
 
 Pair = tuple[float, float]
@@ -237,13 +238,7 @@ def _grid(across: Pair, along: Pair, nx: int, ny: int) -> Complex:
 
 def read_sections(path: Path) -> Sections:
     """The tables of a robot file.  :raises InputRefused: missing or not TOML."""
-    try:
-        with path.open("rb") as file:
-            return tomllib.load(file)
-    except OSError as error:
-        raise InputRefused(f"Robot file {path} cannot be read: {error.strerror}.") from error
-    except (tomllib.TOMLDecodeError, UnicodeDecodeError) as error:
-        raise InputRefused(f"Robot file {path} is not valid TOML: {error}.") from error
+    return sections_of_toml(content_of(path, "Robot file"), f"Robot file {path}")
 
 
 Sign = Literal[-1, 1]

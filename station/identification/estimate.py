@@ -229,18 +229,7 @@ def _identify(everything: M, memory: Memory | None) -> Identification[M]:
         first = _fit(mechanism, prior, mechanism.row_sd)
     found = _at_noise(mechanism, first, prior, left_out)
     if memory is not None:
-        held = memory.references
-        reference_p = 1.0
-        if isinstance(mechanism, FiveBar):
-            memory, reference_p = memory.informed(mechanism.robot)
-        remembered = memory.prior(mechanism.parameters)
-        first = _fit(mechanism, remembered, mechanism.row_sd)
-        with_memory = _at_noise(mechanism, first, remembered, left_out)
-        p_value = min(contradiction_p(with_memory.solution, remembered, mechanism.parameters), reference_p)
-        if p_value < GATE_P:
-            found = replace(found, gate=Gate(False, p_value))
-        else:
-            found = replace(with_memory, gate=Gate(True, p_value), remembered=held, fleet=memory.fleet)
+        found = _remembering(found, memory)
     if isinstance(mechanism, FiveBar):
         found = replace(found, references=reference_uses(mechanism, found.solution, found.remembered))
     if impossible := mechanism.implausible(found.p):
@@ -249,6 +238,20 @@ def _identify(everything: M, memory: Memory | None) -> Identification[M]:
             "then run the diagnosis."
         )
     return found
+
+
+def _remembering(alone: Identification[M], memory: Memory) -> Identification[M]:
+    """The same with what earlier calibrations know, unless the readings contradict that."""
+    mechanism, held, reference_p = alone.mechanism, memory.references, 1.0
+    if isinstance(mechanism, FiveBar):
+        memory, reference_p = memory.informed(mechanism.robot)
+    prior = memory.prior(mechanism.parameters)
+    first = _fit(mechanism, prior, mechanism.row_sd)
+    found = _at_noise(mechanism, first, prior, alone.outliers)
+    p_value = min(contradiction_p(found.solution, prior, mechanism.parameters), reference_p)
+    if p_value < GATE_P:
+        return replace(alone, gate=Gate(False, p_value))
+    return replace(found, gate=Gate(True, p_value), remembered=held, fleet=memory.fleet)
 
 
 def _without(mechanism: M, left_out: tuple[Outlier, ...]) -> M:

@@ -7,9 +7,8 @@ from dataclasses import dataclass, fields, replace
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
-from station.records import Measurements, Real
+from station.records import Flags, Measurements, Real
 
 WARMED_BY_K = 0.05
 """A temperature column that moves less shows no warming."""
@@ -54,7 +53,7 @@ class Conditions:
     def __len__(self) -> int:
         return len(self.t_s)
 
-    def take(self, rows: NDArray[np.bool_]) -> Conditions:
+    def take(self, rows: Flags) -> Conditions:
         """Of these readings only, mask (K,)."""
         taken: dict[str, Any] = {
             f.name: value[rows]
@@ -102,7 +101,7 @@ def readings_before(m: Measurements, reference: Reference | None) -> Real:
     return came_from
 
 
-def last_way(m: Measurements, came_from: Real) -> tuple[Real, NDArray[np.bool_]]:
+def last_way(m: Measurements, came_from: Real) -> tuple[Real, Flags]:
     """(K, n) by what each joint came to its reading, rad, NaN where unknown; and (K,) where by a run-up.
 
     That is so where the recorded approach is not that of the way from the reading before.

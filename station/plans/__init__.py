@@ -9,7 +9,7 @@ from __future__ import annotations
 from station.plans import boundary, full, diagnostic_sequence, foreseen, check_positions, guided  # isort: skip  # noqa: F401
 from station.plans.check_positions import REST_P, SHIFT_P, ShiftTest
 from station.plans.diagnostic_sequence import FRESH_PLACES, SIDES, diagnostic_fresh_stops
-from station.plans.drawing import plan_as_text, plan_page
+from station.plans.drawing import STOP_COLUMNS, plan_as_text, plan_page, stop_rows
 from station.plans.duration import USUAL, Pace
 from station.plans.full import candidates, full_positions, inset_grid
 from station.plans.next_position import Contradiction, changes_of, gains, with_readings
@@ -24,6 +24,7 @@ __all__ = [
     "REST_P",
     "SHIFT_P",
     "SIDES",
+    "STOP_COLUMNS",
     "USUAL",
     "Contradiction",
     "Pace",
@@ -43,6 +44,7 @@ __all__ = [
     "plan_page",
     "predict",
     "register",
+    "stop_rows",
     "with_readings",
     "zeros_only",
 ]

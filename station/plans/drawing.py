@@ -9,6 +9,7 @@ from station.plans.plan import Plan
 from station.report import Chart, Page, Section, Table, place_map
 
 COLUMNS, ROWS = 61, 13
+STOP_COLUMNS = ("stop", "position", "x mm", "y mm", "theta1 deg", "theta2 deg", "approach")
 
 
 def plan_as_text(plan: Plan, robot: Robot) -> str:
@@ -30,6 +31,20 @@ def plan_as_text(plan: Plan, robot: Robot) -> str:
 def readings_at(plan: Plan) -> Counter[tuple[float, float]]:
     """How often each place is read."""
     return Counter(stop.target_mm for stop in plan.stops)
+
+
+def stop_rows(plan: Plan) -> list[tuple[str, ...]]:
+    """The stops in their order, by `STOP_COLUMNS`."""
+    return [
+        (
+            str(k),
+            stop.position,
+            *(f"{v:.1f}" for v in stop.target_mm),
+            *(f"{v:.4f}" for v in stop.theta_deg),
+            " ".join(f"{a:+d}" if a else "any" for a in stop.approach),
+        )
+        for k, stop in enumerate(plan.stops, start=1)
+    ]
 
 
 def plan_page(plan: Plan) -> Page:
@@ -66,19 +81,7 @@ def plan_page(plan: Plan) -> Page:
             Section(
                 heading="Order",
                 tables=[
-                    Table(
-                        ("stop", "position", "x mm", "y mm", "theta1 deg", "theta2 deg", "approach"),
-                        [
-                            (
-                                str(k + 1),
-                                s.position,
-                                *(f"{v:.1f}" for v in s.target_mm),
-                                *(f"{v:.4f}" for v in s.theta_deg),
-                                " ".join(f"{a:+d}" if a else "any" for a in s.approach),
-                            )
-                            for k, s in enumerate(plan.stops)
-                        ],
-                    )
+                    Table(STOP_COLUMNS, stop_rows(plan)),
                 ],
             ),
         ],

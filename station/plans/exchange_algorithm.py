@@ -9,9 +9,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from station.records import Complex, Real
+from station.records import Complex, Flags, Real
 
 MAX_ROUNDS = 20
 STARTS = 12
@@ -43,7 +42,7 @@ class _Problem:
     rows: Real
     information: Real
     weight: Real
-    near: NDArray[np.bool_]
+    near: Flags
     """(N, N) pairs too close to be chosen together."""
 
     def criterion(self, chosen: list[int]) -> float:
@@ -85,5 +84,5 @@ class _Problem:
         gain /= 1.0 + np.einsum("ni,ni->n", spread, self.rows)
         return int(np.argmax(np.where(self._allowed(chosen), gain, -np.inf)))
 
-    def _allowed(self, chosen: list[int]) -> NDArray[np.bool_]:
+    def _allowed(self, chosen: list[int]) -> Flags:
         return np.asarray(~self.near[chosen].any(axis=0))

@@ -24,6 +24,7 @@ from station.records.diagnosis_document import (
     DataSource,
     Dependence,
     DiagnosisDocument,
+    DiagnosisSchema,
     DiagnosisVerdict,
     EffectName,
     ErrorOfModel,
@@ -49,6 +50,7 @@ from station.records.diagnosis_document import (
     TermOfModel,
 )
 from station.records.error_map import ErrorMap, FreshReading
+from station.records.files import content_of
 from station.records.foreign_table import ForeignTable, read_foreign
 from station.records.guesses import TIME, guesses_in_words, with_guesses
 from station.records.happenings import Backlog, Delivery, DeliveryCount, DeliveryState, Event, EventType
@@ -234,6 +236,7 @@ __all__ = [
     "DeviceUsed",
     "DeviceView",
     "DiagnosisDocument",
+    "DiagnosisSchema",
     "DiagnosisVerdict",
     "EffectName",
     "EffectPoint",
@@ -362,6 +365,7 @@ __all__ = [
     "because",
     "checked_name",
     "checked_serial",
+    "content_of",
     "csv_text",
     "field_docstrings",
     "from_readings",

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, ValidationError
 
-from station.errors import InputRefused
+from station.records.files import content_of
 from station.records.sections import Finite, Section, refusal, sections_of_toml
 from station.records.units import Unit
 
@@ -59,10 +59,7 @@ class ColumnMap(Section):
     @classmethod
     def read(cls, path: Path) -> ColumnMap:
         """:raises InputRefused: missing, not TOML, or a key or value out of place."""
-        try:
-            return cls.parse(path.read_bytes(), f"Column map {path}")
-        except OSError as error:
-            raise InputRefused(f"Column map {path} cannot be read: {error.strerror}.") from error
+        return cls.parse(content_of(path, "Column map"), f"Column map {path}")
 
     @classmethod
     def parse(cls, content: bytes, source: str = "Column map") -> ColumnMap:

@@ -280,12 +280,13 @@ class MixtureDocument(_Finite):
 AnyModelDocument = Annotated[ModelDocument | MixtureDocument, Field(discriminator="schema_")]
 
 
+DiagnosisSchema = Literal["station.diagnosis/1", "station.diagnosis/2"]
+
+
 class DiagnosisDocument(Record):
     """What was found in one set of readings."""
 
-    schema_: Annotated[Literal["station.diagnosis/1", "station.diagnosis/2"], Field(alias="schema")] = (
-        "station.diagnosis/1"
-    )
+    schema_: Annotated[DiagnosisSchema, Field(alias="schema")] = "station.diagnosis/1"
     data: DataSource
     noise: NoiseOfReadings
     verdict: DiagnosisVerdict

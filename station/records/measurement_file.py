@@ -19,6 +19,7 @@ import numpy as np
 
 from station.errors import InputRefused
 from station.records.csv_cells import harmless
+from station.records.files import content_of
 from station.records.measurements import Measurements, number
 from station.records.reading import Reading
 from station.records.types import LARGEST_ID, Real
@@ -129,11 +130,7 @@ def read_measurements(path: Path, columns: Columns = FIVE_BAR) -> Measurements:
 
     :raises InputRefused: anything malformed, with row, column and what to do.
     """
-    try:
-        content = path.read_bytes()
-    except OSError as error:
-        raise InputRefused(f"{path} cannot be read: {error.strerror}.") from error
-    return parse_measurements(content, columns, source=path.name)
+    return parse_measurements(content_of(path), columns, source=path.name)
 
 
 def parse_measurements(

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from station.records.reading import Reading
 from station.records.scale_resolution import scale_resolution_mm
-from station.records.types import Index, Real
+from station.records.types import Flags, Index, Real
 
 
 @dataclass(frozen=True)
@@ -68,7 +68,7 @@ class Measurements:
     def joints(self) -> int:
         return int(self.theta.shape[1])
 
-    def take(self, rows: NDArray[np.bool_] | Index) -> Measurements:
+    def take(self, rows: Flags | Index) -> Measurements:
         """The same measurements with only these rows (mask or indices)."""
         index = np.arange(len(self))[rows]
         taken: dict[str, Any] = {

@@ -22,6 +22,7 @@ from station.records import (
     CalibrationSummary,
     CheckFound,
     MeasurementSequence,
+    Outcome,
     Procedure,
     Reading,
     because,
@@ -30,7 +31,7 @@ from station.records import (
 )
 from station.run_kinds.apply import source_of
 from station.run_kinds.fits import wandered
-from station.run_kinds.kind import RUN_KINDS, RunKind, Start, register
+from station.run_kinds.kind import RunKind, Start, has_offsets, register
 from station.run_kinds.zero_state import application
 from station.store import Store
 
@@ -40,14 +41,13 @@ MOST_LOOKED_AT = 500
 def compared_with(store: Store, serial: str) -> CalibrationSummary | None:
     """The last applied run of a robot, else its last pass; None where there is neither."""
     passes = store.calibrations(limit=MOST_LOOKED_AT, robot_serial=serial, verdict="pass").items
-    offsets = [run for run in passes if (kind := RUN_KINDS.get(run.kind)) and kind.offsets]
     for run in passes:
         if run.kind == "apply" and run.of is not None:
             applied = store.summary(run.of)
             known = application(store, applied)
             if known is not None and known.state == "applied":
                 return applied
-    return offsets[0] if offsets else None
+    return next((run for run in passes if has_offsets(run)), None)
 
 
 def check_check(store: Store, request: CalibrationRequest) -> None:
@@ -92,32 +92,29 @@ def check_run(fit: Identification[FiveBar], age_days: float, until: datetime) ->
     smallest_deg, shift_deg = np.degrees(test.smallest()), np.degrees(shift)
     direction, blind = test.blind()
     together = "both arms together" if direction[0] * direction[1] > 0 else "one arm against the other"
-    passed = bool(shift_p >= SHIFT_P and rest_p >= REST_P)
-    if passed:
-        reason = because("still_calibrated", smallest_deg=float(smallest_deg.max()))
+    smallest_shift_deg = float(smallest_deg.max())
+    outcome: Outcome
+    if shift_p >= SHIFT_P and rest_p >= REST_P:
+        outcome, reason = "good", because("still_calibrated", smallest_deg=smallest_shift_deg)
     elif shift_p < SHIFT_P:
-        reason = because(
-            "zero_shifted",
-            shift1_deg=float(shift_deg[0]),
-            shift2_deg=float(shift_deg[1]),
-            smallest_deg=float(smallest_deg.max()),
-        )
+        shifts = {"shift1_deg": float(shift_deg[0]), "shift2_deg": float(shift_deg[1])}
+        outcome, reason = "repair", because("zero_shifted", **shifts, smallest_deg=smallest_shift_deg)
     else:
-        reason = because("not_as_calibrated", p=rest_p)
+        outcome, reason = "unexplained", because("not_as_calibrated", p=rest_p)
     return CalibrationResult(
-        verdict="pass" if passed else "fail",
-        outcome="good" if passed else "repair" if shift_p < SHIFT_P else "unexplained",
+        verdict="pass" if outcome == "good" else "fail",
+        outcome=outcome,
         reason=reason,
         method="check",
         zero_offsets=(),
         check=CheckFound(
-            smallest_shift_deg=float(smallest_deg.max()),
+            smallest_shift_deg=smallest_shift_deg,
             smallest_by_joint_deg=(float(smallest_deg[0]), float(smallest_deg[1])),
             shift_deg=(float(shift_deg[0]), float(shift_deg[1])),
             p_value=min(shift_p, rest_p),
             blind=together,
             blind_shift_deg=float(np.degrees(blind)),
-            valid_until=until if passed else None,
+            valid_until=until if outcome == "good" else None,
         ),
         residuals=residual_rows(readings, difference, LIMIT_SDS * difference_sd),
     )

@@ -43,12 +43,6 @@ def design_of(store: Store, run: int) -> StudyDesign:
     return request.study or StudyDesign()
 
 
-def finished_mountings(readings: list[Reading], design: StudyDesign, stops: int) -> int:
-    """How many mountings were measured to their end; each sequence has so many stops."""
-    taken = np.bincount([reading.sequence for reading in readings], minlength=1)[1:]
-    return int(np.sum(taken == stops)) // design.repeats
-
-
 def gauge_study(start: Start) -> Procedure:
     """The procedure, not yet started."""
     design = start.request.study or StudyDesign()

@@ -13,7 +13,16 @@ from types import MappingProxyType
 
 from station.five_bar import Robot
 from station.plans import PLANS, Pace
-from station.records import Asked, Beforehand, Calibration, CalibrationRequest, PlanName, Procedure, Reading
+from station.records import (
+    Asked,
+    Beforehand,
+    Calibration,
+    CalibrationRequest,
+    CalibrationSummary,
+    PlanName,
+    Procedure,
+    Reading,
+)
 from station.settings import LimitSettings
 from station.store import Store
 
@@ -128,6 +137,12 @@ def register(kind: RunKind) -> RunKind:
 def kind_of_plan(plan: PlanName) -> str:
     """The name of the kind that measures by a plan."""
     return PLANS[plan].run_kind
+
+
+def has_offsets(run: CalibrationSummary) -> bool:
+    """Whether a pass of its kind has zero offsets to write; the history may hold kinds that are no more."""
+    kind = RUN_KINDS.get(run.kind)
+    return kind is not None and kind.offsets
 
 
 def request_of(store: Store, run: int) -> CalibrationRequest:

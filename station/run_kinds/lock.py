@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from station.errors import NotApplicable
 from station.records import CalibrationHolds, CalibrationSummary
-from station.run_kinds.kind import RUN_KINDS
+from station.run_kinds.kind import has_offsets
 from station.store import Store
 
 CLEARED = "check_cleared"
@@ -42,8 +42,7 @@ def _newest(store: Store, serial: str) -> CalibrationSummary | None:
     """
     passed = None
     for run in store.calibrations(limit=MOST_LOOKED_AT, robot_serial=serial).items:
-        kind = RUN_KINDS.get(run.kind)  # the history may hold kinds that are no more
-        if run.verdict == "pass" and kind is not None and kind.offsets:
+        if run.verdict == "pass" and has_offsets(run):
             return passed
         if run.kind == "check" and run.verdict == "pass" and passed is None:
             passed = run

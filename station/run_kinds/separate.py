@@ -38,7 +38,7 @@ class Planned:
 
 
 def planned(store: Store, calibration_id: int) -> Planned:
-    """The experiment that separates what a run found from its look-alikes.
+    """The experiment that separates what a run found from its aliases.
 
     :raises NotFound: no such run, or it has no diagnosis.
     :raises NotApplicable: there is none, or the machine is no longer the one that was measured; says why.
@@ -77,7 +77,7 @@ def separate(start: Start) -> Procedure:
 def separating(
     robot: Robot, readings: list[Reading]
 ) -> Generator[MeasurementSequence, list[Reading], CalibrationResult]:
-    """Read where the look-alikes differ most, and judge by fresh readings what is left of them.
+    """Read where the aliases differ most, and judge by fresh readings what is left of them.
 
     :param readings: all of the diagnostic run
     """

@@ -19,7 +19,7 @@ from station.records import (
     ZeroOffset,
     ZeroWrite,
 )
-from station.run_kinds.kind import RUN_KINDS
+from station.run_kinds.kind import RUN_KINDS, has_offsets
 from station.run_kinds.lock import check_not_locked
 from station.store import Store
 
@@ -35,7 +35,7 @@ _TEXTS: dict[ApplicationState, str] = {
 
 def application(store: Store, calibration: CalibrationSummary) -> Application | None:
     """What the drives hold of a calibration; None where there is nothing to apply."""
-    if calibration.verdict != "pass" or not RUN_KINDS[calibration.kind].offsets:
+    if calibration.verdict != "pass" or not has_offsets(calibration):
         return None
     runs = store.runs_of(calibration.id)
     writes = _writes(store, calibration)
@@ -100,8 +100,9 @@ def _applicable(store: Store, calibration_id: int) -> CalibrationSummary:
     calibration = store.summary(calibration_id)
     if calibration.of is not None:
         raise NotApplicable(f"Run {calibration_id} is no calibration; it belongs to run {calibration.of}.")
-    if not RUN_KINDS[calibration.kind].offsets:
-        kind = display_name("run_kinds", calibration.kind).lower()
+    if not has_offsets(calibration):
+        known = calibration.kind in RUN_KINDS
+        kind = display_name("run_kinds", calibration.kind).lower() if known else calibration.kind
         raise NotApplicable(
             f"Run {calibration_id} is of kind {kind}, not a calibration; calibrate to have offsets to write."
         )

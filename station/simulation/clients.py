@@ -13,6 +13,7 @@ from station.simulation.plant import NotRunning, Plant
 
 API = "/api/v1"
 _HOST = b"127.0.0.1:8000"
+_UNAUTHORIZED = 401
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,30 +54,57 @@ class Client:
         :param key: of idempotency
         :raises NotRunning: the station does not run, or was killed before it had answered
         """
-        content = b"" if body is None else json.dumps(body).encode()
-        headers = {**self.headers, **({"Idempotency-Key": key} if key else {})}
-        if body is not None:
-            headers |= {"Content-Type": "application/json", "Content-Length": str(len(content))}
-        scope: Scope = {
-            "type": "http",
-            "asgi": {"version": "3.0", "spec_version": "2.3"},
-            "http_version": "1.1",
-            "method": method,
-            "scheme": "http",
-            "path": f"{API}{path}",
-            "raw_path": f"{API}{path}".encode(),
-            "root_path": "",
-            "query_string": query.encode(),
-            "headers": [(b"host", _HOST), *((k.lower().encode(), v.encode()) for k, v in headers.items())],
-            "client": (self.address, 50_000),
-            "server": ("127.0.0.1", 8000),
-            "state": {},
-        }
-        exchange = _Exchange(content)
-        self.plant.serve(scope, exchange)
+        request = Request(method, path, body, key, query)
+        answer = self._ask(request)
+        return self._ask(request) if answer.status == _UNAUTHORIZED and self._sign_in() else answer
+
+    def _sign_in(self) -> bool:
+        """After a refusal: whether there is something else to show now."""
+        return False
+
+    def _ask(self, request: Request) -> Answer:
+        """Once, with what there is to show.  :raises NotRunning:"""
+        exchange = _Exchange(request.content)
+        self.plant.serve(request.scope(self.headers, self.address), exchange)
         if not exchange.done:
             raise NotRunning
         return exchange.answer
+
+
+@dataclass(frozen=True, slots=True)
+class Request:
+    """What is asked for, whoever asks."""
+
+    method: str
+    path: str
+    body: Mapping[str, object] | None = None
+    key: str | None = None
+    query: str = ""
+
+    @property
+    def content(self) -> bytes:
+        return b"" if self.body is None else json.dumps(self.body).encode()
+
+    def scope(self, shown: Mapping[str, str], address: str) -> Scope:
+        """:param shown: headers that say who asks"""
+        headers = {**shown, **({"Idempotency-Key": self.key} if self.key else {})}
+        if self.body is not None:
+            headers |= {"Content-Type": "application/json", "Content-Length": str(len(self.content))}
+        return {
+            "type": "http",
+            "asgi": {"version": "3.0", "spec_version": "2.3"},
+            "http_version": "1.1",
+            "method": self.method,
+            "scheme": "http",
+            "path": f"{API}{self.path}",
+            "raw_path": f"{API}{self.path}".encode(),
+            "root_path": "",
+            "query_string": self.query.encode(),
+            "headers": [(b"host", _HOST), *((k.lower().encode(), v.encode()) for k, v in headers.items())],
+            "client": (address, 50_000),
+            "server": ("127.0.0.1", 8000),
+            "state": {},
+        }
 
 
 class _Exchange:

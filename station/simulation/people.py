@@ -9,35 +9,24 @@ from typing import Any
 
 from station.people import Administration, NewUser
 from station.records import Actor
-from station.simulation.clients import Answer, Client
+from station.simulation.clients import Answer, Client, Request
 from station.simulation.plant import Plant
 from station.store import Store
 
 _PASSWORD = "correct horse battery"  # noqa: S105 - of somebody who does not exist
 _ROOT = Actor(name="root", via="terminal")
-_UNAUTHORIZED = 401
 
 
 @dataclass
 class Operator(Client):
     """Signs in with a password whenever a session is refused."""
 
-    def send(
-        self,
-        method: str,
-        path: str,
-        body: Mapping[str, object] | None = None,
-        *,
-        key: str | None = None,
-        query: str = "",
-    ) -> Answer:
-        answer = super().send(method, path, body, key=key, query=query)
-        if answer.status == _UNAUTHORIZED:
-            signed_in = super().send("POST", "/session", {"name": self.name, "password": _PASSWORD})
-            if signed_in.cookie is not None:
-                self.headers["Cookie"] = signed_in.cookie
-                answer = super().send(method, path, body, key=key, query=query)
-        return answer
+    def _sign_in(self) -> bool:
+        answer = self._ask(Request("POST", "/session", {"name": self.name, "password": _PASSWORD}))
+        if answer.cookie is None:
+            return False
+        self.headers["Cookie"] = answer.cookie
+        return True
 
 
 @dataclass

@@ -6,17 +6,16 @@ and both are forgotten together.  The database refuses every other change of an 
 
 from __future__ import annotations
 
-import hashlib
 import json
 import secrets
 import sqlite3
 from collections.abc import Mapping
 from datetime import UTC, datetime
 
-import rfc8785
 from pydantic import JsonValue
 
 from station.records import Actor, AuditChecked, AuditEntry
+from station.store.chain import link_hash, sha256
 from station.store.kept_file import KeptFile
 from station.store.rows import compact, millis
 from station.store.times import now_ms
@@ -53,7 +52,7 @@ class AuditTrail(KeptFile):
             row = {
                 "n": last[0] + 1,
                 "at_ms": now_ms() if at is None else millis(at),
-                "who_sha256": _sha256(f"{salt} {by.name}".encode()),
+                "who_sha256": sha256(f"{salt} {by.name}".encode()),
                 "via": by.via,
                 "role": by.role,
                 "action": action,
@@ -64,7 +63,7 @@ class AuditTrail(KeptFile):
             db.execute(
                 f"INSERT INTO audit ({', '.join(_HASHED)}, who, salt, hash)"
                 f" VALUES ({', '.join('?' * len(_HASHED))}, ?, ?, ?)",
-                [*row.values(), by.name, salt, _link(last[1], row)],
+                [*row.values(), by.name, salt, link_hash(last[1], row)],
             )
 
     def audit(self, *, limit: int = 100, cursor: int | None = None, contains: str = "") -> list[AuditEntry]:
@@ -84,8 +83,8 @@ class AuditTrail(KeptFile):
         head, count = "", 0
         for row in self._readers.all("SELECT * FROM audit ORDER BY n"):
             named = row["who"] is not None
-            same_name = not named or _sha256(f"{row['salt']} {row['who']}".encode()) == row["who_sha256"]
-            whole = row["n"] == count + 1 and _link(head, {c: row[c] for c in _HASHED}) == row["hash"]
+            same_name = not named or sha256(f"{row['salt']} {row['who']}".encode()) == row["who_sha256"]
+            whole = row["n"] == count + 1 and link_hash(head, {c: row[c] for c in _HASHED}) == row["hash"]
             if not (whole and same_name):
                 return AuditChecked(entries=count, head=head, broken=row["n"])
             head, count = row["hash"], count + 1
@@ -114,11 +113,3 @@ def _entry(row: sqlite3.Row) -> AuditEntry:
         after=json.loads(row["after"]) if row["after"] else None,
         hash=row["hash"],
     )
-
-
-def _link(previous: str, row: Mapping[str, str | int | None]) -> str:
-    return _sha256(previous.encode() + rfc8785.dumps(dict(row)))
-
-
-def _sha256(data: bytes) -> str:
-    return hashlib.sha256(data).hexdigest()

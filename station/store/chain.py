@@ -9,7 +9,7 @@ retention may drop them.
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -132,31 +132,31 @@ def record_of(ask: Ask, run: int, samples_sha256: str, wire_sha256: str | None =
     logs = ask(f"SELECT {', '.join(_LOG)}, content FROM logs WHERE run_id = ? ORDER BY part", [run])
     if logs:
         kept = [
-            dict(zip((*_LOG, "content_sha256"), (*own, _sha256(content)), strict=True))
+            dict(zip((*_LOG, "content_sha256"), (*own, sha256(content)), strict=True))
             for *own, content in logs
         ]
         version = {"version": 4, "logs": kept}
     return {
         **version,
         **dict(zip(_RUN, values, strict=True)),
-        "robot_sha256": _sha256(robot[0][0].encode()) if robot else None,
+        "robot_sha256": sha256(robot[0][0].encode()) if robot else None,
         "readings": [dict(zip(_READING, reading, strict=True)) for reading in readings],
         "samples_sha256": samples_sha256,
         "result": result[0][0] if result else None,
-        "diagnosis_sha256": _sha256(result[0][1]) if result and result[0][1] is not None else None,
+        "diagnosis_sha256": sha256(result[0][1]) if result and result[0][1] is not None else None,
     }
 
 
 def samples_hash(ask: Ask, run: int) -> str:
     """Of the single samples of all readings of a run, in order."""
     rows = ask("SELECT samples FROM readings WHERE calibration_id = ? ORDER BY reading", [run])
-    return _sha256(rfc8785.dumps([row[0] for row in rows]))
+    return sha256(rfc8785.dumps([row[0] for row in rows]))
 
 
 def wire_hash(ask: Ask, run: int) -> str | None:
     """Of all pieces of the wire log of a run, in order; None where there is none."""
     pieces = ask("SELECT piece FROM wire_logs WHERE run_id = ? ORDER BY n", [run])
-    return _sha256(b"".join(piece[0] for piece in pieces)) if pieces else None
+    return sha256(b"".join(piece[0] for piece in pieces)) if pieces else None
 
 
 def _broken(ask: Ask, run: int, samples: str, wire: str | None, previous: str, expected: str) -> str | None:
@@ -175,10 +175,11 @@ def _broken(ask: Ask, run: int, samples: str, wire: str | None, previous: str, e
     return None
 
 
-def link_hash(previous: str, record: dict[str, Any]) -> str:
+def link_hash(previous: str, record: Mapping[str, Any]) -> str:
     """Of a record after the one before it."""
-    return _sha256(previous.encode() + rfc8785.dumps(record))
+    return sha256(previous.encode() + rfc8785.dumps(dict(record)))
 
 
-def _sha256(data: bytes) -> str:
+def sha256(data: bytes) -> str:
+    """In hexadecimal."""
     return hashlib.sha256(data).hexdigest()

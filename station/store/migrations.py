@@ -318,6 +318,16 @@ def process_control(db: Database) -> None:
     )
 
 
+# The migration below makes the rows of the runs before it, `keep_result` those of each run since.  A later
+# migration that changes the table leaves this text as it is and gives `keep_result` one of its own.
+INSERT_FINDINGS = """INSERT INTO findings SELECT calibration_id, finding.key, parameter.key,
+    finding.value ->> '$.effect', finding.value ->> '$.joint', finding.value ->> '$.part',
+    finding.value ->> '$.probability', finding.value ->> '$.p_value', parameter.value ->> '$.name',
+    parameter.value ->> '$.value', parameter.value ->> '$.sd', parameter.value ->> '$.unit'
+    FROM results, json_each(result, '$.findings') finding,
+        json_each(finding.value, '$.parameters') parameter"""
+
+
 @migrations()
 def findings(db: Database) -> None:
     """What was found is asked for across runs: one row a parameter of an effect."""
@@ -328,15 +338,7 @@ def findings(db: Database) -> None:
             parameter TEXT, value REAL, sd REAL, unit TEXT,
             PRIMARY KEY (calibration_id, finding, n)) WITHOUT ROWID"""
     )
-    db.execute(
-        """INSERT INTO findings SELECT calibration_id, finding.key, parameter.key,
-            finding.value ->> '$.effect', finding.value ->> '$.joint', finding.value ->> '$.part',
-            finding.value ->> '$.probability', finding.value ->> '$.p_value', parameter.value ->> '$.name',
-            parameter.value ->> '$.value', parameter.value ->> '$.sd', parameter.value ->> '$.unit'
-            FROM results, json_each(result, '$.findings') finding,
-                json_each(finding.value, '$.parameters') parameter
-            ORDER BY calibration_id"""
-    )
+    db.execute(f"{INSERT_FINDINGS} ORDER BY calibration_id")
 
 
 @migrations()

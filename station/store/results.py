@@ -5,14 +5,8 @@ from __future__ import annotations
 from sqlite_utils import Database
 
 from station.records import CalibrationResult
+from station.store.migrations import INSERT_FINDINGS
 from station.store.rows import pack_document, result_row
-
-_FINDINGS = """INSERT INTO findings SELECT calibration_id, finding.key, parameter.key,
-    finding.value ->> '$.effect', finding.value ->> '$.joint', finding.value ->> '$.part',
-    finding.value ->> '$.probability', finding.value ->> '$.p_value', parameter.value ->> '$.name',
-    parameter.value ->> '$.value', parameter.value ->> '$.sd', parameter.value ->> '$.unit'
-    FROM results, json_each(result, '$.findings') finding, json_each(finding.value, '$.parameters') parameter
-    WHERE calibration_id = ?"""
 
 
 def keep_result(db: Database, run: int, result: CalibrationResult) -> None:
@@ -23,4 +17,4 @@ def keep_result(db: Database, run: int, result: CalibrationResult) -> None:
         [run, *result_row(result), pack_document(result.diagnosis)],
     )
     if result.findings:
-        db.execute(_FINDINGS, [run])
+        db.execute(f"{INSERT_FINDINGS} WHERE calibration_id = ?", [run])

@@ -74,12 +74,17 @@ def zero_offsets(rng: np.random.Generator) -> Real:
     return np.radians(rng.uniform(-LARGEST_ZERO_OFFSET_DEG, LARGEST_ZERO_OFFSET_DEG, 2))
 
 
-def drawn(robot: Robot, seed: int) -> tuple[Drawn, np.random.Generator]:
-    """Machine number `seed` of a robot's tolerances, and the generator for what happens to it."""
-    rng = np.random.default_rng([seed, 16])
+def errors_of(robot: Robot, rng: np.random.Generator) -> Real:
+    """(12,) of a machine made to the tolerances of a robot, mm and rad."""
     truth = np.zeros(SIZE)
     truth[:2] = zero_offsets(rng)
     truth[2:6] = rng.normal(0.0, robot.tolerances.e_mm, 4)
     truth[6:10] = rng.normal(0.0, robot.tolerances.link_mm, 4)
     truth[10:] = rng.normal(robot.drm, robot.drm_sd)
-    return Drawn(robot, truth, seed), rng
+    return truth
+
+
+def drawn(robot: Robot, seed: int) -> tuple[Drawn, np.random.Generator]:
+    """Machine number `seed` of a robot's tolerances, and the generator for what happens to it."""
+    rng = np.random.default_rng([seed, 16])
+    return Drawn(robot, errors_of(robot, rng), seed), rng

@@ -15,11 +15,10 @@ import warnings
 from importlib.util import find_spec
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.diagnosis import TracedDiagnosis
 from station.mechanism import by_reading
-from station.records import Measurements, Real
+from station.records import Flags, Measurements, Real
 
 HARMONICS = 40
 PENALTIES = np.logspace(-4.0, 4.0, 17)
@@ -28,7 +27,7 @@ FOR_THE_COVARIANCE = 400
 """Readings, evenly spread, by which the covariance is chosen: its time grows with their cube."""
 
 
-def pipelines(d: TracedDiagnosis, kept: NDArray[np.bool_]) -> dict[str, float]:
+def pipelines(d: TracedDiagnosis, kept: Flags) -> dict[str, float]:
     """RMS in mm of the fresh readings `kept` (F,), by name; none without scikit-learn (extra `studies`)."""
     if d.fresh is None or find_spec("sklearn") is None:
         return {}

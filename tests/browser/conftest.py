@@ -18,6 +18,7 @@ import httpx2 as httpx
 import pytest
 from playwright.sync_api import Browser, BrowserContext, Page, Route, sync_playwright
 
+from tests.waiting import soon
 from web import pages
 
 ROOT = Path(__file__).parents[2]
@@ -28,6 +29,7 @@ FLAGS = [
 SMALL, LARGE = {"width": 1024, "height": 768}, {"width": 1280, "height": 800}
 BUILT_PAGE = (pages.STATIC / "index.html").is_file(), "the built page (npm run build in web/ui)"
 END_LIMIT_S = 15.0
+RUN_LIMIT_S = 120.0
 RECORD = "STATION_RECORD"
 """Environment variable: folder in which each test leaves a trace and its last picture."""
 
@@ -83,6 +85,17 @@ class Station:
 
     def get(self, path: str) -> Any:
         return self.api.get(path).json()
+
+    def complete(self, **body: object) -> dict[str, Any]:
+        """A run, started as a MES does; as it is once it has ended."""
+        asked = {"operator": "mes", **body}
+        run = self.api.post("/calibrations", json=asked).raise_for_status().json()["id"]
+
+        def ended() -> dict[str, Any] | None:
+            found: dict[str, Any] = self.get(f"/calibrations/{run}")
+            return None if found["state"] in ("queued", "running") else found
+
+        return soon(ended, within_s=RUN_LIMIT_S)
 
     def freeze(self) -> None:
         self.process.send_signal(signal.SIGSTOP)

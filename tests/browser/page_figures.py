@@ -17,8 +17,8 @@ from tempfile import TemporaryDirectory
 from playwright.sync_api import Browser, Page, sync_playwright
 
 from station.settings import database_path
-from station.studies.bench.served import SETTINGS, serving
-from station.studies.bench.service import _fill, _json, _run_times, connected
+from station.studies.bench import SETTINGS, ask, connected, run_times, serving
+from station.studies.long_history import lengthen
 from tests.browser.conftest import FLAGS, SMALL
 
 COLD_STARTS, RUNS, LOOKS = 20, 500, 20
@@ -79,8 +79,8 @@ def kept_open(page: Page, port: int) -> tuple[list[float], list[tuple[float, int
             if number == RUNS:
                 break
             body = {"robot_serial": "B-1", "plan": "paper", "operator": "bench"}
-            _json(http, "POST", "/api/v1/calibrations", body)
-            while _json(http, "GET", "/api/v1/station")["run"] is not None:
+            ask(http, "POST", "/api/v1/calibrations", body)
+            while ask(http, "GET", "/api/v1/station")["run"] is not None:
                 time.sleep(0.01)
     return page.evaluate("window.taken"), memory
 
@@ -102,8 +102,8 @@ def looks(page: Page, url: str) -> list[float]:
 def with_history(browser: Browser, count: int) -> list[float]:
     with TemporaryDirectory() as folder:
         home = Path(folder)
-        _run_times(home, 1)
-        _fill(database_path(SETTINGS, home), count)
+        run_times(home, 1)
+        lengthen(database_path(SETTINGS, home), count, readings=False)
         with serving(home) as port:
             page = browser.new_context(viewport=SMALL).new_page()  # type: ignore[arg-type]
             times = looks(page, f"http://127.0.0.1:{port}/")

@@ -68,12 +68,7 @@ def run_to_end(page: Page, serial: str = "FB-7", plan: str = "paper") -> None:
 
 def add_run(station: Station, serial: str = "FB-7") -> dict[str, Any]:
     """A complete run, started as the MES does."""
-    body = {"robot_serial": serial, "plan": "paper", "operator": "mes"}
-    run = station.api.post("/calibrations", json=body).raise_for_status().json()
-    while station.get(f"/calibrations/{run['id']}")["state"] in ("queued", "running"):
-        time.sleep(0.05)
-    found: dict[str, Any] = station.get(f"/calibrations/{run['id']}")
-    return found
+    return station.complete(robot_serial=serial, plan="paper")
 
 
 def violations(page: Page) -> Any:

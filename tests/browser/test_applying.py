@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import time
-
 from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import Station
@@ -57,12 +55,10 @@ def test_stop_is_at_hand_while_offsets_are_written(page: Page, slow_station: Sta
 
 
 def test_what_is_remembered_can_be_forgotten(page: Page, station: Station) -> None:
-    body = {"robot_serial": "FB-M", "plan": "rapid", "operator": "mes"}
     for _ in range(2):
-        run = station.api.post("/calibrations", json=body).raise_for_status().json()["id"]
-        while (ended := station.get(f"/calibrations/{run}"))["state"] in ("queued", "running"):
-            time.sleep(0.05)
+        ended = station.complete(robot_serial="FB-M", plan="rapid")
         assert ended["verdict"] == "pass"
+    run = ended["id"]
     page.goto(f"{station.url}/result/{run}?open=memory")
     memory = page.locator(".memory")
     expect(memory).to_contain_text("Used: geometry and mechanism as earlier calibrations found them")

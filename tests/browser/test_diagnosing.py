@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 import re
-import time
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -145,10 +144,7 @@ def numbers(row: Locator) -> list[float]:
 
 def test_every_ordering_is_drawn_and_kept_in_the_address(page: Page, serve: Serve) -> None:
     station = serve(speed=FAST, rig=RIGS / "backlash.toml")
-    body = {"robot_serial": "FB-D", "plan": "diagnostic", "operator": "ada"}
-    run = station.api.post("/calibrations", json=body).raise_for_status().json()["id"]
-    while station.get(f"/calibrations/{run}")["state"] in ("queued", "running"):
-        time.sleep(0.05)
+    run = station.complete(robot_serial="FB-D", plan="diagnostic", operator="ada")["id"]
     for size in (SMALL, LARGE):
         page.set_viewport_size(size)  # type: ignore[arg-type]
         page.goto(f"{station.url}/diagnosis/{run}?by=travel")

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import time
 from collections.abc import Iterator
 from io import BytesIO
 from typing import Any
@@ -54,10 +53,7 @@ def lived(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Station]:
     needed(*BUILT_PAGE)
     station = Station(tmp_path_factory.mktemp("lived"), speed=1000.0)
     for robot, accuracy in RUNS:
-        body = {"robot_serial": robot, "plan": "rapid", "operator": "ada", "accuracy_mm": accuracy}
-        run = station.api.post("/calibrations", json=body).raise_for_status().json()["id"]
-        while station.get(f"/calibrations/{run}")["state"] in ("queued", "running"):
-            time.sleep(0.02)
+        station.complete(robot_serial=robot, plan="rapid", operator="ada", accuracy_mm=accuracy)
     sequence = to_csv(Drawn({"kind": "backlash", "joint": 1, "width_deg": 0.02}).sequence())
     station.api.post("/datasets", files={"file": ("log.csv", sequence)}).raise_for_status()
     yield station

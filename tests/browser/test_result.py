@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import time
 
 import pytest
 from playwright.sync_api import Page, expect
@@ -16,11 +15,7 @@ MOST_BYTES = 250_000
 
 def calibrated(station: Station, **more: object) -> int:
     """A complete run of plan `full` with a wanted accuracy, as the MES asks for it."""
-    body = {"robot_serial": "FB-R", "plan": "rapid", "operator": "mes", **more}
-    run = station.api.post("/calibrations", json=body).raise_for_status().json()["id"]
-    while station.get(f"/calibrations/{run}")["state"] in ("queued", "running"):
-        time.sleep(0.05)
-    return int(run)
+    return int(station.complete(**{"robot_serial": "FB-R", "plan": "rapid", **more})["id"])
 
 
 @pytest.mark.parametrize(

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import time
 from base64 import b64encode
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
@@ -19,6 +18,7 @@ from tests.browser.conftest import BUILT_PAGE, SMALL, Station, needed
 from tests.browser.looks import foreign_words, spoiled, trouble_with
 from tests.browser.steps import HOLD_MS, add_run, violations
 from tests.browser.test_languages import PHONE, WORDS
+from tests.waiting import soon
 
 Pages = dict[str, Page]
 OUTSIDE = {"shaft_pulses": [-25000, -22222], "zero_pulses": [0, 0]}
@@ -159,8 +159,7 @@ def test_an_exercise_looks_as_in_its_picture(pages: Pages, desk: Station) -> Non
 def test_a_question_looks_as_in_its_picture(pages: Pages, desk: Station) -> None:
     body = {"robot_serial": "FB-7", "plan": "reference", "operator": "ada"}
     run = desk.api.post("/calibrations", json=body).raise_for_status().json()["id"]
-    while desk.get(f"/calibrations/{run}")["state"] != "waiting":
-        time.sleep(0.02)
+    soon(lambda: desk.get(f"/calibrations/{run}")["state"] == "waiting")
     show(pages, desk, "/", ".prompt #answer")
     look_at(pages, "waiting")
     desk.api.post(f"/calibrations/{run}/abort").raise_for_status()

@@ -33,6 +33,11 @@ NEW_CONNECTION: tuple[bytes, bytes] = (b"", b"")
 Exchange = tuple[bytes, bytes | Say]
 
 
+def unanswered(exchange: Exchange) -> Exchange:
+    """The same request, and silence."""
+    return exchange[0], SILENCE
+
+
 class _FarEnd:
     """Plays exchanges from a thread; leaving the `with` block fails unless all took place exactly."""
 

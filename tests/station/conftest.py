@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import threading
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack
 from pathlib import Path
@@ -14,17 +13,15 @@ from station.settings import LimitSettings, Settings
 from station.store.store import Store
 from tests.station.asking import ProcedureFactory, kinds_with
 from tests.station.fakes import Rig, make_rig, two_sequences
+from tests.waiting import all_threads_end
 
 SETTINGS = Settings(limits=LimitSettings(settle_s=0.1, samples=2))
 
 
 @pytest.fixture(autouse=True)
 def no_thread_left() -> Iterator[None]:
-    before = set(threading.enumerate())
-    yield
-    for thread in set(threading.enumerate()) - before:
-        thread.join(5)
-        assert not thread.is_alive(), thread.name
+    with all_threads_end():
+        yield
 
 
 @pytest.fixture

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import socket
 import threading
-import time
 from collections.abc import Iterator
 from contextlib import ExitStack, contextmanager
 from dataclasses import dataclass
@@ -17,6 +16,7 @@ from argon2 import PasswordHasher
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
+from station.motion import EmulatedRig
 from station.people import new_secret, passwords, secret_hash
 from station.records import Actor, Role
 from station.service.orchestrator import Orchestrator
@@ -26,6 +26,7 @@ from station.store.store import Store
 from tests.station.asking import kinds_with
 from tests.station.conftest import SETTINGS
 from tests.station.fakes import Rig, make_rig, two_sequences
+from tests.waiting import all_threads_end, soon
 from web.app import create_app
 
 passwords._hasher = PasswordHasher(time_cost=1, memory_cost=8, parallelism=1)
@@ -38,15 +39,6 @@ LIMIT_S = 10.0
 def no_thread_left() -> Iterator[None]:
     with all_threads_end():
         yield
-
-
-@contextmanager
-def all_threads_end() -> Iterator[None]:
-    before = set(threading.enumerate())
-    yield
-    for thread in set(threading.enumerate()) - before:
-        thread.join(5)
-        assert not thread.is_alive(), thread.name
 
 
 @dataclass
@@ -92,10 +84,7 @@ class Service:
 
     def wait_for(self, call: str, times: int = 1) -> None:
         """Until the worker has made this call to a device so many times."""
-        deadline = time.monotonic() + LIMIT_S
-        while self.rig.script.calls.count(call) < times:
-            assert time.monotonic() < deadline, f"no {call}"
-            time.sleep(0.005)
+        soon(lambda: self.rig.script.calls.count(call) >= times, f"no {call}")
 
 
 @pytest.fixture
@@ -111,6 +100,13 @@ def closed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Service]
     service = ServiceSettings(open=False)
     with a_service(tmp_path, monkeypatch, SETTINGS.model_copy(update={"service": service})) as made:
         yield made
+
+
+@pytest.fixture(scope="module")
+def emulated_rig(tmp_path_factory: pytest.TempPathFactory) -> Iterator[EmulatedRig]:
+    emulated = EmulatedRig(None, tmp_path_factory.mktemp("rig") / "state.json", 50.0)
+    yield emulated
+    emulated.close()
 
 
 @contextmanager
@@ -139,10 +135,7 @@ def a_runtime(tmp_path: Path, settings: Settings = SETTINGS) -> Iterator[tuple[R
 
 def _wait_for_devices(orchestrator: Orchestrator) -> None:
     """Until they are connected: a stop before that is confirmed by nobody."""
-    deadline = time.monotonic() + LIMIT_S
-    while [device for device in orchestrator.snapshot().devices if device.state == "unknown"]:
-        assert time.monotonic() < deadline
-        time.sleep(0.005)
+    soon(lambda: all(device.state != "unknown" for device in orchestrator.snapshot().devices))
 
 
 @contextmanager
@@ -155,9 +148,8 @@ def listening(app: FastAPI) -> Iterator[int]:
         thread = threading.Thread(target=server.run, kwargs={"sockets": [listener]})
         thread.start()
         try:
-            while not server.started:
-                assert thread.is_alive()
-                time.sleep(0.005)
+            soon(lambda: server.started or not thread.is_alive())
+            assert server.started
             yield int(listener.getsockname()[1])
         finally:
             server.should_exit = True

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 from typing import Any
 
@@ -14,6 +13,7 @@ from station.service.orchestrator import Orchestrator
 from tests.station.asking import asked, kinds_with
 from tests.station.conftest import SETTINGS
 from tests.station.fakes import STOPS, result_of
+from tests.waiting import soon
 from tests.web.conftest import LIMIT_S, Service
 
 
@@ -34,13 +34,11 @@ def asking(service: Service) -> Iterator[Service]:
 
 
 def waiting(service: Service, run: int) -> dict[str, Any]:
-    deadline = time.monotonic() + LIMIT_S
-    while True:
+    def asked() -> dict[str, Any] | None:
         body: dict[str, Any] = service.client.get(f"/api/v1/calibrations/{run}").json()
-        if body["state"] == "waiting" and body["prompt"]:
-            return body
-        assert time.monotonic() < deadline
-        time.sleep(0.01)
+        return body if body["state"] == "waiting" and body["prompt"] else None
+
+    return soon(asked)
 
 
 def test_a_prompt_is_shown_and_answered(asking: Service) -> None:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
@@ -12,6 +11,7 @@ from fastapi.testclient import TestClient
 
 from station.service import Runtime
 from station.settings import Settings
+from tests.waiting import soon
 from tests.web.conftest import Service
 from web.app import create_app
 
@@ -37,10 +37,7 @@ def sentences(found: dict[str, Any]) -> list[str]:
 
 
 def test_each_device_tells_who_it_is_and_how_fast_it_answers(emulated: TestClient) -> None:
-    deadline = time.monotonic() + 10.0
-    while any(d["state"] != "ok" for d in emulated.get(DEVICES).json()["items"]):
-        assert time.monotonic() < deadline
-        time.sleep(0.02)
+    soon(lambda: all(d["state"] == "ok" for d in emulated.get(DEVICES).json()["items"]))
     scale, axis1, axis2 = emulated.get(DEVICES).json()["items"]
     assert (scale["kind"], axis1["kind"], axis2["kind"]) == ("scale", "axis", "axis")
     assert "ND" in scale["identity"]

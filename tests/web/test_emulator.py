@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
-
 import pytest
 
 from station.motion import EmulatedRig
@@ -19,16 +16,8 @@ def test_a_station_with_real_devices_has_none(service: Service) -> None:
     assert service.client.put(URL, json=[JUMP]).status_code == 404
 
 
-@pytest.fixture(scope="module")
-def rig(tmp_path_factory: pytest.TempPathFactory) -> Iterator[EmulatedRig]:
-    folder: Path = tmp_path_factory.mktemp("rig")
-    emulated = EmulatedRig(None, folder / "state.json", 50.0)
-    yield emulated
-    emulated.close()
-
-
-def test_faults_are_ordered_and_taken_back(service: Service, rig: EmulatedRig) -> None:
-    service.runtime.rig = rig
+def test_faults_are_ordered_and_taken_back(service: Service, emulated_rig: EmulatedRig) -> None:
+    service.runtime.rig = emulated_rig
     assert service.client.get(URL).json() == []
     answer = service.client.put(URL, json=[JUMP])
     assert answer.status_code == 200
@@ -38,8 +27,8 @@ def test_faults_are_ordered_and_taken_back(service: Service, rig: EmulatedRig) -
     assert service.client.put(URL, json=[]).json() == []
 
 
-def test_effects_of_the_machine_are_ordered(service: Service, rig: EmulatedRig) -> None:
-    service.runtime.rig = rig
+def test_effects_of_the_machine_are_ordered(service: Service, emulated_rig: EmulatedRig) -> None:
+    service.runtime.rig = emulated_rig
     url = "/api/v1/emulator/effects"
     answer = service.client.put(url, json=[{"kind": "backlash", "joint": 1, "width_deg": 0.05}])
     assert answer.status_code == 200, answer.json()
@@ -63,9 +52,9 @@ def test_effects_of_the_machine_are_ordered(service: Service, rig: EmulatedRig) 
     ],
 )
 def test_what_cannot_be_ordered_is_refused(
-    service: Service, rig: EmulatedRig, order: dict[str, object]
+    service: Service, emulated_rig: EmulatedRig, order: dict[str, object]
 ) -> None:
-    service.runtime.rig = rig
+    service.runtime.rig = emulated_rig
     answer = service.client.put(URL, json=[order])
     assert answer.status_code == 422
     assert answer.headers["content-type"] == "application/problem+json"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import re
-import time
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -13,6 +12,7 @@ from prometheus_client.openmetrics.parser import text_string_to_metric_families 
 from prometheus_client.parser import text_string_to_metric_families
 
 from drivers.errors import LinkLost
+from tests.waiting import soon
 from tests.web.conftest import Service
 
 Samples = dict[tuple[str, frozenset[tuple[str, str]]], float]
@@ -53,10 +53,7 @@ def test_runs_readings_and_durations_are_counted(service: Service) -> None:
 def test_stops_devices_and_clients_are_counted(service: Service) -> None:
     service.wait_for("scale read")
     service.rig.script.fail("scale read", LinkLost("scale: silent"))
-    deadline = time.monotonic() + 10.0
-    while service.device("scale")["state"] != "lost":
-        assert time.monotonic() < deadline
-        time.sleep(0.005)
+    soon(lambda: service.device("scale")["state"] == "lost")
     service.client.post("/api/v1/stop")
     with service.client.websocket_connect("/api/v1/live") as live:
         live.receive_text()

@@ -8,7 +8,6 @@ import shutil
 import socket
 import ssl
 import subprocess
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -29,7 +28,8 @@ from websockets.typing import Origin
 from station.people import Administration, NewUser
 from station.records import Actor
 from tests.station.conftest import SETTINGS
-from tests.web.conftest import LIMIT_S, a_runtime, all_threads_end, listening
+from tests.waiting import all_threads_end, soon
+from tests.web.conftest import LIMIT_S, a_runtime, listening
 from web.app import create_app
 
 CONFIG = Path(__file__).parents[2] / "deploy" / "nginx.conf"
@@ -160,11 +160,8 @@ def nginx(folder: Path, behind: int, *, rewritten: bool) -> Iterator[int]:
         stderr=subprocess.DEVNULL,
     )
     try:
-        deadline_s = time.monotonic() + LIMIT_S
-        while not _answers(port):
-            assert process.poll() is None, (folder / "error.log").read_text()
-            assert time.monotonic() < deadline_s
-            time.sleep(0.01)
+        soon(lambda: process.poll() is not None or _answers(port))
+        assert process.poll() is None, (folder / "error.log").read_text()
         yield port
     finally:
         process.terminate()

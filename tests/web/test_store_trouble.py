@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sqlite3
-import time
 from collections.abc import Iterator
 from contextlib import closing
 from datetime import UTC, datetime, timedelta
@@ -11,6 +10,7 @@ from datetime import UTC, datetime, timedelta
 import pytest
 
 from station.records import STATION
+from tests.waiting import soon
 from tests.web.conftest import Service
 
 RUNS = "/api/v1/calibrations"
@@ -76,8 +76,7 @@ def test_a_stop_while_the_history_is_locked_is_in_the_audit_afterwards(
         answer = service.client.post("/api/v1/stop", headers={"X-Operator": name})
         assert answer.json()["confirmed"]
     after = datetime.now(UTC)
-    while caplog.text.count("could not be recorded yet") < 3:
-        time.sleep(0.005)
+    soon(lambda: caplog.text.count("could not be recorded yet") >= 3)
     assert service.runtime.store.audit() == []
     locked.rollback()
     late = service.runtime.orchestrator.late_records.deed(STATION, "clock.looked", "at")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from pathlib import Path
 from random import Random
 from typing import Any
 
@@ -16,19 +14,13 @@ from tests.web.conftest import Service
 URL, EFFECTS, FAULTS = "/api/v1/emulator/training", "/api/v1/emulator/effects", "/api/v1/emulator/faults"
 
 
-@pytest.fixture(scope="module")
-def rig(tmp_path_factory: pytest.TempPathFactory) -> Iterator[EmulatedRig]:
-    folder: Path = tmp_path_factory.mktemp("rig")
-    emulated = EmulatedRig(None, folder / "state.json", 50.0)
-    yield emulated
-    emulated.close()
-
-
 @pytest.fixture
-def desk(service: Service, rig: EmulatedRig) -> Service:
+def desk(service: Service, emulated_rig: EmulatedRig) -> Service:
     runtime = service.runtime
-    runtime.rig = rig
-    runtime.training = TrainingDesk(rig, runtime.store, lambda: runtime.orchestrator.running, Random(3))
+    runtime.rig = emulated_rig
+    runtime.training = TrainingDesk(
+        emulated_rig, runtime.store, lambda: runtime.orchestrator.running, Random(3)
+    )
     return service
 
 
@@ -117,8 +109,10 @@ def test_there_is_nothing_to_reveal_before_the_first_exercise(desk: Service) -> 
 
 
 @pytest.mark.parametrize("name", KINDS)
-def test_the_machine_takes_every_kind(rig: EmulatedRig, name: str) -> None:
+def test_the_machine_takes_every_kind(emulated_rig: EmulatedRig, name: str) -> None:
     kind = KINDS[name]
     joint = 1 if kind.joint else None
     for size in kind.sizes or (None,):
-        assert len(rig.order(kind.faults(joint))) + len(rig.order_effects(kind.effects(joint, size))) == 1
+        faults = emulated_rig.order(kind.faults(joint))
+        effects = emulated_rig.order_effects(kind.effects(joint, size))
+        assert len(faults) + len(effects) == 1

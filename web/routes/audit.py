@@ -9,13 +9,12 @@ from fastapi import Query
 from pydantic import Field
 
 from station.people import Permission
-from station.records import LARGEST_ID, AuditEntry, Record, csv_text
+from station.records import AuditEntry, Record, csv_text
 from web.guarded import Router, needs
-from web.routes.parts import CsvResponse, TheRuntime
+from web.routes.parts import CsvResponse, Cursor, TheRuntime, page_of
 
 router = Router(tags=["audit"])
 
-Cursor = Annotated[int | None, Query(ge=1, le=LARGEST_ID, description="`next` of the page before")]
 Contained = Annotated[
     str, Query(max_length=64, description="text in name, role, action, subject or values, in any case")
 ]
@@ -38,9 +37,9 @@ def read_audit(
     contains: Contained = "",
 ) -> AuditList:
     """Who started, stopped, applied, changed and signed in.  `station audit` checks the chain too."""
-    entries = runtime.store.audit(limit=limit + 1, cursor=cursor, contains=contains.strip())
-    items = entries[:limit]
-    return AuditList(items=items, next=items[-1].n if len(entries) > limit else None)
+    found = runtime.store.audit(limit=limit + 1, cursor=cursor, contains=contains.strip())
+    items, last = page_of(found, limit)
+    return AuditList(items=items, next=last.n if last else None)
 
 
 @router.get("/audit.csv", response_class=CsvResponse, dependencies=[needs(Permission.ADMINISTER)])

@@ -3,23 +3,21 @@
 from __future__ import annotations
 
 from dataclasses import asdict
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
-from fastapi import BackgroundTasks, Depends, Query, Response
+from fastapi import BackgroundTasks, Depends, Query
 from starlette.exceptions import HTTPException
 
 from station.errors import Forbidden
 from station.machines import robot_of
 from station.people import Permission
 from station.records import (
-    LARGEST_ID,
     Actor,
     Calibration,
     CalibrationRequest,
     CalibrationSummary,
     Record,
     State,
-    Submitted,
 )
 from station.run_kinds import application, change_of, kind_of_plan, translated
 from station.service import Runtime
@@ -35,30 +33,23 @@ from web.bodies import (
 )
 from web.guarded import Router, needs
 from web.problems import documented
-from web.routes.parts import LOCATION, CalibrationId, CallerName, IdempotencyKey, Moment, TheRuntime
+from web.routes.parts import CalibrationId, CallerName, Cursor, Moment, TheRuntime
+from web.routes.starting import FOLLOWED, STARTED, Operating, StarterWithoutKey, TheStarter
 
 ABORT_TIMEOUT_S = 5.0
 
 router = Router(prefix="/calibrations", tags=["calibrations"])
-
-STARTED: dict[int | str, dict[str, Any]] = {
-    202: {"description": "Accepted", "headers": LOCATION},
-    **documented(409),
-}
 
 
 @router.post("", status_code=202, response_model=CalibrationSummary, responses=STARTED)
 def start_calibration(
     body: CalibrationBody,
     by: Annotated[Actor, needs(Permission.START)],
-    runtime: TheRuntime,
-    response: Response,
-    idempotency_key: IdempotencyKey = None,
+    starter: TheStarter,
 ) -> CalibrationSummary:
     """Start a run.  The same `Idempotency-Key` with the same body answers the same run."""
     request = CalibrationRequest(kind=kind_of_plan(body.plan), **dict(body))
-    submitted = runtime.orchestrator.submit(request, idempotency_key=idempotency_key, by=by)
-    return started(submitted, runtime, response)
+    return starter.submit(request, by)
 
 
 def _filters(
@@ -89,7 +80,7 @@ def list_calibrations(
     runtime: TheRuntime,
     filters: TheFilters,
     limit: Annotated[int, Query(ge=1, le=500)] = 50,
-    cursor: Annotated[int | None, Query(ge=1, le=LARGEST_ID, description="`next` of the page before")] = None,
+    cursor: Cursor = None,
     order: TheOrder = "newest",
 ) -> CalibrationList:
     """Page by page, newest first unless asked otherwise."""
@@ -170,7 +161,7 @@ async def abort_calibration(
 def answer_prompt(
     calibration_id: CalibrationId,
     body: AnswerBody,
-    by: Annotated[Actor, needs(Permission.OPERATE)],
+    by: Operating,
     runtime: TheRuntime,
     operator: CallerName = None,
 ) -> CalibrationSummary:
@@ -196,66 +187,45 @@ def translate(calibration_id: CalibrationId, body: TranslateBody, runtime: TheRu
     "/{calibration_id}/apply",
     status_code=202,
     response_model=CalibrationSummary,
-    responses={**STARTED, **documented(404)},
+    responses=FOLLOWED,
 )
 def apply_calibration(
-    calibration_id: CalibrationId,
-    body: ApplyBody,
-    by: Annotated[Actor, needs(Permission.OPERATE)],
-    runtime: TheRuntime,
-    response: Response,
-    idempotency_key: IdempotencyKey = None,
+    calibration_id: CalibrationId, body: ApplyBody, by: Operating, starter: TheStarter
 ) -> CalibrationSummary:
     """Write the zero offsets to the drives, read them back, verify at fresh positions.
 
     A run of its own; when its verification fails it puts the old zeros back by itself.
     """
-    submitted = runtime.orchestrator.follow(
-        "apply", calibration_id, body.operator, idempotency_key=idempotency_key, by=by
-    )
-    return started(submitted, runtime, response)
+    return starter.follow("apply", calibration_id, body.operator, by)
 
 
 @router.post(
     "/{calibration_id}/rollback",
     status_code=202,
     response_model=CalibrationSummary,
-    responses={**STARTED, **documented(404)},
+    responses=FOLLOWED,
 )
 def roll_back_calibration(
-    calibration_id: CalibrationId,
-    body: ApplyBody,
-    by: Annotated[Actor, needs(Permission.OPERATE)],
-    runtime: TheRuntime,
-    response: Response,
+    calibration_id: CalibrationId, body: ApplyBody, by: Operating, starter: StarterWithoutKey
 ) -> CalibrationSummary:
     """Put the old zeros back; a run of its own.  Calling it again answers the run that did it."""
-    submitted = runtime.orchestrator.follow("rollback", calibration_id, body.operator, by=by)
-    return started(submitted, runtime, response)
+    return starter.follow("rollback", calibration_id, body.operator, by)
 
 
 @router.post(
     "/{calibration_id}/separate",
     status_code=202,
     response_model=CalibrationSummary,
-    responses={**STARTED, **documented(404)},
+    responses=FOLLOWED,
 )
 def separate(
-    calibration_id: CalibrationId,
-    body: ApplyBody,
-    by: Annotated[Actor, needs(Permission.OPERATE)],
-    runtime: TheRuntime,
-    response: Response,
-    idempotency_key: IdempotencyKey = None,
+    calibration_id: CalibrationId, body: ApplyBody, by: Operating, starter: TheStarter
 ) -> CalibrationSummary:
     """Distinguish the causes that a diagnostic run left open, by the motion of `/separating`.
 
     A run of its own: it continues the readings of that run, and new fresh readings confirm.
     """
-    submitted = runtime.orchestrator.follow(
-        "separate", calibration_id, body.operator, idempotency_key=idempotency_key, by=by
-    )
-    return started(submitted, runtime, response)
+    return starter.follow("separate", calibration_id, body.operator, by)
 
 
 def _check_own(runtime: Runtime, calibration_id: int, by: Actor) -> None:
@@ -268,9 +238,3 @@ def _check_own(runtime: Runtime, calibration_id: int, by: Actor) -> None:
                 f"{by.name} has the role mes and may end only runs that it started;"
                 f" run {calibration_id} is not one. The stop is open to everyone."
             )
-
-
-def started(submitted: Submitted, runtime: Runtime, response: Response) -> CalibrationSummary:
-    """The run that a request started, with the way to it."""
-    response.headers["Location"] = f"/api/v1/calibrations/{submitted.id}"
-    return runtime.store.summary(submitted.id)

@@ -2,25 +2,21 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import Query, Response
 
-from station.certificate import CONTENT_SECURITY_POLICY, CertificateDocument, Format, issue
+from station.certificate import CertificateDocument, Format, issue
 from station.messages import Language
 from station.people import Permission
 from web.guarded import Router, needs
+from web.headers import SELF_CONTAINED
 from web.problems import documented
-from web.routes.parts import CalibrationId, TheRuntime
+from web.routes.parts import CalibrationId, TheRuntime, file_of
 
 router = Router(prefix="/calibrations/{calibration_id}", tags=["calibrations"])
 
 InLanguage = Annotated[Language, Query(description="of the page")]
-
-
-def _of_type(media_type: str) -> dict[int | str, dict[str, Any]]:
-    schema = {"type": "string", "format": "binary"}
-    return {200: {"content": {media_type: {"schema": schema}}}, **documented(404, 409)}
 
 
 @router.get(
@@ -37,7 +33,7 @@ def read_certificate(calibration_id: CalibrationId, runtime: TheRuntime) -> Resp
 @router.get(
     "/certificate.html",
     response_class=Response,
-    responses=_of_type("text/html"),
+    responses=file_of("text/html"),
     dependencies=[needs(Permission.READ)],
 )
 def certificate_page(
@@ -50,7 +46,7 @@ def certificate_page(
 @router.get(
     "/certificate.pdf",
     response_class=Response,
-    responses=_of_type("application/pdf"),
+    responses=file_of("application/pdf"),
     dependencies=[needs(Permission.READ)],
 )
 def certificate_pdf(
@@ -66,5 +62,5 @@ def _issued(runtime: TheRuntime, run: int, form: Format, language: Language) -> 
     )
     headers = {"Content-Disposition": f'inline; filename="{issued.name}"'}
     if form == "html":
-        headers["Content-Security-Policy"] = CONTENT_SECURITY_POLICY
+        headers["Content-Security-Policy"] = SELF_CONTAINED
     return Response(issued.content, media_type=issued.media_type, headers=headers)

@@ -11,8 +11,7 @@ from station.people import Permission
 from station.records import LARGEST_ID, Actor, Delivery, DeliveryState, Event, Record
 from web.guarded import Router, needs
 from web.problems import documented
-from web.routes.audit import Cursor
-from web.routes.parts import TheRuntime
+from web.routes.parts import Cursor, TheRuntime, page_of
 
 router = Router(tags=["events"])
 
@@ -38,9 +37,8 @@ def read_events(
     limit: Annotated[int, Query(ge=1, le=500)] = 100,
 ) -> EventList:
     """What happened after event number `after`; ask again with the last `n` for what comes then."""
-    events = runtime.store.happenings(after=after, limit=limit + 1)
-    items = events[:limit]
-    return EventList(items=items, next=items[-1].n if len(events) > limit else None)
+    items, last = page_of(runtime.store.happenings(after=after, limit=limit + 1), limit)
+    return EventList(items=items, next=last.n if last else None)
 
 
 @router.get("/deliveries", response_model=DeliveryList, dependencies=[needs(Permission.READ)])
@@ -52,8 +50,8 @@ def read_deliveries(
 ) -> DeliveryList:
     """How far every event got to every receiver of `[[outbox....]]`."""
     found = runtime.store.deliveries(state=state, cursor=cursor, limit=limit + 1)
-    items = found[:limit]
-    return DeliveryList(items=items, next=items[-1].id if len(found) > limit else None)
+    items, last = page_of(found, limit)
+    return DeliveryList(items=items, next=last.id if last else None)
 
 
 @router.post(

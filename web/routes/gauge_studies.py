@@ -2,31 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from fastapi import Depends, Query, Response
 
 from station.people import Permission
-from station.records import LARGEST_ID, Actor, CalibrationSummary
+from station.records import LARGEST_ID, CalibrationSummary
 from station.report import as_pdf
 from station.run_kinds import StationGauge, gauge_page, station_gauge
 from web.bodies import ApplyBody
 from web.guarded import Router, needs
+from web.headers import SELF_CONTAINED
 from web.problems import documented
-from web.routes.calibrations import STARTED, started
-from web.routes.parts import CalibrationId, IdempotencyKey, TheRuntime
+from web.routes.parts import CalibrationId, TheRuntime, file_of
+from web.routes.starting import FOLLOWED, Operating, TheStarter
 
 router = Router(prefix="/calibrations/{calibration_id}", tags=["quality"])
 MOST_RUNS = 50
-
-_CONTENT_SECURITY_POLICY = (
-    "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
-)
-
-
-def _of_type(media_type: str) -> dict[int | str, dict[str, Any]]:
-    schema = {"type": "string", "format": "binary"}
-    return {200: {"content": {media_type: {"schema": schema}}}, **documented(404, 409)}
 
 
 def _study(
@@ -62,20 +54,20 @@ def read_gauge_study(study: TheStudy) -> StationGauge:
 @router.get(
     "/gauge-study.html",
     response_class=Response,
-    responses=_of_type("text/html"),
+    responses=file_of("text/html"),
     dependencies=[needs(Permission.READ)],
 )
 def gauge_study_page(study: TheStudy) -> Response:
     """The report, as one page that needs nothing but itself."""
     page = gauge_page(study).to_html()
-    headers = {"Content-Security-Policy": _CONTENT_SECURITY_POLICY}
+    headers = {"Content-Security-Policy": SELF_CONTAINED}
     return Response(page, media_type="text/html; charset=utf-8", headers=headers)
 
 
 @router.get(
     "/gauge-study.pdf",
     response_class=Response,
-    responses=_of_type("application/pdf"),
+    responses=file_of("application/pdf"),
     dependencies=[needs(Permission.READ)],
 )
 def gauge_study_pdf(study: TheStudy) -> Response:
@@ -89,21 +81,13 @@ def gauge_study_pdf(study: TheStudy) -> Response:
     "/resume",
     status_code=202,
     response_model=CalibrationSummary,
-    responses={**STARTED, **documented(404)},
+    responses=FOLLOWED,
 )
 def resume(
-    calibration_id: CalibrationId,
-    body: ApplyBody,
-    by: Annotated[Actor, needs(Permission.OPERATE)],
-    runtime: TheRuntime,
-    response: Response,
-    idempotency_key: IdempotencyKey = None,
+    calibration_id: CalibrationId, body: ApplyBody, by: Operating, starter: TheStarter
 ) -> CalibrationSummary:
     """Go on with a gauge study that was interrupted, after the last mounting that it finished.
 
     A run of its own, which takes over the readings of that one.
     """
-    submitted = runtime.orchestrator.follow(
-        "gauge_study", calibration_id, body.operator, idempotency_key=idempotency_key, by=by
-    )
-    return started(submitted, runtime, response)
+    return starter.follow("gauge_study", calibration_id, body.operator, by)

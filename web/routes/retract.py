@@ -2,16 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
-from fastapi import Response
-
-from station.people import Permission
-from station.records import Actor, CalibrationSummary
+from station.records import CalibrationSummary
 from web.bodies import ApplyBody
-from web.guarded import Router, needs
+from web.guarded import Router
 from web.problems import documented
-from web.routes.parts import LOCATION, IdempotencyKey, TheRuntime
+from web.routes.parts import LOCATION
+from web.routes.starting import Operating, TheStarter
 
 router = Router(tags=["station"])
 
@@ -22,14 +18,6 @@ router = Router(tags=["station"])
     response_model=CalibrationSummary,
     responses={202: {"description": "Started", "headers": LOCATION}, **documented(409)},
 )
-def retract(
-    body: ApplyBody,
-    by: Annotated[Actor, needs(Permission.OPERATE)],
-    runtime: TheRuntime,
-    response: Response,
-    idempotency_key: IdempotencyKey = None,
-) -> CalibrationSummary:
+def retract(body: ApplyBody, by: Operating, starter: TheStarter) -> CalibrationSummary:
     """Bring the arm back into its workspace: a slow run of its own, each step reduces the distance to it."""
-    submitted = runtime.orchestrator.retract(body.operator, idempotency_key=idempotency_key, by=by)
-    response.headers["Location"] = f"/api/v1/calibrations/{submitted.id}"
-    return runtime.store.summary(submitted.id)
+    return starter.retract(body.operator, by)

@@ -1,4 +1,4 @@
-"""WhitenedResidual position that depends on the distance of approach (outside the diagnosis's catalogue)."""
+"""Rest position that depends on the distance of approach (outside the diagnosis's catalogue)."""
 
 import math
 from typing import ClassVar, Literal

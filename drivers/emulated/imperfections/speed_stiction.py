@@ -1,4 +1,4 @@
-"""WhitenedResidual position that depends on the speed of approach (outside the diagnosis's catalogue)."""
+"""Rest position that depends on the speed of approach (outside the diagnosis's catalogue)."""
 
 from typing import ClassVar, Literal
 

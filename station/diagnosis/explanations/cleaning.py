@@ -9,6 +9,7 @@ from station.diagnosis.explanations.frame import added, frame
 from station.diagnosis.explanations.noise_level import NoiseLevel
 from station.diagnosis.explanations.settle import Settled, settle
 from station.diagnosis.explanations.situation import at_readings, predicted
+from station.diagnosis.runs_in_time import in_runs
 from station.errors import InputRefused
 from station.fitting import NotConvergedError, Solution, find_outliers, tolerance_prior
 from station.five_bar import FiveBar
@@ -19,8 +20,6 @@ from station.records import Real
 LARGEST_SHARE = 0.1
 APPROACH_STEPS = 3
 """Rounds of steps where the base model has no minimum to speak of."""
-RUN = 3
-"""So many in a row are no glitches but something that happened."""
 FAR_OFF, WELL_PREDICTED = 5.5, 4.0
 """Standard deviations from the best explanation: left out, and taken back."""
 Mask = NDArray[np.bool_]
@@ -58,17 +57,8 @@ def suspects(mechanism: FiveBar, reference: Reference) -> Mask:
         return none
     named = {o.reading for o in found}
     off = np.array([i in named for i in m.ids])
-    off &= ~_in_runs(off[np.argsort(m.t_s, kind="stable")])[np.argsort(np.argsort(m.t_s, kind="stable"))]
+    off &= ~in_runs(m, lambda row: bool(off[row].all()))
     return off if off.sum() <= LARGEST_SHARE * len(m) else none
-
-
-def _in_runs(off: Mask) -> Mask:
-    """(K,) those of `RUN` or more in a row."""
-    out = np.zeros(len(off), dtype=bool)
-    for k in range(len(off) - RUN + 1):
-        if off[k : k + RUN].all():
-            out[k : k + RUN] = True
-    return out
 
 
 def judged(mechanism: FiveBar, reference: Reference, best: Settled, row_sd: Real) -> Real:

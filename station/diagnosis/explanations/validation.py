@@ -15,11 +15,11 @@ from station.diagnosis.explanations.frame import added
 from station.diagnosis.explanations.settle import Settled
 from station.diagnosis.explanations.situation import at_readings, predicted
 from station.errors import InputRefused
+from station.fitting import REFUSED_P
 from station.five_bar import FiveBar
 from station.mechanism import Reference
 from station.records import Measurements, Real
 
-REFUSED_P = 1e-3
 SAME_SHARE = 0.1
 """Share of fresh readings equal to earlier ones from which on they are not fresh."""
 COVERAGE = 0.6

@@ -16,7 +16,7 @@ from station.diagnosis.explanations.situation import predicted
 from station.diagnosis.explanations.statements import PartKey, Statements
 from station.diagnosis.explanations.validation import Validation
 from station.diagnosis.explanations.weighing import Weighing
-from station.fitting import pure_error
+from station.fitting import FEWEST_REPEATS, pure_error
 from station.records import Quantity
 
 Verdict = Literal["adequate", "explained", "ambiguous", "partly_explained", "unexplained"]
@@ -27,7 +27,6 @@ UNNAMED = 0.05
 MISFIT_P = 1e-5
 LOUD = 2.0
 """Noise over the specification from which on it is no noise."""
-FEWEST_REPEATS = 6
 MOSTLY = 0.5
 REPORTED = 0.01
 """Probability below which an explanation is not spoken of."""

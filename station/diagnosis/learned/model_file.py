@@ -29,6 +29,7 @@ from station.records import (
     Span,
     TemperatureReference,
     TermOfModel,
+    content_of,
     said,
     visited_in_degrees,
     visited_ranges,
@@ -106,20 +107,10 @@ def read_part(path: Path) -> ModelDocument | MixtureDocument:
     :raises InputRefused: missing, broken, of another schema, or a value out of place.
     """
     try:
-        content = json.loads(path.read_bytes())
-    except OSError as error:
-        raise InputRefused(f"Model {path} cannot be read: {error.strerror}.") from error
+        content = json.loads(content_of(path, "Model"))
     except (json.JSONDecodeError, UnicodeDecodeError, RecursionError) as error:
         raise InputRefused(f"Model {path} is not valid JSON: {error}.") from error
     return part_of(content, str(path))
-
-
-def model_of(content: Any, source: str) -> LearnedModel:
-    """A five-bar's, from a diagnosis document; `source` says where that is from.
-
-    :raises InputRefused: as `read_model`.
-    """
-    return learned_model(part_of(content, source), source)
 
 
 def part_of(content: Any, source: str) -> ModelDocument | MixtureDocument:

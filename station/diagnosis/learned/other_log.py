@@ -11,7 +11,6 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.diagnosis.learned.model_file import terms_of
 from station.diagnosis.tests_of_fit import folds
@@ -28,7 +27,7 @@ from station.fitting import (
 from station.machines import AnyMechanism, AnyRobot, effects_of, mechanism_of
 from station.mechanism import Reference, by_reading
 from station.model import Model, Term
-from station.records import Measurements, MixtureDocument, ModelDocument, Real, inside_visited
+from station.records import Flags, Measurements, MixtureDocument, ModelDocument, Real, inside_visited
 
 FEWEST_AN_UNKNOWN = 4
 DETERMINED = 2.0
@@ -113,7 +112,7 @@ def _turned_near(part: ModelDocument, readings: Measurements) -> Measurements:
     return replace(readings, theta=readings.theta - 2.0 * np.pi * turns)
 
 
-def _been(part: ModelDocument, readings: Measurements, joint: int) -> NDArray[np.bool_]:
+def _been(part: ModelDocument, readings: Measurements, joint: int) -> Flags:
     """(K,) whether a joint (index) stands where it was when the model was learned."""
     stretches = [(np.radians(a), np.radians(b)) for a, b in part.ranges.visited_deg[joint]]
     return inside_visited(readings.theta[:, [joint]], [stretches])
@@ -126,7 +125,7 @@ def _off(mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelDocument) 
 
 
 def _both(
-    mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelDocument, chosen: NDArray[np.bool_]
+    mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelDocument, chosen: Flags
 ) -> tuple[Errors, Errors, int]:
     """Without and with the terms, over poses that both fits determine, and how many those are."""
     some = mechanism.of(mechanism.measurements.take(chosen))
@@ -144,9 +143,7 @@ def _errors(mm: Real) -> Errors:
     return Errors(float(np.sqrt(np.mean(mm**2))), float(np.median(mm)), float(mm.max()))
 
 
-def _held_out(
-    mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelDocument
-) -> tuple[Real, NDArray[np.bool_]]:
+def _held_out(mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelDocument) -> tuple[Real, Flags]:
     """(K,) mm, every fold predicted by the mechanism as fitted to the others, the terms frozen; and whether
 
     that fit determines the pose: a wrist turned as in no other reading shows where the tool was never seen.

@@ -12,7 +12,7 @@ from typing import Protocol
 import numpy as np
 
 from station.errors import FieldRefused, InputRefused
-from station.records import Complex, Real, Table, approaches, read_table
+from station.records import Complex, Real, Table, approaches, content_of, read_table
 
 REQUIRED = ("x_mm", "y_mm")
 APPROACH = ("approach1", "approach2")
@@ -84,11 +84,7 @@ def targets_of(rows: Sequence[Mapping[str, float | None]]) -> Targets:
 
 def read_targets(path: Path) -> tuple[Table, Targets]:
     """:raises InputRefused: anything malformed, with row and column."""
-    try:
-        content = path.read_bytes()
-    except OSError as error:
-        raise InputRefused(f"{path} cannot be read: {error.strerror}.") from error
-    table = read_table(content, REQUIRED, OPTIONAL, path.name)
+    table = read_table(content_of(path), REQUIRED, OPTIONAL, path.name)
     targets = Targets(
         table,
         table.numbers("x_mm") + 1j * table.numbers("y_mm"),

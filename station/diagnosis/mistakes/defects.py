@@ -18,7 +18,6 @@ LINK_MM = 3.0
 GAIN = 0.005
 SCALE_GAIN = 0.002
 ECCENTRIC_RAD = float(np.radians(0.15))
-SAG_RAD = float(np.radians(0.1))
 PLAY_RAD = float(np.radians(0.02))
 FAR_MM = 1.0
 LARGEST_LINK_MM = 10.0

@@ -9,13 +9,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.fitting import NotConvergedError, Prior, Solution, solve
 from station.five_bar import SCALE_SD_MM, FiveBar, Robot
-from station.records import Measurements, Real
+from station.records import Flags, Measurements, Real
 
 OFFSET_SD_MM = 1e4
 """Prior of the reading offset: as wide as anything that is measured."""
@@ -55,7 +55,7 @@ class Fitted:
     """(K,) measured less predicted, of all rows."""
     row_sd: Real
     """(K,) mm as specified."""
-    used: NDArray[np.bool_]
+    used: Flags
     """(K,) rows that took part."""
     noise: float
     """Standard deviation of the readings over the specified one, at least `LEAST_NOISE`."""
@@ -82,98 +82,138 @@ def fit(
     *,
     loosened: Mapping[str, float] | None = None,
     extras: tuple[Extra, ...] = (),
-    used: NDArray[np.bool_] | None = None,
+    used: Flags | None = None,
     start: Real | None = None,
-    centre: Mapping[str, float] | None = None,
-    sd: Real | None = None,
     prior: tuple[Real, Real] | None = None,
 ) -> Fitted | None:
     """None where it does not converge.
 
     :param loosened: parameter -> standard deviation in place of its prior's, mm or rad
-    :param centre: parameter -> prior mean in place of its own
     :param prior: mean (P,) and root (H, P) in place of all of that
     """
     mechanism = FiveBar(robot, m)
-    names = [p.name for p in mechanism.parameters]
-    mean: Real = mechanism.start
-    spread = np.array([min(p.prior_sd, OFFSET_SD_MM) for p in mechanism.parameters])
-    for name, value in (loosened or {}).items():
-        spread[names.index(name)] = value
-    for name, value in (centre or {}).items():
-        mean[names.index(name)] = value
-    used = np.ones(len(m), dtype=bool) if used is None else used
-    sd = row_sd(robot, m) if sd is None else sd
-    size, count = len(names), len(extras)
-    root: Real = np.diag(1.0 / spread)
-    if prior is not None:
-        mean, root = prior
-    widths = np.array([e.sd for e in extras])
-    root = np.block([[root, np.zeros((len(root), count))], [np.zeros((count, size)), np.diag(1.0 / widths)]])
-    held = Prior(np.concatenate([mean, np.zeros(count)]), root)
-    angle = np.stack([_or_zero(e.by_angle, (len(m), 2)) for e in extras], axis=2) if count else None
-    reading = np.stack([_or_zero(e.by_reading, (len(m),)) for e in extras], axis=1) if count else None
-
-    def whitened(noise: float) -> tuple[Solution, Real] | None:
-        def residuals(z: Real) -> tuple[Real, Real]:
-            value, J = predict(z)
-            return (value - m.distance)[used] / sd[used] / noise, J[used] / (sd[used] * noise)[:, None]
-
-        try:
-            found = solve(residuals, begin, held)
-        except (NotConvergedError, np.linalg.LinAlgError):
-            return None
-        return (found, predict(found.x)[0]) if found.complete else None
-
-    def predict(z: Real) -> tuple[Real, Real]:
-        if angle is None or reading is None:
-            at = mechanism.observe(z, m.theta)
-            return at.value, at.by_parameter
-        q = z[size:]
-        at = mechanism.observe(z[:size], m.theta + angle @ q)
-        J = np.hstack([at.by_parameter, np.einsum("kj,kjq->kq", at.by_joint, angle) + reading])
-        return at.value + reading @ q, J
-
-    begin = held.mean.copy()
-    begin[:size] = mean if start is None else start
+    mean, root = prior or _tolerances(mechanism, loosened or {})
+    problem = _Problem(
+        mechanism,
+        extras,
+        np.ones(len(m), dtype=bool) if used is None else used,
+        row_sd(robot, m),
+        _with_extras(mean, root, extras),
+    )
+    begin = problem.prior.mean.copy()
     if start is None:
-        with np.errstate(invalid="ignore"):
-            offset = np.nanmedian(predict(begin)[0] - m.distance) if used.any() else 0.0
-        begin[size - len(m.mounts) : size] += offset if np.isfinite(offset) else 0.0
+        problem.set_offset(begin)
+    else:
+        begin[: len(start)] = start
     noise = 1.0
     for _ in range(3):
         with np.errstate(invalid="ignore"):
-            found = whitened(noise)
+            found = problem.solved(begin, noise)
         if found is None:
             return None
-        solution, predicted = found
-        begin = solution.x
+        solution, begin = found, found.x
         square = float(np.sum((solution.residual * noise) ** 2))
-        wanted = max(LEAST_NOISE, float(np.sqrt(square / max(int(used.sum()) - 4, 1))))
+        wanted = max(LEAST_NOISE, float(np.sqrt(square / max(int(problem.used.sum()) - 4, 1))))
         done = abs(np.log(wanted / noise)) < 0.05
         noise = wanted
         if done:
             break
-    J = solution.jacobian
-    normal = held.root.T @ held.root
-    rows = int(used.sum())
-    pulled = float(np.sum((held.root @ (solution.x - held.mean)) ** 2))
-    occam = float(np.linalg.slogdet(J.T @ J + normal)[1] - np.linalg.slogdet(normal)[1])
-    deviance = rows * 2.0 * np.log(noise) + square / noise**2 + pulled + occam
-    deviance += 2.0 * float(np.sum(np.log(sd[used])))
-    spread_all = np.sqrt(np.diag(np.linalg.pinv(J.T @ J + normal)))
-    names_extra = [e.name for e in extras]
-    return Fitted(
-        solution.x[:size],
-        spread_all[:size],
-        dict(zip(names_extra, solution.x[size:].tolist(), strict=True)),
-        dict(zip(names_extra, spread_all[size:].tolist(), strict=True)),
-        m.distance - predicted,
-        sd,
-        used,
-        noise,
-        float(deviance),
+    return problem.fitted(solution, noise, square)
+
+
+def _tolerances(mechanism: FiveBar, loosened: Mapping[str, float]) -> tuple[Real, Real]:
+    """Mean (P,) and root (P, P) of the parameters' own priors, some of them loosened."""
+    spread = np.array([loosened.get(p.name, min(p.prior_sd, OFFSET_SD_MM)) for p in mechanism.parameters])
+    return mechanism.start, np.diag(1.0 / spread)
+
+
+def _with_extras(mean: Real, root: Real, extras: tuple[Extra, ...]) -> Prior:
+    count = len(extras)
+    widths = np.array([e.sd for e in extras])
+    whole = np.block(
+        [[root, np.zeros((len(root), count))], [np.zeros((count, len(mean))), np.diag(1.0 / widths)]]
     )
+    return Prior(np.concatenate([mean, np.zeros(count)]), whole)
+
+
+@dataclass(frozen=True)
+class _Problem:
+    """Unknowns z (P + Q,): parameters of the base model, then one of each extra column."""
+
+    mechanism: FiveBar
+    extras: tuple[Extra, ...]
+    used: Flags
+    """(K,)"""
+    row_sd: Real
+    """(K,) mm"""
+    prior: Prior
+
+    @cached_property
+    def by_angle(self) -> Real:
+        """(K, 2, Q)"""
+        return np.stack([_or_zero(e.by_angle, (len(self.used), 2)) for e in self.extras], axis=2)
+
+    @cached_property
+    def by_reading(self) -> Real:
+        """(K, Q)"""
+        return np.stack([_or_zero(e.by_reading, (len(self.used),)) for e in self.extras], axis=1)
+
+    def predict(self, z: Real) -> tuple[Real, Real]:
+        """(K,) mm, and by the unknowns (K, P + Q)."""
+        theta = self.mechanism.measurements.theta
+        if not self.extras:
+            at = self.mechanism.observe(z, theta)
+            return at.value, at.by_parameter
+        p, q = z[: -len(self.extras)], z[-len(self.extras) :]
+        at = self.mechanism.observe(p, theta + self.by_angle @ q)
+        by_extra = np.einsum("kj,kjq->kq", at.by_joint, self.by_angle) + self.by_reading
+        return at.value + self.by_reading @ q, np.hstack([at.by_parameter, by_extra])
+
+    def set_offset(self, z: Real) -> None:
+        """Let the reading offsets of `z` take what most readings are off by, in place."""
+        m = self.mechanism.measurements
+        with np.errstate(invalid="ignore"):
+            offset = np.nanmedian(self.predict(z)[0] - m.distance) if self.used.any() else 0.0
+        size = len(z) - len(self.extras)
+        z[size - len(m.mounts) : size] += offset if np.isfinite(offset) else 0.0
+
+    def solved(self, begin: Real, noise: float) -> Solution | None:
+        """With readings that scatter by `noise` times their specification; None without convergence."""
+        distance, used, sd = self.mechanism.measurements.distance, self.used, self.row_sd[self.used]
+
+        def residuals(z: Real) -> tuple[Real, Real]:
+            value, J = self.predict(z)
+            return (value - distance)[used] / sd / noise, J[used] / (sd * noise)[:, None]
+
+        try:
+            found = solve(residuals, begin, self.prior)
+        except (NotConvergedError, np.linalg.LinAlgError):
+            return None
+        return found if found.complete else None
+
+    def fitted(self, solution: Solution, noise: float, square: float) -> Fitted:
+        """:param square: of the residuals by their specified standard deviation"""
+        J, held = solution.jacobian, self.prior
+        normal = held.root.T @ held.root
+        pulled = float(np.sum((held.root @ (solution.x - held.mean)) ** 2))
+        occam = float(np.linalg.slogdet(J.T @ J + normal)[1] - np.linalg.slogdet(normal)[1])
+        deviance = int(self.used.sum()) * 2.0 * np.log(noise) + square / noise**2 + pulled + occam
+        deviance += 2.0 * float(np.sum(np.log(self.row_sd[self.used])))
+        spread = np.sqrt(np.diag(np.linalg.pinv(J.T @ J + normal)))
+        size, names = len(solution.x) - len(self.extras), [e.name for e in self.extras]
+        with np.errstate(invalid="ignore"):
+            predicted = self.predict(solution.x)[0]
+        return Fitted(
+            solution.x[:size],
+            spread[:size],
+            dict(zip(names, solution.x[size:].tolist(), strict=True)),
+            dict(zip(names, spread[size:].tolist(), strict=True)),
+            self.mechanism.measurements.distance - predicted,
+            self.row_sd,
+            self.used,
+            noise,
+            float(deviance),
+        )
 
 
 def posterior(robot: Robot, m: Measurements, found: Fitted) -> tuple[Real, Real]:
@@ -181,8 +221,7 @@ def posterior(robot: Robot, m: Measurements, found: Fitted) -> tuple[Real, Real]
     mechanism = FiveBar(robot, m)
     at = mechanism.observe(found.p, m.theta)
     J = (at.by_parameter / (found.row_sd * found.noise)[:, None])[found.used]
-    spread = np.array([min(p.prior_sd, OFFSET_SD_MM) for p in mechanism.parameters])
-    stacked = np.vstack([J, np.diag(1.0 / spread)])
+    stacked = np.vstack([J, _tolerances(mechanism, {})[1]])
     return found.p, np.asarray(np.linalg.qr(stacked, mode="r"))
 
 
@@ -218,7 +257,7 @@ def costs(residual_mm: Real) -> Real:
 def rough(
     robot: Robot,
     m: Measurements,
-    weights: NDArray[np.bool_] | None = None,
+    weights: Flags | None = None,
     from_mm: float = ANNEALED_MM[0],
     start: Real | None = None,
 ) -> Rough:

@@ -6,15 +6,16 @@ import numpy as np
 
 from station.diagnosis.mistakes.fitting import Fitted, Rough, fit
 from station.diagnosis.mistakes.mistake import Mistake, ids, named
+from station.diagnosis.runs_in_time import in_runs
 from station.five_bar import Robot
-from station.records import Measurements
+from station.records import Index, Measurements
 
 LARGEST_SHARE = 0.12
 FAR_SDS = 8.0
 CURED = 5.0
 """Times that leaving them out has to reduce the scatter of the rest."""
-RUN, ALIKE = 3, 2.0
-"""So many in a row, off to one side and alike within this factor, are something that happened."""
+ALIKE = 2.0
+"""A row of readings off to one side and alike within this factor is something that happened."""
 
 
 def glitches(robot: Robot, m: Measurements, base: Fitted | None, agreed: Rough, file: str) -> Mistake | None:
@@ -71,12 +72,10 @@ def _one_place(m: Measurements, far: np.ndarray) -> bool:
 
 def _happened(m: Measurements, far: np.ndarray, residual_mm: np.ndarray) -> bool:
     """Whether most of them stand in runs of like deviations: a slip or a step, before it or after."""
-    order = np.argsort(m.t_s, kind="stable")
-    off = np.where(far, residual_mm, 0.0)[order]
-    in_runs = np.zeros(len(off), dtype=bool)
-    for k in range(len(off) - RUN + 1):
-        some = off[k : k + RUN]
-        size = np.abs(some)
-        if abs(np.sign(some).sum()) == RUN and size.max() <= ALIKE * size.min():
-            in_runs[k : k + RUN] = True
-    return bool(2 * in_runs.sum() > far.sum())
+
+    def alike(row: Index) -> bool:
+        size, sides = np.abs(residual_mm[row]), np.sign(residual_mm[row])
+        one_side = bool(far[row].all()) and abs(sides.sum()) == len(row)
+        return one_side and size.max() <= ALIKE * size.min()
+
+    return bool(2 * in_runs(m, alike).sum() > far.sum())

@@ -22,7 +22,7 @@ from station.diagnosis.mistakes.corrections import (
 )
 from station.diagnosis.mistakes.fitting import Rough, costs, mean_cost, rough
 from station.five_bar import FiveBar, Robot, pose
-from station.records import Measurements, Real
+from station.records import Flags, Measurements, Real
 
 NO_REACH_MM = 1e3
 FACTORS = np.geomspace(0.04, 25.0, 260)
@@ -44,9 +44,9 @@ class Found:
     """A correction of some rows and how well the file agrees then."""
 
     correction: Correction
-    rows: NDArray[np.bool_]
+    rows: Flags
     """(K,) corrected rows."""
-    used: NDArray[np.bool_]
+    used: Flags
     """(K,) rows that still have all they need."""
     corrected: Measurements
     start: Real
@@ -126,7 +126,7 @@ def zeroings(robot: Robot, m: Measurements, agreed: Rough) -> Zeroings | None:
     taken = np.zeros(len(m), dtype=bool)
     for _ in range(MOST_ZEROINGS):
         here = costs(residual)
-        best: tuple[float, NDArray[np.bool_], float] | None = None
+        best: tuple[float, Flags, float] | None = None
         for value in _levels(residual, taken):
             run = best_run(here - costs(residual - value), ~taken)
             if run is None or run.sum() < SHORTEST:
@@ -159,7 +159,7 @@ def zeroings(robot: Robot, m: Measurements, agreed: Rough) -> Zeroings | None:
     )
 
 
-def _levels(residual: Real, taken: NDArray[np.bool_]) -> list[float]:
+def _levels(residual: Real, taken: Flags) -> list[float]:
     """Values that some rows in a row share."""
     out: list[float] = []
     for k in range(len(residual) - SHORTEST + 1):
@@ -171,7 +171,7 @@ def _levels(residual: Real, taken: NDArray[np.bool_]) -> list[float]:
     return out
 
 
-def best_run(gain: Real, allowed: NDArray[np.bool_] | None = None) -> NDArray[np.bool_] | None:
+def best_run(gain: Real, allowed: Flags | None = None) -> Flags | None:
     """(K,) the run of rows with the largest sum of gain (K,), where it is positive."""
     best, best_sum, first, total = None, 0.0, 0, 0.0
     for k, value in enumerate(gain):
@@ -190,7 +190,7 @@ def best_run(gain: Real, allowed: NDArray[np.bool_] | None = None) -> NDArray[np
     return out
 
 
-def grown(rows: NDArray[np.bool_], over: NDArray[np.bool_]) -> NDArray[np.bool_]:
+def grown(rows: Flags, over: Flags) -> Flags:
     """(K,) a run with the rows of `over` (K,) that adjoin it."""
     out = rows.copy()
     first, last = (int(k) for k in np.flatnonzero(rows)[[0, -1]])

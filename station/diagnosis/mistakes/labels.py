@@ -20,7 +20,6 @@ LONGEST_DT_S = 600.0
 SLOWEST_DEG_PER_S = 0.2
 SAME_WAY = 1e-6
 """Share of a way below which all are the same."""
-FASTEST_DEG_PER_S = 3000.0
 ALIKE, LESS = 0.95, 0.2
 """Correlation of the time between readings with the way between them, that says they belong together; and
 how much less
@@ -30,8 +29,6 @@ FEWEST = 20
 AGREE = 0.95
 FAR_BETTER = 40.0
 """Of the deviance: e^20 times more probable."""
-RECORDED_LATE = 0.25
-"""A play that explains the readings is at least this share of the residual."""
 
 
 def position_labels(m: Measurements, context: Context) -> Mistake | None:

@@ -12,10 +12,12 @@ from station.diagnosis.search import Hint
 from station.fitting import ErrorFields, Noise, Outlier
 from station.machines import AnyRobot, kind_of
 from station.records import (
+    AnyModelDocument,
     Complex,
     DataSource,
     Dependence,
     DiagnosisDocument,
+    DiagnosisSchema,
     EffectName,
     ExperimentRecord,
     ExplanationRecord,
@@ -97,6 +99,8 @@ class ResidualView:
 class Findings(ABC):
     """Everything that is said of one diagnosis, each figure computed once."""
 
+    schema: DiagnosisSchema
+    """Of the document."""
     robot: AnyRobot
     measurements: Measurements
     """The readings that took part, without fresh ones."""
@@ -212,9 +216,39 @@ class Findings(ABC):
         """What is wrong with the file, though not so wrong that it was refused."""
         return None
 
+    @property
     @abstractmethod
+    def model(self) -> AnyModelDocument:
+        """What commands are computed from."""
+
     def document(self, data: DataSource) -> DiagnosisDocument:
         """The contract's document; `data` says what it was made from."""
+        before, after = self.position_errors
+        true_before, true_after = self.true_position_errors or (None, None)
+        return DiagnosisDocument(
+            schema_=self.schema,
+            data=data,
+            noise=self.noise.record(),
+            verdict=self.decision.verdict,
+            confirmed=self.decision.confirmed,
+            sentence=self.sentence,
+            parameters=self.parameters,
+            weak_direction=self.weak_direction,
+            findings=tuple(effect.record() for effect in self.effects),
+            curves=tuple(curve.record() for curve in self.curves),
+            stages=self.stages,
+            before=_accuracy(self.stages[1], before, true_before),
+            after=_accuracy(self.stages[-1], after, true_after),
+            hints=_dependences(self.hints),
+            invisible=self.invisible,
+            outliers=tuple(outlier.reading for outlier in self.outliers),
+            outlier_reasons=tuple(outlier.reason for outlier in self.outliers),
+            fresh_outliers=self.fresh_outliers,
+            explanations=self.explanations,
+            experiments=self.experiments,
+            mistake=self.mistake,
+            model=self.model,
+        )
 
     @property
     def sentence(self) -> str:
@@ -227,11 +261,11 @@ class Findings(ABC):
         return kind_of(self.robot).extent
 
 
-def dependences(found: Sequence[Hint]) -> tuple[Dependence, ...]:
+def _dependences(found: Sequence[Hint]) -> tuple[Dependence, ...]:
     """As the document shows them."""
     return tuple(Dependence(depends_on=h.depends_on, strength=h.strength, text=h.text) for h in found)
 
 
-def accuracy(stage: StageErrors, predicted: PositionError, true: PositionError | None) -> StageAccuracy:
+def _accuracy(stage: StageErrors, predicted: PositionError, true: PositionError | None) -> StageAccuracy:
     """A stage with the position error that goes with it."""
     return StageAccuracy(**dict(stage), predicted_position_error_mm=predicted, true_position_error_mm=true)

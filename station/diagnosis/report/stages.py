@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.diagnosis.tests_of_fit import predicted_by_others
 from station.diagnosis.traced_loop import TracedDiagnosis
@@ -12,10 +11,9 @@ from station.errors import InputRefused
 from station.fitting import NotConvergedError, Prior, Solution, solve
 from station.mechanism import Mechanism, by_reading
 from station.model import Term
-from station.records import Measurements, Real, StageErrors
+from station.records import Flags, Measurements, Real, StageErrors
 
 UNNAMED = "+ unnamed smooth error of the pose"
-Mask = NDArray[np.bool_]
 
 
 def stage_errors(diagnosis: TracedDiagnosis) -> tuple[StageErrors, ...]:
@@ -61,7 +59,7 @@ def _with_unnamed(diagnosis: TracedDiagnosis, unnamed: UnnamedError, last: Stage
     )
 
 
-def kept_fresh(diagnosis: TracedDiagnosis) -> Mask:
+def kept_fresh(diagnosis: TracedDiagnosis) -> Flags:
     """(K,) fresh readings that took part in the confirmation of the last model."""
     if diagnosis.fresh is None:
         return np.zeros(0, dtype=bool)

@@ -11,7 +11,7 @@ import numpy as np
 from station.diagnosis.decision import Decision
 from station.diagnosis.learned import model_document
 from station.diagnosis.report.detectability import detectable
-from station.diagnosis.report.findings import Findings, FoundEffect, ResidualView, accuracy, dependences
+from station.diagnosis.report.findings import Findings, FoundEffect, ResidualView
 from station.diagnosis.report.joint_curves import Curve, curves
 from station.diagnosis.report.predicted_error import position_errors
 from station.diagnosis.report.sentence import verdict_reason
@@ -25,9 +25,8 @@ from station.mechanism import by_reading
 from station.model import Fit, Term
 from station.records import (
     LIMIT_SDS,
-    DataSource,
-    DiagnosisDocument,
     EffectName,
+    ModelDocument,
     PositionError,
     Quantity,
     Real,
@@ -40,6 +39,8 @@ from station.records import (
 
 class TracedFindings(Findings):
     """Of the last model of a search."""
+
+    schema = "station.diagnosis/1"
 
     def __init__(self, diagnosis: TracedDiagnosis) -> None:
         self.diagnosis = diagnosis
@@ -189,36 +190,16 @@ class TracedFindings(Findings):
             place_mm=mechanism.places(base.x[: base.model.base_size]),
         )
 
-    def document(self, data: DataSource) -> DiagnosisDocument:
-        """The contract's document; `data` says what it was made from."""
+    @property
+    def model(self) -> ModelDocument:
+        """The trusted stage, with the effects found."""
         d, trusted = self.diagnosis, self.decision.trusted
-        before, after = self.position_errors
-        true_before, true_after = self.true_position_errors or (None, None)
-        return DiagnosisDocument(
-            data=data,
-            noise=self.noise.record(),
-            verdict=d.verdict,
-            confirmed=d.confirmed,
-            sentence=self.sentence,
-            parameters=self.parameters,
-            weak_direction=self.weak_direction,
-            findings=tuple(f.record() for f in self.effects),
-            curves=tuple(c.record() for c in self.curves),
-            stages=self.stages,
-            before=accuracy(self.stages[1], before, true_before),
-            after=accuracy(self.stages[-1], after, true_after),
-            hints=dependences(d.hints),
-            invisible=self.invisible,
-            outliers=tuple(o.reading for o in d.outliers),
-            outlier_reasons=tuple(o.reason for o in d.outliers),
-            fresh_outliers=self.fresh_outliers,
-            model=model_document(
-                d,
-                self.fit,
-                self.decision.sd_factor,
-                stage=self.stages[trusted + 1].model,
-                confirmed=d.confirmations[trusted].confirmed if d.confirmations else None,
-            ),
+        return model_document(
+            d,
+            self.fit,
+            self.decision.sd_factor,
+            stage=self.stages[trusted + 1].model,
+            confirmed=d.confirmations[trusted].confirmed if d.confirmations else None,
         )
 
 

@@ -15,7 +15,7 @@ from station.diagnosis.explanations import Held, Step, steps
 from station.diagnosis.learned import mixture_document
 from station.diagnosis.naming import name_record, named
 from station.diagnosis.report.detectability import detectable
-from station.diagnosis.report.findings import Findings, FoundEffect, ResidualView, accuracy, dependences
+from station.diagnosis.report.findings import Findings, FoundEffect, ResidualView
 from station.diagnosis.report.joint_curves import Curve
 from station.diagnosis.report.stages import base_unknowns, errors_of, simplest
 from station.diagnosis.report.tracked import true_errors_of_set
@@ -39,14 +39,13 @@ from station.model import Fit, Model, fit
 from station.records import (
     LIMIT_SDS,
     Complex,
-    DataSource,
-    DiagnosisDocument,
     EffectName,
     ExperimentRecord,
     ExplainedEffect,
     ExplanationRecord,
     FreshReading,
     MistakeRecord,
+    MixtureDocument,
     PositionError,
     Quantity,
     Reason,
@@ -58,6 +57,8 @@ from station.records import (
 
 class WeighedFindings(Findings):
     """Of all explanations together; stages lead to the one that is reported."""
+
+    schema = "station.diagnosis/2"
 
     def __init__(self, diagnosis: WeighedDiagnosis) -> None:
         self.diagnosis = diagnosis
@@ -302,35 +303,10 @@ class WeighedFindings(Findings):
             self.experiments,
         )
 
-    def document(self, data: DataSource) -> DiagnosisDocument:
-        """The contract's document; `data` says what it was made from."""
-        d = self.diagnosis
-        before, after = self.position_errors
-        true_before, true_after = self.true_position_errors or (None, None)
-        return DiagnosisDocument(
-            schema_="station.diagnosis/2",
-            data=data,
-            noise=self.noise.record(),
-            verdict=d.verdict,
-            confirmed=d.confirmed,
-            sentence=self.sentence,
-            parameters=self.parameters,
-            weak_direction=self.weak_direction,
-            findings=tuple(effect.record() for effect in self.effects),
-            curves=tuple(c.record() for c in self.curves),
-            stages=self.stages,
-            before=accuracy(self.stages[1], before, true_before),
-            after=accuracy(self.stages[-1], after, true_after),
-            hints=dependences(self.hints),
-            invisible=self.invisible,
-            outliers=tuple(o.reading for o in d.outliers),
-            outlier_reasons=tuple(o.reason for o in d.outliers),
-            fresh_outliers=d.fresh_outliers,
-            explanations=self.explanations,
-            experiments=self.experiments,
-            mistake=self.mistake,
-            model=mixture_document(d, stage=self.stages[-1].model),
-        )
+    @property
+    def model(self) -> MixtureDocument:
+        """The set itself."""
+        return mixture_document(self.diagnosis, stage=self.stages[-1].model)
 
 
 def _labels(errors: tuple[Held, ...]) -> list[str]:

@@ -1,6 +1,6 @@
 """From residual to cause: add the effect that explains most, fit everything again, until it fits.
 
-Winner and look-alikes are told apart by refitting the full nonlinear model with each of them: an
+Winner and aliases are distinguished by refitting the full nonlinear model with each of them: an
 alias is whatever explains the readings as well, no more and no less (docs/decisions/0005).
 """
 
@@ -40,7 +40,7 @@ ODD_SHARE = 0.03
 END_SHARE = 0.12
 """Share of the sequence in which readings that deviate to one side look like a step, not like slips."""
 ALIAS = 11.0
-"""Chi-square by which a look-alike may be worse and still be the cause (true cause kept in 99.9 %)."""
+"""Chi-square by which an alias may be worse and still be the cause (true cause kept in 99.9 %)."""
 
 
 Refitted = Callable[[Scan, Candidate], Fit]
@@ -138,12 +138,6 @@ def _possible(found: Fit) -> bool:
     return term.effect.possible(term.hidden, *found.amplitudes(k))
 
 
-def helps(before: Fit, after: Fit, by: float = HELPFUL) -> bool:
-    """Whether readings that a fit has not seen are predicted better, block by block."""
-    errors = [left_out_rms(f.solution, f.model.mechanism, f.row_sd) for f in (before, after)]
-    return errors[1] < by * errors[0]
-
-
 def significant(p_value: float, tests: int, level: float) -> bool:
     """The smallest of so many p-values, family-wise (Holm)."""
     return p_value * tests < level
@@ -219,7 +213,7 @@ def _staged(
 
 
 def with_alias(found: Trace, at: int, alias: Term, prior: Prior, specified_sd: Real) -> Trace:
-    """The same way with a look-alike in the place of finding number `at`."""
+    """The same way with an alias in the place of finding number `at`."""
     old = found.findings[at]
     others = (old.term, *(t for t in old.aliases if t is not alias))
     findings = list(found.findings)
@@ -287,7 +281,9 @@ def _add(
         fits.append((_score(refit, c), c, refit))
     if not fits:
         return None
-    fits = [item for item in fits if _possible(item[2]) and helps(current, item[2], helpful)]
+    # readings that a fit has not seen must be predicted better, block by block
+    most_mm = helpful * left_out_rms(current)
+    fits = [item for item in fits if _possible(item[2]) and left_out_rms(item[2]) < most_mm]
     if not fits:
         return None
     fits.sort(key=lambda item: item[0])

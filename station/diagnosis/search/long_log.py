@@ -9,13 +9,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.diagnosis.search.evidence import relearned
 from station.diagnosis.search.scan import Candidate, Scan
 from station.fitting import Prior, solved
 from station.model import Fit, Model, Term, fit
-from station.records import Real
+from station.records import Flags, Real
 
 
 def with_candidate(scan: Scan, candidate: Candidate, prior: Prior) -> Fit:
@@ -40,7 +39,7 @@ def _learned(found: Fit, added: list[tuple[Term, Real]], noise: float, prior: Pr
     return fit(replace(found.model, terms=terms), prior, found.row_sd * np.sqrt(noise), x)
 
 
-def without(found: Fit, kept: NDArray[np.bool_]) -> Fit:
+def without(found: Fit, kept: Flags) -> Fit:
     """The fit to the readings `kept` (K,) only; exact where the model is linear."""
     mechanism = found.model.mechanism
     row = kept[mechanism.reading_of_row]

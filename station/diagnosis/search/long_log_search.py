@@ -12,7 +12,6 @@ from contextlib import suppress
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import fdtrc
 
 from station.diagnosis.search import long_log
@@ -30,7 +29,7 @@ from station.diagnosis.tests_of_fit import judge
 from station.effects import Effect
 from station.fitting import NotConvergedError, Outlier, Prior, solved
 from station.model import Fit, Model, fit
-from station.records import Real
+from station.records import Flags, Real
 
 EFFECTS_A_JOINT = 2
 """No more than these, however much readings left out support."""
@@ -94,7 +93,7 @@ def _take_out(fits: list[Fit], prior: Prior) -> tuple[Outlier, ...]:
     return off
 
 
-def _kept(found: Fit, off: tuple[Outlier, ...]) -> NDArray[np.bool_]:
+def _kept(found: Fit, off: tuple[Outlier, ...]) -> Flags:
     """(K,) readings that are none of these."""
     named = {o.reading for o in off}
     return np.array([i not in named for i in found.model.mechanism.measurements.ids])

@@ -11,7 +11,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import fdtrc
 
 from station.diagnosis.tests_of_fit.alternatives import strongest
@@ -28,7 +27,7 @@ from station.diagnosis.tests_of_fit.smooth_departures import (
 from station.effects import doubtful
 from station.fitting import BLIND, REFUSED_P, solved
 from station.model import Fit, Model, is_long
-from station.records import Measurements, Real
+from station.records import Flags, Measurements, Real
 
 DIRECTED_P = 1e-4
 """A true model is refused this often by each of the directed tests; as a whole by `REFUSED_P`."""
@@ -145,7 +144,7 @@ def _noise_ratio(learned: Fit) -> float:
     return float(np.sqrt(np.mean(learned.row_sd**2) / np.mean(learned.model.mechanism.row_sd**2)))
 
 
-def _far_off(residual: Real, sd: Real, of: Readings) -> NDArray[np.bool_]:
+def _far_off(residual: Real, sd: Real, of: Readings) -> Flags:
     """(K,) readings with a row further off than any noise."""
     off = np.zeros(len(of.at), dtype=bool)
     off[of.reading[np.abs(residual) > FAR_OFF * sd]] = True
@@ -157,7 +156,7 @@ def _sizes(of: Readings) -> Real:
     return np.sqrt(np.bincount(of.reading, of.residual_mm**2))
 
 
-def _ids(fresh: Measurements, some: NDArray[np.bool_]) -> tuple[int | str, ...]:
+def _ids(fresh: Measurements, some: Flags) -> tuple[int | str, ...]:
     return tuple(np.array(fresh.ids, dtype=object)[some])
 
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from station.errors import InputRefused
 from station.fitting import Solution, solved
 from station.mechanism import Mechanism
-from station.records import Index, Measurements, Real
+from station.model import Fit
+from station.records import Flags, Index, Measurements, Real
 
 DETERMINED = 1e-9
 """A block that alone holds a direction cannot be predicted in it by the others."""
@@ -58,10 +58,11 @@ def without_a_quarter(m: Measurements) -> tuple[Measurements, Measurements]:
     return m.take(~aside), m.take(aside)
 
 
-def left_out_rms(solution: Solution, mechanism: Mechanism, row_sd: Real) -> float:
+def left_out_rms(found: Fit) -> float:
     """mm, RMS of readings predicted without the fold of blocks that they are in."""
+    mechanism = found.model.mechanism
     fold = folds(mechanism.measurements)[mechanism.reading_of_row]
-    rows = held_out_folds(solution, fold) * row_sd
+    rows = held_out_folds(found.solution, fold) * found.row_sd
     return float(np.sqrt(rows @ rows / len(mechanism.measurements)))
 
 
@@ -74,7 +75,7 @@ def held_out_folds(solution: Solution, fold: Index) -> Real:
     return out
 
 
-def left_without(solution: Solution, own: NDArray[np.bool_]) -> Real:
+def left_without(solution: Solution, own: Flags) -> Real:
     """(R,) whitened measured less predicted of all rows, by the linear fit without the rows `own` (R,).
 
     r + J (C^-1 - J_B'J_B)^-1 J_B' r_B.

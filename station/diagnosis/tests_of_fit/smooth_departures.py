@@ -12,13 +12,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.special import fdtrc
 
 from station.fitting import Prior
 from station.mechanism import Conditions, axes
 from station.model import Fit, Model, is_long
-from station.records import Index, Real
+from station.records import Flags, Index, Real
 
 SLOW, SMOOTH = 6, 8
 """Half waves over the readings in order of time, and in order of an angle or the travel."""
@@ -67,7 +66,7 @@ class Readings:
     at: Real
     """(K, d) where the end of the machine stood, mm."""
 
-    def take(self, some: NDArray[np.bool_]) -> Readings:
+    def take(self, some: Flags) -> Readings:
         """Only these readings, mask (K,)."""
         rows = some[self.reading]
         return Readings(

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
-from station.studies.bench.served import serving
-from station.studies.bench.service import connected
+from station.studies.bench.served import SETTINGS, serving
+from station.studies.bench.service import ask, connected, run_times
 from station.studies.bench.study import bench
 
 __all__ = [
+    "SETTINGS",
+    "ask",
     "bench",
     "connected",
+    "run_times",
     "serving",
 ]

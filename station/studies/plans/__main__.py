@@ -10,6 +10,7 @@ import click
 from rich.console import Console
 
 from station.studies.engine import Engine
+from station.studies.options import page_option, resume_option, seed_option, workers_option
 from station.studies.plans.advised import followed
 from station.studies.plans.checks import checked
 from station.studies.plans.collision import misled, struck
@@ -40,10 +41,10 @@ FLEET_MM = 0.1
 @click.option("--promises", default=1000, show_default=True, type=click.IntRange(2), help="Of `adaptive`.")
 @click.option("--fleets", default=50, show_default=True, type=click.IntRange(1), help="Of 20 robots each.")
 @click.option("--tolerance", "tolerances", multiple=True, default=TOLERANCES_MM, help="mm; may be repeated.")
-@click.option("--seed", default=1, show_default=True, type=click.IntRange(0))
-@click.option("--workers", type=click.IntRange(1), help="Processes; one for each core without it.")
-@click.option("--resume", type=click.Path(file_okay=False, path_type=Path), help="Folder to go on from.")
-@click.option("--out", type=click.Path(path_type=Path), help="Write the page here.")
+@seed_option
+@workers_option
+@resume_option
+@page_option
 def main(
     machines: int,
     many: int,

@@ -18,12 +18,12 @@ from station.five_bar import SIZE, FiveBar
 from station.identification import Identification, identify
 from station.plans import make_plan, predict
 from station.records import Complex, Real
+from station.studies.drawn import errors_of, zero_offsets
 from station.studies.reproduce.position_error import position_errors, position_vectors, whole_workspace
 from station.studies.reproduce.statistics import median_error, spread
 from station.studies.reproduce.trial import Conditions, stops_of
 
 CONDITIONS = Conditions(1, "whole pulses")
-LARGEST_ZERO_OFFSET_DEG = 3.0
 MOUNTED_OFF_MM = 1.0
 PLAIN_GRID = (15, 6)
 CASES = ("full", "rapid", "rapid, memory")
@@ -41,29 +41,14 @@ class Coverage:
     wrong_memory_dropped: bool
 
 
-def drawn_machine(rng: np.random.Generator) -> Real:
-    """(12,) errors drawn from the tolerances."""
-    robot = CONDITIONS.robot
-    truth = np.zeros(SIZE)
-    truth[:2] = _zero_offsets(rng)
-    truth[2:6] = rng.normal(0.0, robot.tolerances.e_mm, 4)
-    truth[6:10] = rng.normal(0.0, robot.tolerances.link_mm, 4)
-    truth[10:] = rng.normal(robot.drm, robot.drm_sd)
-    return truth
-
-
-def _zero_offsets(rng: np.random.Generator) -> Real:
-    return np.radians(rng.uniform(-LARGEST_ZERO_OFFSET_DEG, LARGEST_ZERO_OFFSET_DEG, 2))
-
-
 def coverage_of(seed: int) -> Coverage:
     """Calibrate one drawn machine: full; then, both zero offsets changed, six readings."""
     rng = np.random.default_rng([seed, 1])
     robot, full, rapid = CONDITIONS.robot, stops_of(CONDITIONS, "full"), stops_of(CONDITIONS, "rapid")
-    truth = drawn_machine(rng)
+    truth = errors_of(robot, rng)
     first = identify(robot, CONDITIONS.machine(3 * seed, truth).measure(full))
     later, moved = truth.copy(), truth.copy()
-    later[:2], moved[:2] = _zero_offsets(rng), _zero_offsets(rng)
+    later[:2], moved[:2] = zero_offsets(rng), zero_offsets(rng)
     turn = rng.uniform(0.0, 2.0 * np.pi)
     moved[10:] += MOUNTED_OFF_MM * np.cos(turn), MOUNTED_OFF_MM * np.sin(turn)
     readings = CONDITIONS.machine(3 * seed + 1, later).measure(rapid)
@@ -129,7 +114,8 @@ def places_of() -> dict[str, Complex]:
 
 def positions_of(seed: int) -> dict[str, float | None]:
     """Largest position error of one drawn machine after one reading at each place, mm; None where refused."""
-    robot, truth = CONDITIONS.robot, drawn_machine(np.random.default_rng([seed, 2]))
+    robot = CONDITIONS.robot
+    truth = errors_of(robot, np.random.default_rng([seed, 2]))
     out: dict[str, float | None] = {}
     for name, places in places_of().items():
         try:

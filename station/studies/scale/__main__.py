@@ -10,7 +10,8 @@ from rich.console import Console
 
 from station.store import Store
 from station.studies.engine import Engine
-from station.studies.scale.copies import lengthen
+from station.studies.long_history import lengthen
+from station.studies.options import resume_option, seed_option, workers_option
 from station.studies.scale.pages import answered
 from station.studies.scale.simulated_runs import MAKE, Kind, add_simulated
 
@@ -25,9 +26,9 @@ def main() -> None:
 @click.argument("kind", type=click.Choice(list(MAKE)))
 @click.option("--runs", type=click.IntRange(1), required=True)
 @click.option("--robots", type=click.IntRange(1), default=500, show_default=True)
-@click.option("--seed", type=click.IntRange(0), default=1, show_default=True)
-@click.option("--workers", type=click.IntRange(1), help="Processes; one for each core without it.")
-@click.option("--resume", type=click.Path(file_okay=False, path_type=Path), help="Folder to go on from.")
+@seed_option
+@workers_option
+@resume_option
 def simulate(
     database: Path, kind: Kind, runs: int, robots: int, seed: int, workers: int | None, resume: Path | None
 ) -> None:
@@ -57,7 +58,7 @@ def pages(home: Path, times: int) -> None:
 
 @main.command("cluster")
 @click.option("--machines", type=click.IntRange(1), required=True)
-@click.option("--seed", type=click.IntRange(0), default=1, show_default=True)
+@seed_option
 @click.option("--after", default=5.0, show_default=True, help="Seconds until a worker is killed.")
 def cluster(machines: int, seed: int, after: float) -> None:
     """Study accuracy on a Dask cluster of two workers, one killed: the digest of `station study accuracy`."""

@@ -15,6 +15,7 @@ from station.errors import NotApplicable, NotFound
 from station.records import CalibrationRequest, Exercise, Said
 from station.service import KINDS, Runtime, TrainingDesk
 from station.settings import EmulatedSettings, Settings
+from station.studies.options import page_option
 
 SERIAL = "TRAINING"
 RUN_LIMIT_S = 900.0
@@ -40,7 +41,7 @@ the emulated machine is drawn anew, so single lines may differ."""
 @click.option("--exercises", default=20, show_default=True, type=click.IntRange(1))
 @click.option("--seed", default=1, show_default=True, type=click.IntRange(0), help="Of what is drawn.")
 @click.option("--speed", default=50.0, show_default=True, type=click.FloatRange(1, 1000))
-@click.option("--out", type=click.Path(path_type=Path), help="Write the page here.")
+@page_option
 def main(exercises: int, seed: int, speed: float, out: Path | None) -> None:
     """What was drawn beside what the station said."""
     settings = Settings(emulated=EmulatedSettings(speed=speed))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 
 import pytest
@@ -19,6 +19,7 @@ from drivers.scales import SCALES
 from drivers.scaling import JointScaling
 from drivers.servos import SERVOS
 from tests.drivers.wire import rtu
+from tests.waiting import soon
 
 FAMILIES = [
     (family, line)
@@ -52,13 +53,6 @@ def devices_of(rig: EmulatedRig, **options: object) -> Iterator[tuple[LinearScal
             device.close()
 
 
-def wait_for(true: Callable[[], bool]) -> None:
-    deadline_s = time.monotonic() + PATIENCE_S
-    while not true():
-        assert time.monotonic() < deadline_s
-        time.sleep(0.005)
-
-
 @pytest.mark.parametrize(("family", "line"), FAMILIES)
 def test_a_move_a_stop_and_a_zero(family: str, line: str) -> None:
     with rig_of(family, line) as rig, devices_of(rig) as (scale, axes):
@@ -67,19 +61,19 @@ def test_a_move_a_stop_and_a_zero(family: str, line: str) -> None:
             axis.enable()
             axis.move_to(angle, 30.0)
         for axis, angle in zip(axes, (10.0, 170.0), strict=True):
-            wait_for(lambda axis=axis: axis.status().in_position)  # type: ignore[misc]
+            soon(lambda axis=axis: axis.status().in_position)  # type: ignore[misc]
             assert axis.feedback_deg() == pytest.approx(angle, abs=0.01)
         assert abs(scale.read_mm() - before_mm) > 1.0
         rig.machine.axes[0].put(0.0)
         axes[0].move_to(50.0, 0.5)
         axes[0].quick_stop()
-        wait_for(lambda: not axes[0].status().moving)
+        soon(lambda: not axes[0].status().moving)
         assert not axes[0].status().in_position
         assert axes[0].feedback_deg() < 49.0
         axes[0].preset(0.0)
         assert axes[0].feedback_deg() == pytest.approx(0.0, abs=0.01)
         axes[0].move_to(1.0, 30.0)
-        wait_for(lambda: axes[0].status().in_position)
+        soon(lambda: axes[0].status().in_position)
 
 
 def test_a_drive_of_another_resolution_is_refused() -> None:
@@ -105,7 +99,7 @@ def test_a_watchdog_stops_a_drive_that_nobody_speaks_to() -> None:
         for one in axes:
             one._feeder.close()  # type: ignore[attr-defined]
             one._feeder = None  # type: ignore[attr-defined]
-        wait_for(lambda: not rig.machine.axes[0].moving)
+        soon(lambda: not rig.machine.axes[0].moving)
         assert axis.status().alarm == 0x85
         axis.reset_alarm()
         assert axis.status().alarm is None

@@ -15,26 +15,10 @@ from drivers.emulated.machine import Machine, Unreachable, lower_meeting_point
 from drivers.emulated.motion import braking, standing, trapezoid
 from drivers.emulated.rig_file import RIGS, load_rig
 from drivers.emulated.spec import MachineSpec
-from drivers.emulated.virtual import VirtualClock, VirtualReading, VirtualRig
+from drivers.emulated.virtual import VirtualClock, VirtualRig
+from tests.drivers.emulated.quiet import change_mm, quiet, read
 
 HOME = (0.0, 180.0)
-
-
-def quiet(*present: AnyEffect, **given: object) -> MachineSpec:
-    """A machine without noise and with the given effects."""
-    return MachineSpec.model_validate(
-        {"scatter": False, "scale_noise_mm": 0.0, "head_zero_mm": 0.0, "effects": present, **given}
-    )
-
-
-def read(spec: MachineSpec, *stops_deg: tuple[float, float]) -> list[VirtualReading]:
-    return VirtualRig(spec).measure(stops_deg)
-
-
-def change_mm(effect: AnyEffect, *stops_deg: tuple[float, float]) -> list[float]:
-    """What an effect adds to the readings of a sequence."""
-    with_it, without = read(quiet(effect), *stops_deg), read(quiet(), *stops_deg)
-    return [a.scale_mm - b.scale_mm for a, b in zip(with_it, without, strict=True)]
 
 
 # -- geometry ------------------------------------------------------------------------------------

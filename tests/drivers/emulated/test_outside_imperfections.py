@@ -15,7 +15,8 @@ from drivers.emulated.machine import Machine
 from drivers.emulated.motion import braking, standing, trapezoid
 from drivers.emulated.rig_file import dump_rig, parse_rig
 from drivers.emulated.spec import MachineSpec, RigSpec
-from drivers.emulated.virtual import VirtualReading, VirtualRig
+from drivers.emulated.virtual import VirtualRig
+from tests.drivers.emulated.quiet import change_mm, quiet, read
 
 HOME = (0.0, 180.0)
 Y_HOME_MM = -math.sqrt(825**2 - 455**2)
@@ -58,23 +59,6 @@ OF_THE_MOMENT = (
     imperfections.RoomCycle,
 )
 """Depend on the time of a reading, which no two sequences share to the last digit."""
-
-
-def quiet(*present: AnyEffect, **given: object) -> MachineSpec:
-    """A machine without noise and with the given effects."""
-    return MachineSpec.model_validate(
-        {"scatter": False, "scale_noise_mm": 0.0, "head_zero_mm": 0.0, "effects": present, **given}
-    )
-
-
-def read(spec: MachineSpec, *stops_deg: tuple[float, float]) -> list[VirtualReading]:
-    return VirtualRig(spec).measure(stops_deg)
-
-
-def change_mm(effect: AnyEffect, *stops_deg: tuple[float, float], **given: object) -> list[float]:
-    """What an effect adds to the readings of a sequence."""
-    with_it, without = read(quiet(effect, **given), *stops_deg), read(quiet(**given), *stops_deg)
-    return [a.scale_mm - b.scale_mm for a, b in zip(with_it, without, strict=True)]
 
 
 def check_turn(

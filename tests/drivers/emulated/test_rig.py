@@ -9,7 +9,7 @@ import subprocess
 import sys
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
 from random import Random
 
@@ -24,18 +24,11 @@ from drivers.lines.modbus import ModbusBus
 from drivers.scales.heidenhain_nd import HeidenhainND
 from drivers.scaling import JointScaling
 from drivers.servos.leadshine_el7 import LeadshineEL7
+from tests.waiting import soon
 
 PATIENCE_S = 10.0
 ZERO_AT_DEG = (0.0, 180.0)
 Axes = tuple[LeadshineEL7, LeadshineEL7]
-
-
-def wait_for(condition: Callable[[], bool]) -> None:
-    """Until true; far beyond any time it should take, the test fails."""
-    deadline_s = time.monotonic() + PATIENCE_S
-    while not condition():
-        assert time.monotonic() < deadline_s
-        time.sleep(0.001)
 
 
 def connected_axes(rig: EmulatedRig) -> Axes:
@@ -70,7 +63,7 @@ def scale(rig: EmulatedRig) -> Iterator[HeidenhainND]:
 def go(axes: Axes, theta1_deg: float, theta2_deg: float) -> None:
     axes[0].move_to(theta1_deg, 20.0)
     axes[1].move_to(theta2_deg, 20.0)
-    wait_for(lambda: all(axis.status().in_position for axis in axes))
+    soon(lambda: all(axis.status().in_position for axis in axes))
 
 
 def test_a_walk_measures_what_the_machine_is(rig: EmulatedRig, axes: Axes, scale: HeidenhainND) -> None:
@@ -94,7 +87,7 @@ def test_quick_stop_halts_a_move() -> None:
         axes[0].move_to(40.0, 10.0)
         assert axes[0].status().moving
         axes[0].quick_stop()
-        wait_for(lambda: not axes[0].status().moving)
+        soon(lambda: not axes[0].status().moving)
         assert not axes[0].status().in_position
         assert axes[0].feedback_deg() < 39.0
         for axis in axes:
@@ -199,7 +192,7 @@ def test_a_late_line_is_not_the_next_places_value(rig: EmulatedRig, axes: Axes, 
     with pytest.raises(DeviceError):
         scale.read_mm()
     go(axes, 12.0, 168.0)
-    wait_for(lambda: can_read(scale))
+    soon(lambda: can_read(scale))
     x, y = rig.machine.point_mm()
     assert scale.read_mm() == pytest.approx(((x - 1) ** 2 + (y + 129.5) ** 2) ** 0.5 - 437.25, abs=0.01)
 
@@ -269,7 +262,7 @@ def test_drive_alarm_is_seen_and_reset(rig: EmulatedRig, axes: Axes) -> None:
 def test_a_drive_that_never_is_in_position(rig: EmulatedRig, axes: Axes) -> None:
     rig.inject(Fault(kind="drive_never_in_position", joint=1))
     axes[0].move_to(10.0, 20.0)
-    wait_for(lambda: not axes[0].status().moving)
+    soon(lambda: not axes[0].status().moving)
     assert not axes[0].status().in_position
 
 
@@ -283,7 +276,7 @@ def test_a_move_whose_reply_is_lost_runs_once(rig: EmulatedRig) -> None:
     bus.line.recorder = lambda what, data: sent.append(data) if what == "tx" else None
     rig.inject(Fault(kind="drive_late", joint=1, after=2, delay_s=0.12))  # two reads precede the move
     axis.move_to(10.0, 20.0)
-    wait_for(lambda: axis.status().in_position)
+    soon(lambda: axis.status().in_position)
     assert [frame[7] for frame in sent].count(0x10) == 1
     axis.close()
 
@@ -372,10 +365,10 @@ def test_program_killed_finds_its_drives_where_they_were(tmp_path: Path) -> None
     axis.connect()
     axis.enable()
     axis.move_to(9.0, 20.0)
-    wait_for(lambda: axis.status().in_position)
+    soon(lambda: axis.status().in_position)
     left_deg = axis.feedback_deg()
     axis.close()
-    wait_for(lambda: saved_deg(state_file) == pytest.approx(left_deg, abs=1e-3))
+    soon(lambda: saved_deg(state_file) == pytest.approx(left_deg, abs=1e-3))
     os.kill(process.pid, signal.SIGKILL)
     end(process)
     process, addresses = start("--state", str(state_file))

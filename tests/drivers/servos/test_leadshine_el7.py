@@ -12,7 +12,7 @@ from drivers.lines.modbus import ModbusBus
 from drivers.protocols import AxisStatus, ServoAxis
 from drivers.scaling import JointScaling
 from drivers.servos.leadshine_el7 import LeadshineEL7
-from tests.drivers.wire import SILENCE, Exchange, PtyEnd, rtu
+from tests.drivers.wire import Exchange, PtyEnd, rtu, unanswered
 
 SCALING = JointScaling(counts_per_rev=10_000, ratio=20, zero_at_deg=180.0, sign=1)
 
@@ -26,10 +26,6 @@ def ask(address: str, value: str, count: str = "0001") -> Exchange:
 def put(address: str, value: str) -> Exchange:
     """A single write and its echo."""
     return rtu(f"01 06 {address} {value}"), rtu(f"01 06 {address} {value}")
-
-
-def unanswered(exchange: Exchange) -> Exchange:
-    return exchange[0], SILENCE
 
 
 CONNECT = [

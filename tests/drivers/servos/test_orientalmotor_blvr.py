@@ -15,7 +15,7 @@ from drivers.protocols import AxisStatus, ServoAxis
 from drivers.scaling import JointScaling
 from drivers.servos import SERVOS
 from drivers.servos.orientalmotor_blvr import OrientalMotorSettings, _Feeder
-from tests.drivers.wire import SILENCE, Exchange, PtyEnd, rtu
+from tests.drivers.wire import Exchange, PtyEnd, rtu, unanswered
 
 DRIVE = Drive("servo axis 1", 1, JointScaling(counts_per_rev=10_000, ratio=20, zero_at_deg=180.0, sign=1))
 
@@ -31,10 +31,6 @@ def put(address: str, value: str) -> Exchange:
     data = bytes.fromhex(value)
     count = f"{len(data) // 2:04X}"
     return rtu(f"01 10 {address} {count} {len(data):02X} {value}"), rtu(f"01 10 {address} {count}")
-
-
-def unanswered(exchange: Exchange) -> Exchange:
-    return exchange[0], SILENCE
 
 
 NO_WATCHDOG = [put("138A", "0000 0000"), ask("138A", "0000 0000")]

@@ -13,11 +13,11 @@ from station.identification import Identification, identify
 from station.identification.references import contradicted
 from station.plans import make_plan
 from station.records import AnyReference, JointAngle, Measurements, MountingError, Real
-from station.studies.reproduce.coverage import drawn_machine
+from station.studies.drawn import errors_of
 from station.studies.simulation import SimulatedMachine
 
 ROBOT = Robot.default()
-TRUTH = drawn_machine(np.random.default_rng(5))
+TRUTH = errors_of(ROBOT, np.random.default_rng(5))
 
 
 @pytest.fixture(scope="module")

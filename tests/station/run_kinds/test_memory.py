@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
@@ -43,13 +42,6 @@ def finish(
     made: CalibrationResult = result_of([], verdict).model_copy(update={"lasting": LASTING, **changes})
     store.finish(run, State.SUCCEEDED, made)
     return run
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    store = Store(tmp_path / "station.db")
-    yield store
-    store.close()
 
 
 def test_the_newest_pass_is_what_is_remembered(store: Store) -> None:

@@ -251,6 +251,14 @@ def test_who_has_nothing_to_apply(history: History) -> None:
         assert application(store, store.summary(run)) is None
 
 
+def test_a_run_of_a_kind_that_is_no_more_has_nothing_to_apply(history: History) -> None:
+    run = history.store.create(replace(asked("R1", "rapid"), kind="palpate"), ROBOT)
+    history.store.finish(run, State.SUCCEEDED, RESULT)
+    assert application(history.store, history.store.summary(run)) is None
+    why = f"Run {run} is of kind palpate, not a calibration; calibrate to have offsets to write."
+    assert refusal(check_apply, history, run) == why
+
+
 def test_a_changed_robot_file_bars_an_apply_but_not_the_way_back(history: History) -> None:
     history.store.save_robot(replace(ROBOT, L=(375.2, 375.0)))
     changed = "The file of robot R1 has changed since this run; calibrate again."

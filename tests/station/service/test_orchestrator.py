@@ -31,6 +31,7 @@ from station.store.store import Store
 from tests.station.asking import asked
 from tests.station.conftest import Start
 from tests.station.fakes import STOPS, Rig, result_of, stop_at
+from tests.waiting import soon
 
 REQUEST = asked("R1", "paper")
 LIMIT_S = 10.0
@@ -49,20 +50,16 @@ def outcome(store: Store, calibration_id: int) -> tuple[str, str | None, str]:
 
 def recorded(store: Store, run: int | None) -> list[Any]:
     """The events of a run, once there are any: a stop is recorded after its answer."""
-    deadline = time.monotonic() + LIMIT_S
-    while not (events := store.events(run)):
-        assert time.monotonic() < deadline
-        time.sleep(0.005)
-    return list(events)
+    return list(soon(lambda: store.events(run)))
 
 
 def until(orchestrator: Orchestrator, condition: Callable[[StationView], bool]) -> StationView:
     """The first snapshot that meets the condition."""
-    deadline = time.monotonic() + LIMIT_S
-    while not condition(snapshot := orchestrator.snapshot()):
-        assert time.monotonic() < deadline, snapshot
-        time.sleep(0.01)
-    return snapshot
+
+    def met() -> StationView | None:
+        return snapshot if condition(snapshot := orchestrator.snapshot()) else None
+
+    return soon(met)
 
 
 def measuring(snapshot: StationView) -> bool:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sqlite3
-import time
 from contextlib import closing
 from datetime import UTC, datetime, timedelta
 
@@ -13,6 +12,7 @@ from station.service.retention import retention_timer
 from station.settings import RetentionSettings
 from station.store.store import Store
 from tests.station.asking import asked
+from tests.waiting import soon
 
 READING = Reading(1, 1.25, (0.5, 179.9), (1, -1), 12.3456, "p1", 1, (12.3455, 12.3456, 12.3457))
 
@@ -56,8 +56,5 @@ def test_the_rule_of_the_station_file_is_applied_at_the_start(store: Store) -> N
         pass
     assert store.readings(run) == [READING]
     with retention_timer(store, RetentionSettings(samples_days=7.0)):
-        deadline = time.monotonic() + 10.0
-        while not store.events(run):
-            assert time.monotonic() < deadline
-            time.sleep(0.005)
+        soon(lambda: store.events(run))
     assert store.readings(run) != [READING]

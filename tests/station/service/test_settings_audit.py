@@ -2,22 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from pathlib import Path
-
-import pytest
 
 from station.records import AuditEntry
 from station.service.settings_audit import record_settings
 from station.settings import Settings
 from station.store import Store
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    store = Store(tmp_path / "station.db")
-    yield store
-    store.close()
 
 
 def changed(store: Store, **sections: object) -> list[AuditEntry]:

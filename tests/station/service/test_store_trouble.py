@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sqlite3
-import time
 from collections.abc import Callable, Iterator
 from contextlib import closing
 from pathlib import Path
@@ -20,6 +19,7 @@ from station.store.store import Store
 from tests.station.asking import asked
 from tests.station.conftest import Start
 from tests.station.fakes import STOPS, Rig, result_of
+from tests.waiting import soon
 
 REQUEST = asked("R1", "paper")
 LIMIT_S = 10.0
@@ -69,13 +69,6 @@ class Disk:
 
     def space_back(self) -> None:
         self._db.execute("PRAGMA max_page_count = 1073741823")
-
-
-def soon(condition: Callable[[], bool]) -> None:
-    deadline = time.monotonic() + LIMIT_S
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.005)
 
 
 def on_disk(store: Store, run: int) -> tuple[str, str | None, str | None]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from typing import Any
 
 import pytest
@@ -16,6 +15,7 @@ from station.store.store import Store
 from tests.station.asking import asked
 from tests.station.conftest import SETTINGS, Start
 from tests.station.fakes import STOPS, Rig, result_of
+from tests.waiting import soon
 
 LIMIT_S = 10.0
 HURRIED = Settings(limits=LimitSettings(settle_s=0.1, samples=2, prompt_s=0.2))
@@ -31,11 +31,7 @@ def asks(plan: PlanName, robot: Robot) -> Procedure:
 
 
 def prompt_of(orchestrator: Orchestrator, run: int) -> Prompt:
-    deadline = time.monotonic() + LIMIT_S
-    while (prompt := orchestrator.prompt(run)) is None:
-        assert time.monotonic() < deadline
-        time.sleep(0.005)
-    return prompt
+    return soon(lambda: orchestrator.prompt(run))
 
 
 def test_it_waits_and_goes_on_with_the_answer(start: Start, store: Store, rig: Rig) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import sqlite3
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import replace
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
@@ -39,13 +39,6 @@ RESULT = result(
     residuals=[{"reading": 1, "position": "p1", "residual_mm": 0.001, "limit_mm": 0.01}],
 )
 STOPPED = because("stopped", by="ada")
-
-
-@pytest.fixture
-def store(tmp_path: Path) -> Iterator[Store]:
-    store = Store(tmp_path / "station.db")
-    yield store
-    store.close()
 
 
 def start(store: Store, request: CalibrationRequest = REQUEST, **key: object) -> int:

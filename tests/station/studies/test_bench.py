@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from click.testing import CliRunner
 
-from station.cli import main, studies
+from station.cli import main
 from station.studies.bench import peers, service, solvers
 from station.studies.bench.problems import Problem
 from station.studies.bench.study import TARGETS
@@ -66,7 +66,7 @@ def test_the_command_writes_the_contracts_fields(tmp_path: Path, monkeypatch: py
         "machine": {"load_1min": 0.1},
         "versions": {},
     }
-    monkeypatch.setattr(studies, "bench", lambda console, quick: content)
+    monkeypatch.setattr("station.cli.bench.bench", lambda console, quick: content)
     answer = CliRunner().invoke(main, ["bench", "--json", str(tmp_path / "b.json")], catch_exceptions=False)
     assert answer.exit_code == 0
     assert "not measured" in answer.output

@@ -7,17 +7,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from station.diagnosis.report.stages import Mask
 from station.diagnosis.tests_of_fit.cross_validation import held_out
 from station.diagnosis.traced_loop import traced
 from station.five_bar.mechanism import FiveBar
 from station.mechanism.conditions import reference_of
 from station.model.model import Fit, Model, fit
-from station.records import Real
+from station.records import Flags, Real
 from tests.station.simulated import ROBOT, Drawn
 
 
-def refitted(whole: Fit, left_out: Mask) -> Real:
+def refitted(whole: Fit, left_out: Flags) -> Real:
     """(B,) mm, readings left_out (mask) less what a fit to all others predicts of them."""
     m = whole.model.mechanism.measurements
     others = Model(FiveBar(ROBOT, m.take(~left_out)), reference_of(m), whole.model.terms)

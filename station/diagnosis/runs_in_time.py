@@ -1,0 +1,25 @@
+"""Readings that follow one another in time: where several are off alike, something happened."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from station.records import Flags, Index, Measurements
+
+RUN = 3
+
+
+def in_runs(m: Measurements, alike: Callable[[Index], bool]) -> Flags:
+    """(K,) readings in a row of `RUN` or more, in the order of time.
+
+    :param alike: judges any `RUN` of them in a row, by their indices (RUN,)
+    """
+    order = np.argsort(m.t_s, kind="stable")
+    out = np.zeros(len(m), dtype=bool)
+    for k in range(len(m) - RUN + 1):
+        row = order[k : k + RUN]
+        if alike(row):
+            out[row] = True
+    return out

@@ -1,0 +1,33 @@
+"""For what another thread or process does in its own time."""
+
+from __future__ import annotations
+
+import threading
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import TypeVar
+
+PATIENCE_S = 10.0
+_LOOK_S = 0.005
+
+Found = TypeVar("Found")
+
+
+def soon(look: Callable[[], Found | None], why: str = "", *, within_s: float = PATIENCE_S) -> Found:
+    """What `look` finds as soon as that is true.  :raises AssertionError: it has not become so in time."""
+    deadline_s = time.monotonic() + within_s
+    while not (found := look()):
+        assert time.monotonic() < deadline_s, why or found
+        time.sleep(_LOOK_S)
+    return found
+
+
+@contextmanager
+def all_threads_end() -> Iterator[None]:
+    """Whatever was begun inside has ended soon after it."""
+    before = set(threading.enumerate())
+    yield
+    for thread in set(threading.enumerate()) - before:
+        thread.join(5)
+        assert not thread.is_alive(), thread.name
