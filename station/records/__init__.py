@@ -112,13 +112,14 @@ from station.records.people import (
     User,
     Via,
 )
+from station.records.phrases import Phrase, PhraseValue, phrase
 from station.records.plain_table import csv_text
 from station.records.plan_document import PlanDocument, PlannedStop, PlanPrediction, PredictedSd
 from station.records.procedure import Procedure
 from station.records.prompt import Prompt
 from station.records.quantity import Quantity
 from station.records.reading import Reading
-from station.records.reason import Reason, ReasonValue, because
+from station.records.reason import Reason, ReasonValue, because, reason_in
 from station.records.record import Record, field_docstrings
 from station.records.references import AnyReference, Asked, JointAngle, MountingError, ReferenceUse
 from station.records.remembered import Beforehand, MemorySummary, Remembered
@@ -285,6 +286,8 @@ __all__ = [
     "Outcome",
     "OutlierNote",
     "PersonName",
+    "Phrase",
+    "PhraseValue",
     "PlanDocument",
     "PlanName",
     "PlanPrediction",
@@ -371,6 +374,7 @@ __all__ = [
     "number",
     "parse_measurements",
     "parse_readings",
+    "phrase",
     "proposed_map",
     "read_foreign",
     "read_measurements",
@@ -378,6 +382,7 @@ __all__ = [
     "read_taught",
     "readings_to_csv",
     "readout_step_mm",
+    "reason_in",
     "recorded_columns",
     "refusal",
     "residual_rows",
