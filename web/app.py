@@ -17,6 +17,7 @@ from web.borders import Borders, Forwarded
 from web.compression import Compression
 from web.headers import SecurityHeaders
 from web.known_query import known_query
+from web.late import LateCommands
 from web.live import LiveFeed
 from web.metrics import Metrics
 from web.routes import (
@@ -119,6 +120,7 @@ def create_app(runtime: Runtime, *, access: Access | None = None, static: Path =
     pages.add(app, static)
     problems.add(app)
     app.add_middleware(SlowBodies)
+    app.add_middleware(LateCommands)
     app.add_middleware(etags.ETags, prefix=f"{API}/calibrations/")
     app.add_middleware(Compression)
     app.add_middleware(Borders, hosts=service.hosts)
