@@ -26,7 +26,7 @@ def in_ms(seconds: float) -> str:
     ],
 )
 def test_it_starts_nothing(service: Service, not_after: str, status: int, kind: str) -> None:
-    answer = service.client.post(RUNS, json=BODY, headers={"X-Not-After": not_after.encode()})
+    answer = service.client.post(RUNS, json=BODY, headers=[(b"X-Not-After", not_after.encode())])
     assert (answer.status_code, answer.json()["type"]) == (status, kind)
     assert service.client.get(RUNS).json()["items"] == []
 
