@@ -18,6 +18,7 @@ from web.borders import Borders, Forwarded
 from web.compression import Compression
 from web.headers import SecurityHeaders
 from web.known_query import known_query
+from web.late import LateCommands
 from web.live import LiveFeed
 from web.metrics import Metrics
 from web.routes import (
@@ -130,6 +131,7 @@ def _add_routes(app: Application, *, dataset_bytes: int) -> None:
 def _add_middleware(app: Application, service: ServiceSettings) -> None:
     """The last one is the first that a request meets."""
     app.add_middleware(SlowBodies)
+    app.add_middleware(LateCommands)
     app.add_middleware(etags.ETags, prefix=f"{API}/calibrations/")
     app.add_middleware(Compression)
     app.add_middleware(Borders, hosts=service.hosts)

@@ -20,9 +20,9 @@ from station.messages import (
     local_time,
     measured,
     parameter_name,
-    reason_text,
     reasons,
 )
+from station.records import reason_in
 
 MOST_EFFECTS = 4
 """One page has room for so many; the record has all."""
@@ -129,7 +129,7 @@ class _Writer:
         statement = self.facts.statement
         if statement.reason_code is None or statement.reason_code not in reasons(self.language):
             return statement.reason or ""
-        return reason_text(statement.reason_code, statement.reason_params, self.language)
+        return reason_in(statement.reason_code, statement.reason_params, self.language)
 
     def object(self) -> Iterator[Line]:
         facts = self.facts

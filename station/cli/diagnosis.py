@@ -42,7 +42,6 @@ from station.machines import AnyRobot, read_readings, read_robot, robot_of
 from station.records import (
     ColumnMap,
     Measured,
-    MistakeRecord,
     RefusedDiagnosis,
     guesses_in_words,
     recorded_columns,
@@ -169,9 +168,7 @@ def _context(robot: AnyRobot, data: Path) -> Context | None:
 
 
 def _refused(refusal: MistakeRefused) -> RefusedDiagnosis:
-    mistake = refusal.mistake
-    record = MistakeRecord(kind=mistake.kind, text=mistake.text, rows=mistake.rows)
-    return RefusedDiagnosis(refused=str(refusal), mistake=record)
+    return RefusedDiagnosis(refused=str(refusal), mistake=refusal.mistake.record())
 
 
 def _print(findings: Findings) -> None:

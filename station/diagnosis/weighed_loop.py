@@ -19,7 +19,7 @@ from station.diagnosis.readiness import check_enough, checked_fresh
 from station.errors import InputRefused
 from station.fitting import NotConvergedError, Outlier
 from station.five_bar import FiveBar, Robot, check_places
-from station.records import DiagnosisVerdict, Measurements
+from station.records import DiagnosisVerdict, Measurements, phrase
 
 SURE = 0.95
 FEW_GLITCHES = 0.05
@@ -184,35 +184,30 @@ def _mistake_shown_by(found: ExplanationSet, files: _Files) -> Mistake | None:
     if fresh is None or validation is None or not found.explanations:
         return None
     if not validation.new:
-        text = "Readings of the fresh file repeat the measurement sequence; take new ones at new positions."
-        return Mistake("same_readings", text, fresh.ids, "refused", "fresh")
+        return Mistake("same_readings", phrase("not_fresh"), fresh.ids, "refused", "fresh")
     best = found.explanations[0]
     slips = [held for held in best.errors if held.part.effect == "count_slip"]
     moments = {q.value for held in slips for q in held.parameters if q.name == "from_s"}
     if best.probability < SURE or len(moments) != 1 or len(slips) != len(best.errors):
         return None
-    moment, joints = moments.pop(), [held.part.joint for held in slips]
-    sizes = " and ".join(
-        f"{q.value:.4f} deg" for held in slips for q in held.parameters if q.name == "step_deg"
+    moment, joints = moments.pop(), [held.part.joint for held in slips if held.part.joint is not None]
+    sizes = tuple(
+        phrase("small_degrees", value=q.value)
+        for held in slips
+        for q in held.parameters
+        if q.name == "step_deg"
     )
     clock = together(files.sequence, fresh).t_s
     if moment == clock[len(files.sequence)] and not validation.agrees:
-        what = "Both joints were" if len(joints) == 2 else f"Joint {joints[0]} was"
-        text = (
-            f"{what} homed anew before the fresh readings, by {sizes}: those agree with the measurement "
-            "sequence once they are shifted by as much; measure both with one homing."
-        )
+        which = tuple(phrase("joint", number=joint) for joint in joints)
+        said = phrase("homed_before_fresh", joints=which, sizes=sizes)
         return Mistake(
-            "zeros_written" if len(joints) == 2 else "rehomed", text, fresh.ids, "refused", "fresh"
+            "zeros_written" if len(joints) == 2 else "rehomed", said, fresh.ids, "refused", "fresh"
         )
     if len(joints) == 2 and moment in files.sequence.t_s:
         rows = tuple(i for i, t in zip(files.sequence.ids, files.sequence.t_s, strict=True) if t >= moment)
-        text = (
-            f"From reading {rows[0]} on both joints are shifted, by {sizes}: zeros were written to the "
-            "drives during the measurement sequence, or a collision shifted both joints; measure again "
-            "with one set of zeros."
-        )
-        return Mistake("zeros_written", text, rows, "refused")
+        said = phrase("shifted_within", reading=phrase("reading", id=rows[0]), sizes=sizes)
+        return Mistake("zeros_written", said, rows, "refused")
     return None
 
 

@@ -1,4 +1,5 @@
-"""What people read: display names, explanations and reasons, in one file for each language (`en.json`).
+"""What people read: display names, explanations and reasons, in one file for each language (`en.json`);
+sentences that are put together of parts in another (`en-phrases.json`).
 
 The page reads the same files; what travels over REST is a code with parameters beside the English sentence.
 """
@@ -6,6 +7,7 @@ The page reads the same files; what travels over REST is a code with parameters 
 from __future__ import annotations
 
 from station.messages.locales import local_date, local_number, local_time, measured
+from station.messages.phrases import phrase_text
 from station.messages.texts import (
     LANGUAGES,
     Group,
@@ -36,6 +38,7 @@ __all__ = [
     "measured",
     "parameter_name",
     "part_name",
+    "phrase_text",
     "reason_text",
     "reasons",
 ]

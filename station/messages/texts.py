@@ -56,7 +56,11 @@ def reasons(language: Language = "en") -> dict[str, str]:
 
 def reason_text(code: str, params: dict[str, float | int | str], language: Language = "en") -> str:
     """A reason in a sentence.  :raises KeyError: an unknown code, or a parameter that its sentence needs."""
-    template = _text("reasons", code, language)
+    return filled(_text("reasons", code, language), params, language)
+
+
+def filled(template: str, params: dict[str, float | int | str], language: Language) -> str:
+    """With the values as the language writes them.  :raises KeyError: a value is missing."""
     return template.format_map(params) if language == "en" else _Local(language).vformat(template, (), params)
 
 

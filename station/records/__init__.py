@@ -114,13 +114,14 @@ from station.records.people import (
     User,
     Via,
 )
+from station.records.phrases import Phrase, PhraseValue, phrase
 from station.records.plain_table import csv_text
 from station.records.plan_document import PlanDocument, PlannedStop, PlanPrediction, PredictedSd
 from station.records.procedure import Procedure
 from station.records.prompt import Prompt
 from station.records.quantity import Quantity
 from station.records.reading import Reading
-from station.records.reason import Reason, ReasonValue, because
+from station.records.reason import Reason, ReasonValue, because, reason_in
 from station.records.record import Record, field_docstrings
 from station.records.references import AnyReference, Asked, JointAngle, MountingError, ReferenceUse
 from station.records.remembered import Beforehand, MemorySummary, Remembered
@@ -288,6 +289,8 @@ __all__ = [
     "Outcome",
     "OutlierNote",
     "PersonName",
+    "Phrase",
+    "PhraseValue",
     "PlanDocument",
     "PlanName",
     "PlanPrediction",
@@ -375,6 +378,7 @@ __all__ = [
     "number",
     "parse_measurements",
     "parse_readings",
+    "phrase",
     "proposed_map",
     "read_foreign",
     "read_measurements",
@@ -382,6 +386,7 @@ __all__ = [
     "read_taught",
     "readings_to_csv",
     "readout_step_mm",
+    "reason_in",
     "recorded_columns",
     "refusal",
     "residual_rows",

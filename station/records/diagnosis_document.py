@@ -11,6 +11,7 @@ from typing import Annotated, Literal
 from pydantic import ConfigDict, Field
 
 from station.records.accuracy import PositionError, WeakDirection
+from station.records.phrases import Phrase
 from station.records.quantity import Quantity
 from station.records.record import Record
 from station.records.sections import Sections
@@ -148,6 +149,8 @@ class MistakeRecord(Record):
 
     kind: str
     text: str
+    said: Phrase | None = None
+    """The text by its codes, for other languages; none in documents of older versions."""
     rows: tuple[int | str, ...]
 
 

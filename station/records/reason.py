@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Annotated
 
 from pydantic import Field
 
-from station.messages import reason_text
+from station.messages import Language, reason_text
+from station.records.phrases import Phrase
 from station.records.record import Record
 
-ReasonValue = float | int | str
+ReasonValue = float | int | str | Phrase
 
 
 class Reason(Record):
@@ -21,10 +23,16 @@ class Reason(Record):
     @property
     def text(self) -> str:
         """In English."""
-        return reason_text(self.code, self.params)
+        return reason_in(self.code, self.params, "en")
+
+
+def reason_in(code: str, params: Mapping[str, ReasonValue], language: Language) -> str:
+    """The sentence in a language.  :raises KeyError: an unknown code, or a parameter that is missing."""
+    plain = {name: p.text(language) if isinstance(p, Phrase) else p for name, p in params.items()}
+    return reason_text(code, plain, language)
 
 
 def because(code: str, **params: ReasonValue) -> Reason:
     """A reason; its sentence is made at once, so that a missing parameter is found where it is missing."""
-    reason_text(code, params)
+    reason_in(code, params, "en")
     return Reason(code=code, params=params)

@@ -262,4 +262,5 @@ def reason_columns(reason: Reason | None) -> tuple[str | None, str | None, str |
     """Text, code and parameters of a reason, as they are stored."""
     if reason is None:
         return None, None, None
-    return reason.text or None, reason.code, compact(reason.params) if reason.params else None
+    params = reason.model_dump(mode="json")["params"]
+    return reason.text or None, reason.code, compact(params) if params else None

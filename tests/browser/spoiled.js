@@ -1,9 +1,12 @@
-// Texts of the page that a reader cannot read: over one another, over a button, cut, or beside the page.
+// What cannot be read or hit: texts over one another, over a button, cut, or beside the page; targets too small for a glove.
 async () => {
   // charts follow a change of the window in the next frame
   for (let frame = 0; frame < 3; frame++) await new Promise(requestAnimationFrame);
   const CUTS = ["hidden", "clip"];
   const SLACK_PX = 2;
+  const TARGET_PX = 44;
+  /** Tables may be wider than the page and scroll; what is read as a sentence or pressed may not. */
+  const NEVER_SCROLLED = "p, h1, h2, h3, button, a.button, label";
   const shown = (element) =>
     element.checkVisibility({ visibilityProperty: true, opacityProperty: true }) && !element.closest(".hidden");
   const short = (text) => text.trim().replace(/\s+/g, " ").slice(0, 40);
@@ -37,6 +40,7 @@ async () => {
       if (scrolls && (middle < edge.top || middle > edge.bottom || left > edge.right || right < edge.left)) return null;
       const beyond = Math.max(edge.left - left, right - edge.right, edge.top - top - 3, bottom - edge.bottom - 3);
       if (cuts && !scrolls && beyond > SLACK_PX) return "cut";
+      if (scrolls && right > edge.right + SLACK_PX && owner.closest(NEVER_SCROLLED) && !owner.closest("thead")) return "scrolled aside";
       [left, right] = [Math.max(left, edge.left), Math.min(right, edge.right)];
     }
     return right > document.documentElement.clientWidth + 1 || left < -1 ? "beside the page" : { left, top, right, bottom };
@@ -60,6 +64,13 @@ async () => {
     }
     if (control.tagName === "BUTTON" && control.scrollWidth > control.clientWidth + SLACK_PX) {
       found.push(`wider than its button: ${short(control.innerText)}`);
+    }
+  }
+  for (const target of document.querySelectorAll("button, a, summary, select, input, textarea")) {
+    if (!shown(target) || target.closest("p")) continue; // a link in a sentence is as high as its line
+    const { width, height } = target.closest("label")?.getBoundingClientRect() ?? target.getBoundingClientRect();
+    if (Math.min(width, height) < TARGET_PX - 0.5) {
+      found.push(`too small to hit, ${Math.round(width)} x ${Math.round(height)}: ${short(target.innerText || target.id)}`);
     }
   }
   return [...new Set(found)];

@@ -44,6 +44,12 @@ LAST_MS = 15_000
 """A plan is made, a chart loaded."""
 PHONE = ViewportSize(width=390, height=844)
 SMALL = ViewportSize(width=1024, height=768)
+SIZES = {
+    "phone": PHONE,
+    "1280 at 200 %": ViewportSize(width=640, height=400),
+    "1280": ViewportSize(width=1280, height=800),
+    "1920": ViewportSize(width=1920, height=1080),
+}
 GO = """to => { history.pushState(null, "", to); dispatchEvent(new PopStateEvent("popstate")); }"""
 
 
@@ -74,8 +80,9 @@ def test_every_view_looks_as_in_its_picture(page: Page, lived: Station, language
         found += violations(page) if language == "en" else []
         found += foreign_words(page, "code, td") if language == "zh" else []
         found.append(trouble_with(page, f"{language}/{name}"))
-        page.set_viewport_size(PHONE)
-        found += [f"{language}/{name} on a phone: {text}" for text in spoiled(page)]
+        for size, window in SIZES.items():
+            page.set_viewport_size(window)
+            found += [f"{language}/{name}, {size}: {text}" for text in spoiled(page)]
         page.set_viewport_size(SMALL)
     assert [trouble for trouble in found if trouble] == []
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 
-from playwright.sync_api import Page, WebSocketRoute, expect
+from playwright.sync_api import Page, Route, WebSocketRoute, expect
 
 from tests.browser.conftest import Station
 from tests.browser.steps import add_run, open_station, start, violations
@@ -18,6 +18,26 @@ def test_no_state_breaks_wcag_2_2_aa(page: Page, slow_station: Station) -> None:
     page.get_by_role("button", name="Abort run").click()
     expect(page.locator(".outcome")).to_contain_text("ABORTED")
     assert violations(page) == []
+
+
+def test_the_state_of_the_station_does_not_wait_for_the_texts(page: Page, station: Station) -> None:
+    held: list[Route] = []
+    page.route("**/assets/en-*.js", lambda route: held.append(route))
+    with page.expect_websocket() as feed:
+        page.goto(station.url, wait_until="commit")
+    feed.value.wait_for_event("framereceived")
+    assert len(held) == 1
+    held[0].continue_()
+    expect(page.locator("header")).to_contain_text("READY")
+
+
+def test_the_page_comes_in_few_files(page: Page, station: Station) -> None:
+    """Each more is asked for in the time to READY."""
+    asked: list[str] = []
+    page.on("request", lambda request: asked.append(request.url))
+    open_station(page, station)
+    scripts = [url for url in asked if url.endswith(".js")]
+    assert len(scripts) == 4, scripts
 
 
 def test_a_chart_that_cannot_be_loaded_says_so(page: Page, station: Station) -> None:

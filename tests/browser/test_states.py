@@ -17,7 +17,7 @@ from station.certificate.pdf import CHINESE_FONTS
 from tests.browser.conftest import BUILT_PAGE, SMALL, Station, needed
 from tests.browser.looks import foreign_words, spoiled, trouble_with
 from tests.browser.steps import HOLD_MS, add_run, violations
-from tests.browser.test_languages import PHONE, WORDS
+from tests.browser.test_languages import SIZES, WORDS
 from tests.waiting import soon
 
 Pages = dict[str, Page]
@@ -77,8 +77,9 @@ def look_at(pages: Pages, name: str, besides: str = "code", *, steady: bool = Tr
         *(f"in English: {word}" for word in foreign_words(pages["zh"], besides)),
         *violations(pages["en"]),
     ]
-    pages["de"].set_viewport_size(PHONE)
-    found += [f"on a phone: {text}" for text in spoiled(pages["de"])]
+    for size, window in SIZES.items():
+        pages["de"].set_viewport_size(window)
+        found += [f"{size}: {text}" for text in spoiled(pages["de"])]
     pages["de"].set_viewport_size(SMALL)  # type: ignore[arg-type]
     assert [trouble for trouble in found if trouble] == []
 

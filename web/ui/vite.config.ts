@@ -10,6 +10,21 @@ export default defineConfig({
     // the content security policy allows no data: addresses
     assetsInlineLimit: 0,
     chunkSizeWarningLimit: 700,
+    rolldownOptions: {
+      output: {
+        codeSplitting: {
+          groups: [
+            // does not wait for the texts of the page
+            { name: "feed", test: /node_modules[\\/]@?preact|src[\\/](feed|live)\.ts/ },
+            // what every view needs is one file
+            {
+              name: "frame",
+              test: /src[\\/](?!feed|live|main)\w+\.tsx?$|src[\\/]messages[\\/](index|language|said|phrases)\.ts/,
+            },
+          ],
+        },
+      },
+    },
   },
   server: {
     // the message file that the page shares with the service

@@ -8,22 +8,25 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from station.diagnosis.mistakes.mistake import Kind
+from station.diagnosis.mistakes.mistake import Kind, angle_columns, joints_named, rows_named
 from station.five_bar import Robot
-from station.records import Measurements, Real
+from station.records import Measurements, Phrase, Real, phrase
 
 SCALE_UNITS = {
-    "inches": 25.4, "metres": 1e3, "micrometres": 1e-3, "centimetres": 10.0, "tenths of a millimetre": 0.1,
-    "thousandths of an inch": 0.0254, "feet": 304.8, "nanometres": 1e-6,
+    "in_inches": 25.4, "in_metres": 1e3, "in_micrometres": 1e-3, "in_centimetres": 10.0,
+    "in_tenths_of_a_millimetre": 0.1, "in_thousandths_of_an_inch": 0.0254, "in_feet": 304.8,
+    "in_nanometres": 1e-6,
 }  # fmt: skip
+"""By the code of their names."""
 SCALE_FACTORS = {
-    "twice": 0.5, "half": 2.0, "four times": 0.25, "a quarter of": 4.0, "five times": 0.2, "a fifth of": 5.0,
+    "share_twice": 0.5, "share_half": 2.0, "share_four_times": 0.25, "share_quarter": 4.0,
+    "share_five_times": 0.2, "share_fifth": 5.0,
 }  # fmt: skip
 """How much too large the readings are (wrong interpolation or counting of edges), and the correction."""
 ANGLE_UNITS = {
-    "radians": 180.0 / np.pi, "minutes of arc": 1.0 / 60.0, "seconds of arc": 1.0 / 3600.0,
-    "milliradians": 0.18 / np.pi, "gon": 0.9, "turns": 360.0, "tenths of a degree": 0.1,
-    "thousandths of a degree": 1e-3,
+    "in_radians": 180.0 / np.pi, "in_minutes_of_arc": 1.0 / 60.0, "in_seconds_of_arc": 1.0 / 3600.0,
+    "in_milliradians": 0.18 / np.pi, "in_gon": 0.9, "in_turns": 360.0, "in_tenths_of_a_degree": 0.1,
+    "in_thousandths_of_a_degree": 1e-3,
 }  # fmt: skip
 SHIFTS = (1, -1, 2, -2, 3, -3)
 BOTH: tuple[tuple[int, ...], ...] = ((0,), (1,), (0, 1))
@@ -35,106 +38,87 @@ class Correction:
     """One way to put a file right."""
 
     kind: Kind
-    what: str
+    what: Phrase
     """What is wrong, as the end of "... looks as if": a full clause."""
-    action: str
+    action: Phrase
     """What to do, an imperative clause."""
-    column: str
+    joints: tuple[int, ...]
+    """Whose angles it changes; none: the readings or the order of the rows."""
     apply: Callable[[Measurements], tuple[Measurements, NDArray[np.bool_]]]
     """The corrected file, and the rows that still have all they need."""
 
 
-def joint_names(joints: tuple[int, ...]) -> str:
-    """In words."""
-    return "joint 1 and joint 2" if len(joints) == 2 else f"joint {joints[0] + 1}"
-
-
-def columns_of(joints: tuple[int, ...]) -> str:
-    """Names of the angle columns."""
-    return " and ".join(f"theta{i + 1}_deg" for i in joints)
-
-
 def corrections(robot: Robot) -> Iterator[Correction]:
     """Every one that needs no number found first."""
-    yield Correction(
-        "scale_sign", "scale_mm counts backwards", "reverse the sign of scale_mm", "scale_mm", _scaled(-1.0)
-    )
+    yield Correction("scale_sign", phrase("scale_backwards"), phrase("reverse_scale"), (), _scaled(-1.0))
     for unit, factor in SCALE_UNITS.items():
         yield Correction(
-            "scale_unit",
-            f"scale_mm is in {unit}",
-            f"multiply scale_mm by {factor:g}",
-            "scale_mm",
-            _scaled(factor),
-        )
+            "scale_unit", phrase("scale_in_unit", unit=phrase(unit)),
+            phrase("multiply_scale", factor=factor), (), _scaled(factor),
+        )  # fmt: skip
     for share, factor in SCALE_FACTORS.items():
         yield Correction(
-            "scale_factor", f"scale_mm is {share} the travel", f"multiply scale_mm by {factor:g}", "scale_mm",
-            _scaled(factor),
+            "scale_factor", phrase("scale_share", share=phrase(share)),
+            phrase("multiply_scale", factor=factor), (), _scaled(factor),
         )  # fmt: skip
     for unit, factor in ANGLE_UNITS.items():
         for joints in BOTH:
+            columns = angle_columns(joints)
             yield Correction(
-                "angle_unit", f"{columns_of(joints)} is in {unit}", f"multiply it by {factor:g}",
-                columns_of(joints), _turned(joints, factor, (0.0, 0.0)),
+                "angle_unit", phrase("angles_in_unit", columns=columns, unit=phrase(unit)),
+                phrase("multiply_angles", columns=columns, factor=factor),
+                joints, _turned(joints, factor, (0.0, 0.0)),
             )  # fmt: skip
     for joints in BOTH:
         yield Correction(
-            "joint_sign", f"{joint_names(joints)} counts the other way round",
-            "reverse its sign in [joints] or in the file", columns_of(joints),
-            _turned(joints, -1.0, robot.zero_at_deg),
+            "joint_sign", phrase("joint_backwards", joints=joints_named(joints)), phrase("reverse_joint"),
+            joints, _turned(joints, -1.0, robot.zero_at_deg),
         )  # fmt: skip
         if any(robot.zero_at_deg[i] % 180.0 for i in joints):
             yield Correction(
-                "joint_sign", f"{columns_of(joints)} has the wrong sign", "reverse it", columns_of(joints),
-                _turned(joints, -1.0, (0.0, 0.0)),
+                "joint_sign", phrase("angles_negative", columns=angle_columns(joints)),
+                phrase("reverse_angles"), joints, _turned(joints, -1.0, (0.0, 0.0)),
             )  # fmt: skip
     yield Correction(
-        "joints_exchanged", "theta1_deg and theta2_deg are exchanged", "exchange the two columns",
-        "theta1_deg and theta2_deg", _exchanged,
-    )  # fmt: skip
+        "joints_exchanged", phrase("columns_exchanged"), phrase("exchange_columns"), (0, 1), _exchanged
+    )
     yield Correction(
-        "joints_exchanged", "the joints are numbered from the other side", "exchange the joints",
-        "theta1_deg and theta2_deg", _mirrored,
-    )  # fmt: skip
+        "joints_exchanged", phrase("joints_exchanged"), phrase("exchange_joints"), (0, 1), _mirrored
+    )
     for by in SHIFTS:
-        rows = "one row" if abs(by) == 1 else f"{abs(by)} rows"
-        way = "late" if by > 0 else "early"
+        rows, late = rows_named(by), by > 0
         for joints in AT_MOST_ONE:
-            column = columns_of(joints) if joints else "scale_mm"
-            beside = "" if joints else ", or both angle columns the other way"
-            yield Correction(
-                "row_shift", f"{column} stands {rows} too {way}{beside}",
-                f"move the column {'up' if by > 0 else 'down'} by {rows}", column, _shifted(joints, by),
-            )  # fmt: skip
+            what = phrase("scale_late" if late else "scale_early", rows=rows)
+            if joints:
+                code = "column_late" if late else "column_early"
+                what = phrase(code, column=angle_columns(joints), rows=rows)
+            action = phrase("move_up" if late else "move_down", rows=rows)
+            yield Correction("row_shift", what, action, joints, _shifted(joints, by))
 
 
 def scaled_angles(joints: tuple[int, ...], factor: float, about_deg: tuple[float, float]) -> Correction:
     """A ratio in [joints] that is wrong by the reciprocal of a factor."""
     return Correction(
-        "ratio", f"[joints] ratio or counts_per_rev of {joint_names(joints)} is wrong by a factor of "
-        f"{factor:.5g}",
-        f"divide the ratio by {factor:.5g} and read the angles again", columns_of(joints),
-        _turned(joints, factor, about_deg),
+        "ratio", phrase("ratio_by_factor", joints=joints_named(joints), factor=factor),
+        phrase("divide_ratio", factor=factor), joints, _turned(joints, factor, about_deg),
     )  # fmt: skip
 
 
 def scaled_readings(factor: float) -> Correction:
     """Readings that are wrong by a factor of no name."""
     return Correction(
-        "scale_factor", f"scale_mm has to be multiplied by {factor:.5g}",
-        "check the resolution set in the readout", "scale_mm", _scaled(factor),
+        "scale_factor", phrase("scale_by_factor", factor=factor), phrase("check_resolution"), (),
+        _scaled(factor),
     )  # fmt: skip
 
 
 def offset_angles(offsets_deg: tuple[float, float]) -> Correction:
     """A zero_at_deg that is far off."""
     wrong = tuple(i for i in (0, 1) if offsets_deg[i])
-    by = " and ".join(f"{offsets_deg[i]:+.2f} deg" for i in wrong)
+    by = tuple(phrase("degrees", value=offsets_deg[i]) for i in wrong)
     return Correction(
-        "zero_at", f"zero_at_deg of {joint_names(wrong)} is wrong by {by}",
-        f"add {by} to zero_at_deg of {joint_names(wrong)} in the robot file and read the angles again",
-        columns_of(wrong), _offset(offsets_deg),
+        "zero_at", phrase("zero_by", joints=joints_named(wrong), by=by),
+        phrase("add_zero", joints=joints_named(wrong), by=by), wrong, _offset(offsets_deg),
     )  # fmt: skip
 
 

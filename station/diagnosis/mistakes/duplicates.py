@@ -6,7 +6,7 @@ import numpy as np
 
 from station.diagnosis.mistakes.mistake import Context, Mistake, ids, named
 from station.five_bar import Robot, distance_by_joint, pose
-from station.records import Measurements, Real
+from station.records import Measurements, Phrase, Real, phrase
 
 SAME_RAD, SAME_MM = 1e-9, 1e-9
 CHANCE = 1e-6
@@ -28,9 +28,7 @@ def same_readings(m: Measurements, fresh: Measurements) -> Mistake | None:
     rows = ids(fresh, copied)
     return Mistake(
         "same_readings",
-        f"{_whole(rows, len(fresh))} of the fresh file repeat angles and distance of the measurement "
-        "sequence; "
-        "they confirm nothing: take new readings at new positions.",
+        phrase("same_readings", rows=_whole(rows, len(fresh))),
         rows,
         "refused",
         "fresh",
@@ -56,8 +54,8 @@ def _step(values: Real) -> float:
     return 0.0
 
 
-def _whole(rows: tuple[int | str, ...], count: int) -> str:
-    return "All readings" if len(rows) == count else named(rows).capitalize()
+def _whole(rows: tuple[int | str, ...], count: int) -> Phrase:
+    return phrase("all_readings") if len(rows) == count else named(rows)
 
 
 def pasted_block(robot: Robot, m: Measurements, file: str = "readings") -> Mistake | None:
@@ -89,11 +87,10 @@ def pasted_block(robot: Robot, m: Measurements, file: str = "readings") -> Mista
     if not whole and np.median(moved) < 0.05:
         return None
     rows = ids(m, now)
-    what = "all columns" if whole else "the distances"
+    code = "pasted_rows" if whole else "pasted_distances"
     return Mistake(
         "pasted_block",
-        f"{named(rows).capitalize()} repeat {what} of {named(ids(m, was))}: a block was pasted twice; "
-        "put the readings of these rows back or remove the rows.",
+        phrase(code, rows=named(rows), source=named(ids(m, was))),
         rows,
         "refused",
         "fresh" if file == "fresh" else "readings",
@@ -143,8 +140,7 @@ def readout_stuck(robot: Robot, m: Measurements, file: str = "readings") -> Mist
     rows_at_fault = ids(m, sorted(stuck))
     return Mistake(
         "readout_stuck",
-        f"scale_mm stands still in {named(rows_at_fault)} while the joints move: the readout was stuck or at "
-        "the end of its range; measure these positions again.",
+        phrase("readout_stuck", rows=named(rows_at_fault)),
         rows_at_fault,
         "refused",
         "fresh" if file == "fresh" else "readings",

@@ -19,9 +19,9 @@ from station.diagnosis.mistakes.defects import (
     slip,
 )
 from station.diagnosis.mistakes.fitting import Extra, Fitted
-from station.diagnosis.mistakes.mistake import Mistake, ids, named
+from station.diagnosis.mistakes.mistake import Mistake, ids, joints_named, named
 from station.five_bar import FiveBar, Robot
-from station.records import Measurements
+from station.records import Measurements, phrase
 
 WIDE_MM = 30.0
 WIDE_RAD = float(np.radians(60.0))
@@ -86,13 +86,15 @@ def mechanism(robot: Robot, names: list[str], f: Fitted) -> Mistake | None:
     far = [(n, by) for n, by, sd, own in off if abs(by) > MECHANISM_SDS * sd and abs(by) > 4.0 * own]
     if not far:
         return None
-    found = ", ".join(f"{f.p[names.index(n)]:.2f}" for n in ("rMx", "rMy"))
-    by = " and ".join(f"{by:+.2f} mm in {n[-1]}" for n, by in far)
     return Mistake(
         "mechanism",
-        f"The readings agree to {f.rms_mm * 1e3:.1f} um, but only if the mechanism is {by} from where "
-        "the robot "
-        f"file has it (drm_mm about [{found}]): check [mechanism] c, d and drm_mm, their signs too.",
+        phrase(
+            "mechanism",
+            rms_um=f.rms_mm * 1e3,
+            by=tuple(phrase("mm_in", size=by, axis=n[-1]) for n, by in far),
+            x_mm=f.p[names.index("rMx")],
+            y_mm=f.p[names.index("rMy")],
+        ),
         (),
         "refused",
         "robot",
@@ -109,17 +111,23 @@ def zero_at(
     far = [i for i in (0, 1) if abs(offset[i]) > tolerance + 3.0 * min(sd[i], 1.0) + ZERO_MARGIN_DEG]
     if not far:
         return None
-    by = " and ".join(
-        f"joint {i + 1} reads {abs(offset[i]):.1f} deg too {'little' if offset[i] > 0 else 'much'}"
-        for i in far
-    )
-    new = ", ".join(f"{robot.zero_at_deg[i] + (offset[i] if i in far else 0.0):.1f}" for i in (0, 1))
+    new = [robot.zero_at_deg[i] + (offset[i] if i in far else 0.0) for i in (0, 1)]
     return Mistake(
         "zero_at",
-        f"{by[0].upper()}{by[1:]}, beyond the tolerance of {tolerance:g} deg: zero_at_deg of the robot "
-        "file is wrong "
-        f"(about [{new}] would agree), or the joint was homed at another mark; correct it and read the "
-        "angles again.",
+        phrase(
+            "zero_at",
+            joints=tuple(
+                phrase(
+                    "reads_too_little" if offset[i] > 0 else "reads_too_much",
+                    joint=i + 1,
+                    size=abs(offset[i]),
+                )
+                for i in far
+            ),
+            tolerance_deg=tolerance,
+            zero1_deg=new[0],
+            zero2_deg=new[1],
+        ),
         (),
         "refused",
         "robot",
@@ -136,13 +144,14 @@ def _lengths(robot: Robot, names: list[str], group: tuple[str, ...]) -> Callable
         tolerance = robot.tolerances.e_mm if centre else robot.tolerances.link_mm
         if not sure or largest < 6.0 * tolerance:
             return None
-        what = " and ".join(f"{n} by {v:+.2f} mm" for n, v in by.items())
-        key = "e" if centre else group[0][0]
         return Mistake(
             "robot_file",
-            f"The readings agree to {f.rms_mm * 1e3:.1f} um once {what} is changed: check [robot] {key} "
-            "in the robot "
-            "file against the drawing" + ("." if largest > limit else ", or the part itself."),
+            phrase(
+                "robot_file" if largest > limit else "robot_file_or_part",
+                rms_um=f.rms_mm * 1e3,
+                lengths=tuple(phrase("length_by", name=n, size=v) for n, v in by.items()),
+                key="e" if centre else group[0][0],
+            ),
             (),
             "refused" if largest > limit else "as_effect",
             "robot",
@@ -158,13 +167,15 @@ def _ratio(robot: Robot, f: Fitted, name: str, joints: tuple[int, ...]) -> Mista
     real = abs(by) <= SAME_AS_EFFECT_RATIO
     if real and len(joints) == 1:
         return None
-    which = "both joints" if len(joints) == 2 else f"joint {joints[0] + 1}"
     return Mistake(
         "ratio",
-        f"The angles of {which} are {by * 100:+.3g} % of their travel off: check [joints] ratio "
-        f"({robot.ratio:g}; "
-        f"{robot.ratio / (1.0 + by):.5g} would agree) and counts_per_rev"
-        + (", or the gear itself." if real else "."),
+        phrase(
+            "ratio_or_gear" if real else "ratio",
+            joints=phrase("both_joints") if len(joints) == 2 else joints_named(joints),
+            percent=by * 100,
+            ratio=robot.ratio,
+            better=robot.ratio / (1.0 + by),
+        ),
         (),
         "as_effect" if real else "refused",
         "robot",
@@ -182,8 +193,7 @@ def _scale(f: Fitted) -> Mistake | None:
     real = abs(by) <= SAME_AS_EFFECT_SCALE
     return Mistake(
         "scale_factor",
-        f"Column scale_mm: the readings are {by * 100:+.3g} % of the travel off: check the resolution "
-        "set in the readout" + (", or the scale itself." if real else "."),
+        phrase("scale_factor_or_scale" if real else "scale_factor", percent=by * 100),
         (),
         "as_effect" if real else "refused",
     )
@@ -201,14 +211,16 @@ def stepped(m: Measurements, row: int, f: Fitted) -> Mistake | None:
     if not all(clear) and not (written and any(clear) and max(map(abs, steps)) > CLEAR_STEP_DEG):
         return None
     rows = ids(m, range(row, len(m)))
-    by = f"joint 1 by {steps[0]:+.3f} deg and joint 2 by {steps[1]:+.3f} deg"
-    holds = f"the zero offsets are {now[0]:.3f} and {now[1]:.3f} deg since then"
-    why = "their zero offsets: zeros were written to the drives" if written else "they were homed anew"
     return Mistake(
         "zeros_written" if written else "rehomed",
-        f"Both joints step at reading {rows[0]} ({by}), {'by ' if written else ''}{why} during the "
-        f"measurement; {holds}: "
-        "measure again without touching the zeros.",
+        phrase(
+            "zeros_written_within" if written else "homed_within",
+            reading=named(rows[:1]),
+            step1_deg=steps[0],
+            step2_deg=steps[1],
+            now1_deg=now[0],
+            now2_deg=now[1],
+        ),
         rows,
         "refused",
     )
@@ -229,12 +241,12 @@ def moved_between(m: Measurements, fresh: Measurements, sequence_fit: Fitted, f:
         return None
     before = np.degrees(sequence_fit.p[:2])
     written = len(moved) == 2 and _are_zeros(before, steps, np.degrees(sequence_fit.sd[:2]) + sds)
-    by = " and ".join(f"joint {i + 1} is shifted by {steps[i]:+.3f} deg" for i in moved)
-    why = "zeros were written to the drives" if written else "the joint was homed anew or has slipped"
     return Mistake(
         "zeros_written" if written else "rehomed",
-        f"The fresh readings agree with the measurement sequence once {by}: {why} in between; "
-        "repeat the sequence or take the fresh readings again.",
+        phrase(
+            "zeros_written_between" if written else "homed_between",
+            moved=tuple(phrase("joint_shifted", joint=i + 1, step_deg=steps[i]) for i in moved),
+        ),
         ids(fresh, range(len(fresh))),
         "refused",
         "fresh",
@@ -246,13 +258,14 @@ def zeroed(m: Measurements, rows: np.ndarray, step_mm: float, file: str = "readi
     if abs(step_mm) < SMALLEST_ZEROING_MM:
         return None
     at_fault = ids(m, rows)
-    where = f"From reading {at_fault[0]} on" if rows[-1] == len(m) - 1 else f"In {named(at_fault)}"
+    said = phrase("zeroed_in", rows=named(at_fault), step_mm=step_mm)
     if file == "fresh" and len(rows) == len(m):
-        where = "In the fresh readings"
+        said = phrase("zeroed_fresh", step_mm=step_mm)
+    elif rows[-1] == len(m) - 1:
+        said = phrase("zeroed_from", reading=named(at_fault[:1]), step_mm=step_mm)
     return Mistake(
         "readout_zeroed",
-        f"{where} scale_mm reads {step_mm:+.3f} mm beside the others: the readout was zeroed or preset anew; "
-        "measure again, or give these readings a mount of their own.",
+        said,
         at_fault,
         "refused",
         "fresh" if file == "fresh" else "readings",

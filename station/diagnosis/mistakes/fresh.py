@@ -13,7 +13,7 @@ from station.diagnosis.mistakes.fitting import Extra, Fitted, Rough, costs, fit,
 from station.diagnosis.mistakes.gross import AGREES_MM, SHORTEST, best_run, grown, zeroings
 from station.diagnosis.mistakes.mistake import Mistake, ids, named
 from station.five_bar import FiveBar, Robot
-from station.records import Measurements
+from station.records import Measurements, phrase
 
 FAR_BETTER = 60.0
 """Of the deviance."""
@@ -76,12 +76,10 @@ def _gross(
         cost = float(np.sum(np.where(rows, there, here)[used | ~rows]))
         if best is None or cost < best[0] - 3.0:
             at_fault = ids(fresh, np.flatnonzero(rows))
-            where = "" if len(at_fault) == len(fresh) or rows[used].all() else f" in {named(at_fault)}"
-            text = (
-                f"The fresh readings agree with the measurement sequence only if {one.what}{where}: "
-                f"{one.action} in the fresh file."
-            )
-            best = cost, Mistake(one.kind, text, at_fault, "refused", "fresh"), rows
+            said = phrase("fresh_rows_agree_only", what=one.what, action=one.action, rows=named(at_fault))
+            if len(at_fault) == len(fresh) or rows[used].all():
+                said = phrase("fresh_agree_only", what=one.what, action=one.action)
+            best = cost, Mistake(one.kind, said, at_fault, "refused", "fresh"), rows
     steps = zeroings(robot, fresh, Rough(sequence_fit.p, residual))
     if steps is not None and (best is None or steps.cost * len(fresh) < best[0]):
         rows = np.concatenate(steps.rows)

@@ -8,7 +8,7 @@ from station.diagnosis.mistakes.fitting import Fitted, Rough, fit
 from station.diagnosis.mistakes.mistake import Mistake, ids, named
 from station.diagnosis.runs_in_time import in_runs
 from station.five_bar import Robot
-from station.records import Index, Measurements
+from station.records import Index, Measurements, phrase
 
 LARGEST_SHARE = 0.12
 FAR_SDS = 8.0
@@ -49,9 +49,12 @@ def glitches(robot: Robot, m: Measurements, base: Fitted | None, agreed: Rough, 
     largest = float(np.abs(found.residual_mm[far]).max())
     return Mistake(
         "glitches",
-        f"Column scale_mm: {named(rows)} {'is' if len(rows) == 1 else 'are'} up to {largest:.3f} mm "
-        "off, the others "
-        f"agree to {found.rms_mm * 1e3:.1f} um: dirt or a disturbed readout; they are left out.",
+        phrase(
+            "glitch" if len(rows) == 1 else "glitches",
+            rows=named(rows),
+            largest_mm=largest,
+            rms_um=found.rms_mm * 1e3,
+        ),
         rows,
         "label",
         "fresh" if file == "fresh" else "readings",

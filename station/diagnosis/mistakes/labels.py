@@ -8,9 +8,9 @@ import numpy as np
 
 from station.diagnosis.mistakes.defects import drift, plays, smooth
 from station.diagnosis.mistakes.fitting import Fitted, fit
-from station.diagnosis.mistakes.mistake import Context, Mistake, ids, named
+from station.diagnosis.mistakes.mistake import Context, Mistake, ids, named, rows_named
 from station.five_bar import Robot
-from station.records import Measurements, Real, with_guesses
+from station.records import Measurements, Phrase, Real, phrase, with_guesses
 
 APART_DEG = 0.3
 """Readings of one position stand no further from each other; servos rest within hundredths."""
@@ -45,11 +45,10 @@ def position_labels(m: Measurements, context: Context) -> Mistake | None:
     if not wrong:
         return None
     rows_at_fault = ids(m, sorted(wrong))
-    where = "all rows" if len(wrong) > 0.9 * len(m) else named(rows_at_fault)
+    where = phrase("all_rows") if len(wrong) > 0.9 * len(m) else named(rows_at_fault)
     return Mistake(
         "position_labels",
-        f"Column position: readings that share a label stand degrees apart ({where}); repeats cannot be "
-        "recognised from it, so the diagnosis goes on without that column: put the labels right.",
+        phrase("position_labels", rows=where),
         rows_at_fault,
         "label",
     )
@@ -61,41 +60,34 @@ def time_column(m: Measurements) -> Mistake | None:
     backwards = np.flatnonzero(gaps < 0)
     if backwards.size:
         rows = ids(m, backwards + 1)
-        return _time(f"time runs backwards at {named(rows)}", rows)
+        return _time(phrase("time_backwards", rows=named(rows)), rows)
     if len(m) < FEWEST:
         return None
     way = np.degrees(np.abs(np.diff(m.theta, axis=0)).max(axis=1))
     still = np.flatnonzero((gaps <= 0) & (way > 1.0))
     if len(still) > max(2, len(gaps) // 20):
-        return _time(f"time stands still at {named(ids(m, still + 1))}", ids(m, still + 1))
+        rows = ids(m, still + 1)
+        return _time(phrase("time_still", rows=named(rows)), rows)
     middle = float(np.median(gaps))
     if middle < LEAST_DT_S:
-        return _time(f"{middle:.3g} s between readings are too few; the column is not in seconds", ())
+        return _time(phrase("time_too_short", seconds=middle), ())
     along = _correlation(gaps, way)
     spread = way - way.mean()
     slope = float(spread @ gaps / (spread @ spread)) if np.ptp(way) > SAME_WAY * way.mean() else 0.0
     if middle > LONGEST_DT_S or (along > ALIKE and slope > 1.0 / SLOWEST_DEG_PER_S):
-        return _time(f"{middle:.0f} s between readings are too many; the column is not in seconds", ())
+        return _time(phrase("time_too_long", seconds=middle), ())
     for by in (1, -1, 2, -2) if along < 1.0 - LESS else ():
         moved = _correlation(
             gaps[max(by, 0) : len(gaps) + min(by, 0)], way[max(-by, 0) : len(way) - max(by, 0)]
         )
         if moved > ALIKE and along < moved - LESS:
-            return _time(
-                f"the column stands {abs(by)} row(s) too {'late' if by > 0 else 'early'}",
-                ids(m, range(len(m))),
-            )
+            late = phrase("time_late" if by > 0 else "time_early", rows=rows_named(by))
+            return _time(late, ids(m, range(len(m))))
     return None
 
 
-def _time(what: str, rows: tuple[int | str, ...]) -> Mistake:
-    return Mistake(
-        "time",
-        f"Column t_s: {what}; the diagnosis goes on without it and sees nothing that depends on time: "
-        "put the seconds since start there.",
-        rows,
-        "label",
-    )
+def _time(what: Phrase, rows: tuple[int | str, ...]) -> Mistake:
+    return Mistake("time", phrase("time", what=what), rows, "label")
 
 
 def _correlation(a: Real, b: Real) -> float:
@@ -117,17 +109,15 @@ def approach_columns(robot: Robot, m: Measurements) -> Mistake | None:
     own = [_agreement(recorded[:, i], moved[:, i]) for i in (0, 1)]
     reversed_joints = [i for i in (0, 1) if own[i] is not None and own[i] < 1.0 - AGREE]  # type: ignore[operator]
     if reversed_joints and not _positive_play(robot, m, reversed_joints):
-        which = " and ".join(f"approach{i + 1}" for i in reversed_joints)
-        return _approach(
-            f"{which} has the wrong sign: it says the opposite of every motion from row to row", m
-        )
+        columns = tuple(f"approach{i + 1}" for i in reversed_joints)
+        return _approach(phrase("approach_reversed", columns=columns), m)
     if any(a is None or a > AGREE for a in own):
         if all(a is None or a > AGREE for a in own):
             return None
         return _one_column(m, recorded, moved, own)
     crossed = [_agreement(recorded[:, i], moved[:, 1 - i]) for i in (0, 1)]
     if all(a is not None and a > AGREE for a in crossed):
-        return _approach("approach1 and approach2 are exchanged", m)
+        return _approach(phrase("approach_exchanged"), m)
     for by in (1, -1):
         late = [
             _agreement(
@@ -137,7 +127,7 @@ def approach_columns(robot: Robot, m: Measurements) -> Mistake | None:
             for i in (0, 1)
         ]
         if all(a is not None and a > AGREE for a in late):
-            return _approach(f"the columns stand one row too {'late' if by > 0 else 'early'}", m)
+            return _approach(phrase("approach_late" if by > 0 else "approach_early"), m)
     return None
 
 
@@ -148,7 +138,7 @@ def _one_column(m: Measurements, recorded: Real, moved: Real, own: list[float | 
             continue
         other = _agreement(recorded[:, i], moved[:, 1 - i])
         if other is not None and other > AGREE:
-            return _approach(f"approach{i + 1} is that of joint {2 - i}", m)
+            return _approach(phrase("approach_of_other", column=f"approach{i + 1}", joint=2 - i), m)
     return None
 
 
@@ -169,14 +159,8 @@ def _positive_play(robot: Robot, m: Measurements, joints: list[int]) -> bool:
     )
 
 
-def _approach(what: str, m: Measurements) -> Mistake:
-    return Mistake(
-        "approach_sign",
-        f"Columns approach1 and approach2: {what}; the diagnosis goes on without them and sees neither play "
-        "nor hysteresis: put the sign of each joint's last motion there.",
-        ids(m, range(len(m))),
-        "label",
-    )
+def _approach(what: Phrase, m: Measurements) -> Mistake:
+    return Mistake("approach_sign", phrase("approach", what=what), ids(m, range(len(m))), "label")
 
 
 def approach_missing(robot: Robot, m: Measurements, base: Fitted, context: Context) -> Mistake | None:
@@ -191,11 +175,4 @@ def approach_missing(robot: Robot, m: Measurements, base: Fitted, context: Conte
         return None
     if not any(found.extra[name] > 6.0 * found.extra_sd[name] for name in found.extra):
         return None
-    return Mistake(
-        "approach_missing",
-        "Columns approach1 and approach2 are missing, and the readings depend on the direction in which "
-        "positions are approached: record the sign of each joint's last motion, or play and hysteresis "
-        "cannot be told apart.",
-        (),
-        "label",
-    )
+    return Mistake("approach_missing", phrase("approach_missing"), (), "label")

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
 from station.errors import InputRefused
-from station.records import Index, Measurements
+from station.records import Index, Measurements, MistakeRecord, Phrase, phrase
 
 Kind = Literal[
     "scale_sign", "scale_unit", "scale_factor", "angle_unit", "joint_sign", "joints_exchanged", "row_shift",
@@ -30,7 +30,7 @@ class Mistake:
     """One mistake and all that is said about it."""
 
     kind: Kind
-    text: str
+    said: Phrase
     """One sentence or two: what is wrong, where, what to do."""
     rows: tuple[int | str, ...]
     """Ids of the readings at fault; empty where the robot file or a whole file is."""
@@ -38,9 +38,14 @@ class Mistake:
     file: Literal["readings", "fresh", "both", "robot"] = "readings"
     """Where it has to be put right."""
 
-    def as_json(self) -> dict[str, Any]:
+    @property
+    def text(self) -> str:
+        """In English."""
+        return self.said.text()
+
+    def record(self) -> MistakeRecord:
         """The contract's object."""
-        return {"kind": self.kind, "text": self.text, "rows": list(self.rows)}
+        return MistakeRecord(kind=self.kind, text=self.text, said=self.said, rows=self.rows)
 
 
 class MistakeRefused(InputRefused):
@@ -74,14 +79,30 @@ def ids(measurements: Measurements, rows: Index | Sequence[int]) -> tuple[int | 
     return tuple(measurements.ids[int(k)] for k in rows)
 
 
-def named(rows: Sequence[int | str]) -> str:
+def named(rows: Sequence[int | str]) -> Phrase:
     """Ids in words: "reading 7", "readings 61 to 120", "readings 3, 9 and 12"."""
     if len(rows) == 1:
-        return f"reading {rows[0]}"
+        return phrase("reading", id=rows[0])
     whole = [r for r in rows if isinstance(r, int)]
     if len(whole) == len(rows) and whole == list(range(whole[0], whole[0] + len(whole))) and len(rows) > 2:
-        return f"readings {rows[0]} to {rows[-1]}"
+        return phrase("readings_from_to", first=rows[0], last=rows[-1])
     if len(rows) > 3 * FEW:
         shown = ", ".join(str(r) for r in rows[: 2 * FEW])
-        return f"{len(rows)} readings ({shown}, ... {rows[-1]})"
-    return f"readings {', '.join(str(r) for r in rows[:-1])} and {rows[-1]}"
+        return phrase("readings_many", count=len(rows), shown=shown, last=rows[-1])
+    shown = ", ".join(str(r) for r in rows[:-1])
+    return phrase("readings_and", shown=shown, last=rows[-1])
+
+
+def rows_named(by: int) -> Phrase:
+    """So many rows, either way."""
+    return phrase("row") if abs(by) == 1 else phrase("rows", count=abs(by))
+
+
+def angle_columns(joints: Sequence[int]) -> tuple[str, ...]:
+    """Their names in the file."""
+    return tuple(f"theta{i + 1}_deg" for i in joints)
+
+
+def joints_named(joints: Sequence[int]) -> tuple[Phrase, ...]:
+    """By index from 0, in words."""
+    return tuple(phrase("joint", number=i + 1) for i in joints)

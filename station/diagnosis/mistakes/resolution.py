@@ -7,9 +7,9 @@ from numpy.typing import NDArray
 
 from station.diagnosis.mistakes.duplicates import by_joint_mm
 from station.diagnosis.mistakes.fitting import Fitted
-from station.diagnosis.mistakes.mistake import Mistake
+from station.diagnosis.mistakes.mistake import Mistake, angle_columns
 from station.five_bar import SCALE_SD_MM, Robot
-from station.records import Measurements, Real
+from station.records import Measurements, Real, phrase
 
 STEPS_DEG = tuple(m * 10.0**-k for k in range(5) for m in (5, 2, 1))
 """From coarse to fine."""
@@ -41,13 +41,16 @@ def coarse_angles(robot: Robot, m: Measurements, base: Fitted | None, file: str)
     cost_mm = float(np.sqrt(square))
     if cost_mm < COSTLY * SCALE_SD_MM or base is None or base.rms_mm < SEEN * cost_mm:
         return None
-    which = " and ".join(f"theta{i + 1}_deg" for i in coarse)
     step = max(steps[i] for i in coarse)
     return Mistake(
         "coarse_angles",
-        f"Column {which}: all angles are multiples of {step:.4g} deg, which costs {cost_mm * 1e3:.0f} "
-        "um in each "
-        f"reading; write the drives' feedback with all its digits (one pulse is {robot.pulse_deg:.4g} deg).",
+        phrase(
+            "coarse_angles",
+            columns=angle_columns(coarse),
+            step_deg=step,
+            cost_um=cost_mm * 1e3,
+            pulse_deg=robot.pulse_deg,
+        ),
         (),
         "refused",
         "fresh" if file == "fresh" else "readings",
@@ -95,13 +98,13 @@ def commanded_angles(robot: Robot, m: Measurements, base: Fitted | None, file: s
     )
     if joint_deg > 10 * robot.pulse_deg + 0.02:
         return None
-    which = " and ".join(f"theta{i + 1}_deg" for i in joints)
-    beside = "" if all(on_grid) else ", and they do not lie on the pulses of the drives"
     return Mistake(
         "commanded_angles",
-        f"Column {which}: the angles of repeats are identical{beside}, while their readings scatter by "
-        f"{scatter_mm * 1e3:.0f} um: these look like commanded angles; write the drives' feedback after "
-        "the stop.",
+        phrase(
+            "commanded_angles" if all(on_grid) else "commanded_angles_off_grid",
+            columns=angle_columns(joints),
+            scatter_um=scatter_mm * 1e3,
+        ),
         (),
         "refused",
         "fresh" if file == "fresh" else "readings",

@@ -24,7 +24,7 @@ from station.diagnosis.mistakes.mistake import Context, Mistake, ids, named
 from station.diagnosis.mistakes.resolution import coarse_angles, commanded_angles, is_coarse, off_grid
 from station.fitting import MINIMUM_DOF, pure_error
 from station.five_bar import FiveBar, Robot
-from station.records import Measurements
+from station.records import Measurements, phrase
 
 FAR_BETTER = 60.0
 """Of the deviance: what a mistake must win over any account without one (e^30 times more probable)."""
@@ -100,7 +100,9 @@ def find_mistake(
 
 def _labels_of_fresh(robot: Robot, fresh: Measurements) -> Mistake | None:
     found = time_column(fresh) or position_labels(fresh, Context.of(fresh)) or approach_columns(robot, fresh)
-    return None if found is None else replace(found, file="fresh", text=f"Fresh file: {found.text}")
+    if found is None:
+        return None
+    return replace(found, file="fresh", said=phrase("in_fresh_file", mistake=found.said))
 
 
 def _angles(robot: Robot, m: Measurements, fresh: Measurements | None, base: Fitted | None) -> Mistake | None:
@@ -118,9 +120,7 @@ def _angles(robot: Robot, m: Measurements, fresh: Measurements | None, base: Fit
     if beside:
         return Mistake(
             "commanded_angles",
-            "Fresh file, columns theta1_deg and theta2_deg: the angles do not lie on the pulses of the "
-            "drives and "
-            "the readings scatter: these look like commanded angles; write the drives' feedback.",
+            phrase("commanded_angles_fresh"),
             (),
             "refused",
             "fresh",
@@ -272,8 +272,8 @@ def _exact(robot: Robot, found: gross.Found) -> Fitted | None:
     if scale:
         m = found.corrected
         extras = (both_gains(robot, m, 0.05),) if found.correction.kind == "ratio" else (scale_gain(m, 0.05),)
-        if found.correction.kind == "ratio" and "and" not in found.correction.column:
-            extras = (gain(robot, m, int(found.correction.column[5]) - 1, 0.05),)
+        if found.correction.kind == "ratio" and len(found.correction.joints) == 1:
+            extras = (gain(robot, m, found.correction.joints[0], 0.05),)
     return fit(robot, found.corrected, used=found.used, start=found.start, loosened=wide, extras=extras)
 
 
@@ -288,8 +288,8 @@ def _whole_file(robot: Robot, m: Measurements, found: gross.Found, exact: Fitted
     if one.kind == "zero_at":
         added = np.degrees(np.median(found.corrected.theta - m.theta, axis=0))
         return zero_at(robot, m, exact, (float(added[0]), float(added[1])))
-    text = f"All readings agree to {exact.rms_mm * 1e3:.1f} um once this is undone: {one.what}; {one.action}."
-    return Mistake(one.kind, text, ids(m, range(len(m))), "refused")
+    said = phrase("agree_once_undone", rms_um=exact.rms_mm * 1e3, what=one.what, action=one.action)
+    return Mistake(one.kind, said, ids(m, range(len(m))), "refused")
 
 
 def _part(m: Measurements, found: gross.Found) -> Mistake:
@@ -297,7 +297,7 @@ def _part(m: Measurements, found: gross.Found) -> Mistake:
     one = found.correction
     return Mistake(
         one.kind,
-        f"In {named(rows)} {one.what}, in the others it is as it should be; {one.action} in these rows.",
+        phrase("wrong_in_rows", rows=named(rows), what=one.what, action=one.action),
         rows,
         "refused",
     )

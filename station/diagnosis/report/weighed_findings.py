@@ -117,9 +117,7 @@ class WeighedFindings(Findings):
     def mistake(self) -> MistakeRecord | None:
         """A wrong label, or glitches, that were left out."""
         mistake = self.diagnosis.mistake
-        if mistake is None:
-            return None
-        return MistakeRecord(kind=mistake.kind, text=mistake.text, rows=mistake.rows)
+        return None if mistake is None else mistake.record()
 
     @cached_property
     def steps(self) -> tuple[Step, ...]:

@@ -43,7 +43,7 @@ def weighed_reason(
             return because("partly_explained", causes=causes, share_percent=percent, depends_on=depends_on)
         case _:
             return _unexplained(d, causes, percent, depends_on)
-    text = "" if mistake is None else mistake.text
+    text = "" if mistake is None else mistake.said
     return because(code, causes=causes, share_percent=percent, text=text)
 
 
@@ -73,7 +73,7 @@ def _ambiguous(d: WeighedDiagnosis, experiments: Sequence[ExperimentRecord]) -> 
 def _unexplained(d: WeighedDiagnosis, causes: str, percent: float, depends_on: str) -> Reason:
     mistake = (d.mistake if d.spoilt else None) or d.entry
     if mistake is not None:
-        return because("unexplained_mistake", depends_on=depends_on, text=mistake.text)
+        return because("unexplained_mistake", depends_on=depends_on, text=mistake.said)
     if d.found.loudness > LOUD:
         return because("scattering", times=d.found.loudness)
     unnamed = [e for e in d.found.explanations if not e.named]

@@ -22,7 +22,7 @@ from station.messages import (
     reason_text,
 )
 from station.plans import PLANS
-from station.records import DiagnosisVerdict, Outcome, State, Verdict
+from station.records import DiagnosisVerdict, Outcome, State, Verdict, because, phrase, reason_in
 from station.run_kinds import RUN_KINDS
 
 EFFECTS = {
@@ -60,6 +60,29 @@ def test_every_reason_in_the_code_is_a_reason_of_the_message_file() -> None:
     assert codes <= set(json.loads((package / "messages/en.json").read_text(encoding="utf-8"))["reasons"])
 
 
+def test_every_phrase_is_used_and_every_phrase_in_use_has_its_text() -> None:
+    package = Path(station.__file__).parent
+    source = "".join(path.read_text(encoding="utf-8") for path in package.rglob("*.py"))
+    codes = set(json.loads((package / "messages/en-phrases.json").read_text(encoding="utf-8")))
+    assert set(re.findall(r"\bphrase\(\s*\"(\w+)\"", source)) <= codes
+    assert [code for code in codes if f'"{code}"' not in source] == []
+
+
+def test_a_phrase_is_said_with_its_parts_in_each_language() -> None:
+    joints = tuple(phrase("joint", number=number) for number in (1, 2))
+    said = phrase("ratio_by_factor", joints=joints, factor=1.25)
+    assert (
+        said.text() == "[joints] ratio or counts_per_rev of joint 1 and joint 2 is wrong by a factor of 1.25"
+    )
+    assert "von Gelenk 1 und Gelenk 2 ist um den Faktor 1,25 falsch" in said.text("de")
+    assert "关节 1和关节 2" in said.text("zh")
+    with pytest.raises(KeyError):
+        phrase("ratio_by_factor", joints=joints)
+    reason = because("adequate_mistake", causes="", share_percent=0.0, text=phrase("in_inches"))
+    assert reason.text == "The model fits the readings, but nothing is confirmed: Inches"
+    assert reason_in(reason.code, reason.params, "de").endswith("bestätigt: Zoll")
+
+
 def texts_of(language: str) -> dict[str, str]:
     """Every text by its path."""
     found: dict[str, str] = {}
@@ -72,7 +95,8 @@ def texts_of(language: str) -> dict[str, str]:
             found[path] = str(value)
 
     folder = Path(station.__file__).parent / "messages"
-    collect(json.loads((folder / f"{language}.json").read_text(encoding="utf-8")), "")
+    for name in (language, f"{language}-phrases"):
+        collect(json.loads((folder / f"{name}.json").read_text(encoding="utf-8")), name[len(language) :])
     return found
 
 

@@ -1,6 +1,6 @@
 """What the station takes and answers.  Made by `make reference`; do not edit.
 
-From schemas with SHA-256 9c1ec92a0460fe679b3692d75682e37f0ba5d7b82175cca11242405d8f65c478.
+From schemas with SHA-256 33b601e9f752512b0d87f6f4bd29ac4189eaf44508a298225e84aba8e3abef24.
 """
 
 from __future__ import annotations
@@ -267,6 +267,18 @@ class EffectName(BaseModel):
     """
 
 
+class Phrase(BaseModel):
+    """
+    `code` is a template in `station.messages`; every language says it from the same parameters.
+    """
+
+    code: str
+    params: dict[str, float | int | str | Phrase | list[str | Phrase]]
+    """
+    Numbers, names of columns and keys, other phrases, or several of these, which are joined by "and".
+    """
+
+
 class ZeroOffset(BaseModel):
     """
     Actual minus nominal angle of one joint.
@@ -457,7 +469,7 @@ class CalibrationSummary(BaseModel):
     The same for other languages, with `reason_params`.
     """
 
-    reason_params: dict[str, float | int | str]
+    reason_params: dict[str, float | int | str | Phrase]
     step: int | None
     steps: int | None
     created_at: AwareDatetime
@@ -1109,7 +1121,7 @@ class Calibration(BaseModel):
     The same for other languages, with `reason_params`.
     """
 
-    reason_params: dict[str, float | int | str]
+    reason_params: dict[str, float | int | str | Phrase]
     step: int | None
     steps: int | None
     created_at: AwareDatetime
@@ -1165,3 +1177,6 @@ class StationView(BaseModel):
     """
     The last run with its positions and readings; null while another is under way.
     """
+
+
+Phrase.model_rebuild()

@@ -1,4 +1,5 @@
 /** The REST calls, the same that the MES uses. */
+import { stationTime } from "./live";
 import { t } from "./messages";
 import { said } from "./messages/said";
 import type {
@@ -66,40 +67,35 @@ export async function call<T>(
   return body as T;
 }
 
-export const start = (body: CalibrationBody, key: string) =>
-  call<Summary>("POST", "/calibrations", {
-    headers: { "Content-Type": "application/json", "Idempotency-Key": key },
+/** What moves the machine or writes to its drives: not after this page has told that there is no answer. */
+function command(path: string, body: object, headers: Record<string, string> = {}): Promise<Summary> {
+  const time = stationTime();
+  const until = time === null ? {} : { "X-Not-After": String(Math.round(time + TIMEOUT_MS)) };
+  return call<Summary>("POST", path, {
+    headers: { "Content-Type": "application/json", ...until, ...headers },
     body: JSON.stringify(body),
   });
+}
+
+export const start = (body: CalibrationBody, key: string) =>
+  command("/calibrations", body, { "Idempotency-Key": key });
 
 export const plan = (name: string, serial: string) =>
   call<PlanDocument>("GET", `/plans/${name}${serial && `?robot_serial=${encodeURIComponent(serial)}`}`);
 
 export const answer = (id: number, prompt: string, value: number | null, who: string) =>
-  call<Summary>("POST", `/calibrations/${id}/answer`, {
-    headers: { "Content-Type": "application/json", "X-Operator": encodeURIComponent(who) },
-    body: JSON.stringify({ prompt, value }),
-  });
+  command(`/calibrations/${id}/answer`, { prompt, value }, { "X-Operator": encodeURIComponent(who) });
 
 export const abort = (id: number) => call<Summary>("POST", `/calibrations/${id}/abort`);
 
 export const apply = (id: number, operator: string, key: string) =>
-  call<Summary>("POST", `/calibrations/${id}/apply`, {
-    headers: { "Content-Type": "application/json", "Idempotency-Key": key },
-    body: JSON.stringify({ operator }),
-  });
+  command(`/calibrations/${id}/apply`, { operator }, { "Idempotency-Key": key });
 
 export const rollBack = (id: number, operator: string) =>
-  call<Summary>("POST", `/calibrations/${id}/rollback`, {
-    headers: { "Content-Type": "application/json" },
-    body: JSON.stringify({ operator }),
-  });
+  command(`/calibrations/${id}/rollback`, { operator });
 
 export const retract = (operator: string, key: string) =>
-  call<Summary>("POST", "/retract", {
-    headers: { "Content-Type": "application/json", "Idempotency-Key": key },
-    body: JSON.stringify({ operator }),
-  });
+  command("/retract", { operator }, { "Idempotency-Key": key });
 
 export const robot = (serial: string) => call<Robot>("GET", `/robots/${encodeURIComponent(serial)}`);
 
@@ -174,16 +170,10 @@ export const residuals = (id: number) => call<ResidualList>("GET", `/calibration
 export const separating = (id: number) => call<Separating>("GET", `/calibrations/${id}/separating`);
 
 export const separate = (id: number, operator: string, key: string) =>
-  call<Summary>("POST", `/calibrations/${id}/separate`, {
-    headers: { "Content-Type": "application/json", "Idempotency-Key": key },
-    body: JSON.stringify({ operator }),
-  });
+  command(`/calibrations/${id}/separate`, { operator }, { "Idempotency-Key": key });
 
 export const resume = (id: number, operator: string, key: string) =>
-  call<Summary>("POST", `/calibrations/${id}/resume`, {
-    headers: { "Content-Type": "application/json", "Idempotency-Key": key },
-    body: JSON.stringify({ operator }),
-  });
+  command(`/calibrations/${id}/resume`, { operator }, { "Idempotency-Key": key });
 
 export const calibrations = (query: URLSearchParams) =>
   call<CalibrationList>("GET", `/calibrations?${query}`);

@@ -1,6 +1,6 @@
 /** What waits for a confirmation: one thing at a time, ten seconds at most; whatever else happens withdraws it. */
 import { computed, effect, signal } from "@preact/signals";
-import { connected, now, station } from "./live";
+import { connected, links, now, station } from "./live";
 import { path } from "./router";
 import { session } from "./session";
 
@@ -30,9 +30,10 @@ export function disarm(by?: object): void {
   if (by === undefined || armed.peek()?.by === by) armed.value = null;
 }
 
-/** Does what waits, once; answers whether anything did. */
-export function confirm(): boolean {
+/** Does what waits, or only what this one asks, once; answers whether anything did. */
+export function confirm(by?: object): boolean {
   const waiting = armed.peek();
+  if (by !== undefined && waiting?.by !== by) return false;
   armed.value = null;
   if (!waiting || performance.now() >= waiting.until) return false;
   waiting.confirmed();
@@ -55,7 +56,7 @@ export function watchArmed(): () => void {
     effect(() => {
       if (armed.value && now.value >= armed.value.until) disarm();
     }),
-    ...[path, who, run, online].map((changed) =>
+    ...[path, who, run, online, links].map((changed) =>
       effect(() => {
         changed.value;
         disarm();

@@ -15,11 +15,14 @@ export const now = signal(performance.now());
 const heardAt = signal(performance.now());
 const machineAt = signal(0);
 const runAt = signal(0);
-const clockOffset = signal(0);
+/** The station's clock less the page's; null until the station was heard. */
+const clockOffset = signal<number | null>(null);
+/** How many live feeds have opened or ended. */
+export const links = signal(0);
 
 export const offline = computed(() => now.value - heardAt.value > BEATS_MISSED_MS);
 export const connected = computed(() => station.value !== null && !offline.value);
-export const clock = computed(() => new Date(performance.timeOrigin + now.value + clockOffset.value));
+export const clock = computed(() => new Date(performance.timeOrigin + now.value + (clockOffset.value ?? 0)));
 export const machineAgeS = computed(
   () => (station.value?.machine?.age_s ?? 0) + Math.max(0, now.value - machineAt.value) / 1000,
 );
@@ -27,6 +30,10 @@ export const remainingS = computed(() => {
   const remaining = station.value?.run?.remaining_s;
   return remaining == null ? null : Math.max(0, remaining - (now.value - runAt.value) / 1000);
 });
+
+/** The time by the station's clock, ms since 1970. */
+export const stationTime = () =>
+  clockOffset.peek() === null ? null : performance.timeOrigin + performance.now() + clockOffset.peek()!;
 
 let socket: WebSocket | null = null;
 let openedAt = 0;
@@ -51,13 +58,16 @@ function open(): void {
     `${location.protocol === "https:" ? "wss" : "ws"}://${location.host}/api/v1/live`,
   );
   socket = mine;
+  links.value += 1;
   mine.onmessage = (event) => {
     if (socket === mine) receive(JSON.parse(event.data as string) as LiveMessage);
   };
-  mine.onclose = () =>
+  mine.onclose = () => {
+    if (socket === mine) links.value += 1;
     setTimeout(() => {
       if (socket === mine) open();
     }, RETRY_MS);
+  };
 }
 
 function reopen(): void {

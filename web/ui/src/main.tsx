@@ -1,7 +1,7 @@
+import "./feed";
 import { render } from "preact";
 import { App } from "./app";
 import { watchArmed } from "./armed";
-import { connect } from "./live";
 import { t } from "./messages";
 import { scanned, watchScans } from "./scanned";
 import { listen } from "./scanner";
@@ -9,7 +9,6 @@ import { watchSession } from "./session";
 
 document.documentElement.lang = t.language;
 document.title = t.title;
-connect();
 watchSession();
 watchArmed();
 watchScans();

@@ -77,6 +77,8 @@ export type Held = Explanation["effects"][number];
 export type Experiment = Diagnosis["experiments"][number];
 /** Where only a label of the file is wrong: what, and in which rows. */
 export type Mistake = NonNullable<Diagnosis["mistake"]>;
+/** A sentence, or a part of one, by its code. */
+export type Phrase = Schemas["Phrase"];
 
 /** Of the position over the workspace, mm. */
 export type PositionError = Schemas["PositionError"];

@@ -1,5 +1,6 @@
 import { beforeEach, describe, expect, it, vi } from "vitest";
 import * as api from "../src/api";
+import * as live from "../src/live";
 import { t } from "../src/messages";
 
 const fetched = vi.fn<typeof fetch>();
@@ -35,6 +36,26 @@ it("answers what the service answers", async () => {
   answer(200, { id: 7 });
   expect(await api.calibration(7)).toEqual({ id: 7 });
   expect(fetched).toHaveBeenCalledWith("/api/v1/calibrations/7", expect.objectContaining({ method: "GET" }));
+});
+
+it("says until when a command is worth something, by the clock of the station", async () => {
+  vi.spyOn(live, "stationTime").mockReturnValue(1_700_000_000_000.4);
+  for (const command of [
+    () => api.start(body, "k"),
+    () => api.apply(3, "ada", "k"),
+    () => api.rollBack(3, "ada"),
+    () => api.retract("ada", "k"),
+    () => api.answer(3, "mount", 1, "ada"),
+    () => api.separate(3, "ada", "k"),
+    () => api.resume(3, "ada", "k"),
+  ]) {
+    answer(200, {});
+    await command();
+    expect(fetched.mock.lastCall?.[1]?.headers).toMatchObject({ "X-Not-After": "1700000008000" });
+  }
+  answer(200, {});
+  await api.stop();
+  expect(fetched.mock.lastCall?.[1]?.headers).not.toHaveProperty("X-Not-After");
 });
 
 it("starts with the key of the confirmed start", async () => {

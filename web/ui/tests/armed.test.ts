@@ -1,6 +1,6 @@
 import { afterEach, beforeEach, describe, expect, it, vi } from "vitest";
 import { arm, armed, confirm, disarm, secondsLeft, watchArmed } from "../src/armed";
-import { now, station } from "../src/live";
+import { links, now, station } from "../src/live";
 import { navigate } from "../src/router";
 import { session } from "../src/session";
 import { run, stationNow, stopClock } from "./samples";
@@ -23,6 +23,12 @@ describe("what waits for a confirmation", () => {
     expect(confirm()).toBe(true);
     expect(confirm()).toBe(false);
     expect(confirmed).toHaveBeenCalledTimes(1);
+  });
+
+  it("is not done by what confirms another question", () => {
+    expect(confirm({})).toBe(false);
+    expect(confirmed).not.toHaveBeenCalled();
+    expect(confirm(armed.value!.by)).toBe(true);
   });
 
   it("counts down ten seconds", () => {
@@ -52,6 +58,7 @@ describe("what waits for a confirmation", () => {
     ["another view", () => navigate("/history")],
     ["another person", () => Object.assign(session, { value: { name: "bo", via: "user" } })],
     ["a run that starts", () => Object.assign(station, { value: stationNow({ run: run() }) })],
+    ["a feed that ends or begins", () => Object.assign(links, { value: links.value + 1 })],
     ["a lost connection", () => Object.assign(now, { value: now.value + 5_000 })],
   ])("is withdrawn by %s", (_, happens) => {
     happens();

@@ -1,6 +1,8 @@
 import { describe, expect, it } from "vitest";
 import { t } from "../src/messages";
-import { formatted, reasonText } from "../src/reason";
+import { loadPhrases } from "../src/messages/phrases";
+import { reasonText } from "../src/reason";
+import { formatted } from "../src/template";
 
 describe("a template", () => {
   // as Python's str.format fills it
@@ -71,6 +73,16 @@ describe("a reason", () => {
   ] as const)("%s is the sentence of the service", (_, reason_code, reason_params) =>
     expect(reasonText({ reason, reason_code, reason_params: { ...reason_params } })).toBe(reason),
   );
+
+  it("with a phrase in it is said once the phrases are loaded, until then by the service", async () => {
+    const text = { code: "in_fresh_file", params: { mistake: { code: "approach_missing", params: {} } } };
+    const run = { reason, reason_code: "adequate_mistake", reason_params: { text } };
+    expect(reasonText(run)).toBe(reason);
+    await loadPhrases();
+    expect(reasonText(run)).toMatch(
+      /^The model fits .*: Fresh file: Columns approach1 and approach2 are missing/,
+    );
+  });
 
   it("that the service words has display names, too", () =>
     expect(reasonText({ reason: "gear_cyclic of joint 1 explained all." })).toBe(

@@ -13,6 +13,7 @@ from station.diagnosis.mistakes.gross import best_run, grown
 from station.diagnosis.mistakes.labels import approach_columns, position_labels, time_column
 from station.diagnosis.mistakes.mistake import Mistake, named
 from station.five_bar.robot_file import Robot
+from station.records import MistakeRecord, phrase
 from station.studies.confusion.spoiling import measured
 
 ROBOT = Robot.default()
@@ -70,12 +71,17 @@ def test_best_run_and_its_neighbours() -> None:
 
 
 def test_ids_in_words() -> None:
-    assert named((7,)) == "reading 7"
-    assert named((3, 9, 12)) == "readings 3, 9 and 12"
-    assert named(tuple(range(61, 121))) == "readings 61 to 120"
-    assert named(tuple(range(0, 40, 2))) == "20 readings (0, 2, 4, 6, 8, 10, ... 38)"
+    assert named((7,)).text() == "Reading 7"
+    assert named((3, 9, 12)).text() == "Readings 3, 9 and 12"
+    assert named(tuple(range(61, 121))).text() == "Readings 61 to 120"
+    assert named(tuple(range(0, 40, 2))).text() == "20 readings (0, 2, 4, 6, 8, 10, ... 38)"
 
 
 def test_the_documents_object() -> None:
-    mistake = Mistake("time", "Text.", (1, "a"), "label")
-    assert mistake.as_json() == {"kind": "time", "text": "Text.", "rows": [1, "a"]}
+    said = phrase("time", what=phrase("time_backwards", rows=named((1,))))
+    record = Mistake("time", said, (1, "a"), "label").record()
+    assert (record.kind, record.rows, record.said) == ("time", (1, "a"), said)
+    assert record.text.startswith("Column t_s: time runs backwards at reading 1; the diagnosis goes on")
+    assert MistakeRecord.model_validate_json(record.model_dump_json()) == record
+    older = MistakeRecord.model_validate_json('{"kind": "time", "text": "Text.", "rows": []}')
+    assert older.said is None

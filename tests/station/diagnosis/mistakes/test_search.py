@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
 
 import numpy as np
@@ -16,6 +17,12 @@ from station.studies.confusion.mistakes import MORE, VARIANTS
 from station.studies.confusion.spoiling import Measured, Variant, measured, spoiled
 
 SEED = 4711
+LATIN = re.compile(r"[A-Za-z_0-9]*[A-Za-z]{2,}[A-Za-z_0-9]*")
+IN_FILES = {
+    "approach1", "approach2", "counts_per_rev", "drm_mm", "joints", "mechanism", "mm", "position", "ratio",
+    "robot", "scale_mm", "t_s", "theta1_deg", "theta2_deg", "zero_at_deg",
+}  # fmt: skip
+"""Names of columns and keys, which no language changes."""
 QUICK = (
     "scale_sign: both files", "scale_sign: fresh only", "scale_unit: inches", "angle_unit: radians",
     "joint_sign: joint 1", "joints_exchanged: both files", "row_shift: scale down",
@@ -48,7 +55,8 @@ def test_a_mistake_is_named(variant: Variant) -> None:
     files = spoiled(variant, machine(variant.play), SEED)
     found = find_mistake(files.robot, files.sequence, files.fresh)
     assert found is not None and found.kind in variant.kinds
-    assert found.text.endswith(".") and "\n" not in found.text
+    assert found.text.endswith(".") and found.text[0].isupper() and "\n" not in found.text
+    assert set(LATIN.findall(found.said.text("zh"))) <= IN_FILES, found.said.text("zh")
     if files.rows is not None:
         assert set(found.rows) >= set(files.rows) - set(files.rows[:1])
         assert len(found.rows) <= len(files.rows) + 1

@@ -22,6 +22,8 @@ export const reports: Record<string, string> = {
     "Antrieb {unit} antwortete auf {address} nicht richtig: Antrieb {other} antwortete {bytes}; prüfen Sie Gateway und Adressen.",
   "Drive {unit} does not answer on {address}; check cable, power and address.":
     "Antrieb {unit} antwortet auf {address} nicht; prüfen Sie Kabel, Versorgung und Adresse.",
+  "The command came too late and was not carried out; look at the machine, then try again.":
+    "Der Befehl kam zu spät und wurde nicht ausgeführt; sehen Sie nach der Maschine, dann versuchen Sie es noch einmal.",
   // lines
   "{address} answered {bytes}, which is not Modbus TCP; check the address and the gateway's mode.":
     "{address} antwortete {bytes}, und das ist kein Modbus TCP; prüfen Sie die Adresse und die Betriebsart des Gateways.",

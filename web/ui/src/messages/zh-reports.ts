@@ -20,6 +20,8 @@ export const reports: Record<string, string> = {
     "驱动器 {unit} 在 {address} 上的应答不正确：驱动器 {other} 应答了 {bytes}；请检查网关和地址。",
   "Drive {unit} does not answer on {address}; check cable, power and address.":
     "驱动器 {unit} 在 {address} 上没有应答；请检查电缆、电源和地址。",
+  "The command came too late and was not carried out; look at the machine, then try again.":
+    "命令到达过晚，未执行；请查看机器，然后重试。",
   // lines
   "{address} answered {bytes}, which is not Modbus TCP; check the address and the gateway's mode.":
     "{address} 应答了 {bytes}，不是 Modbus TCP；请检查地址和网关模式。",

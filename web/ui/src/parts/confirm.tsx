@@ -32,6 +32,8 @@ export function ConfirmedButton({ label, children, disabled, prominent, act, che
   const holding = useRef<HTMLButtonElement>(null);
   const wasAsked = useRef(false);
   const askedAbout = useRef(about);
+  const aboutNow = useRef(about);
+  aboutNow.current = about;
   const asked = armed.value?.by === first;
 
   useEffect(() => {
@@ -60,6 +62,10 @@ export function ConfirmedButton({ label, children, disabled, prominent, act, che
     );
     sending.value = false;
   };
+  const confirmed = () => {
+    // a scan that is still arriving may have changed a field for a moment
+    if (aboutNow.current === askedAbout.current) void send();
+  };
   return (
     <div class="confirmed">
       <button
@@ -70,14 +76,14 @@ export function ConfirmedButton({ label, children, disabled, prominent, act, che
         onClick={() => {
           trouble.value = null;
           askedAbout.current = about;
-          if (check?.() ?? true) arm(first, () => void send());
+          if (check?.() ?? true) arm(first, confirmed);
         }}
       >
         {label}
       </button>
       <div class="confirm" role="group" aria-label={t.shared.confirmLabel(label)} hidden={!asked}>
         <p>{children}</p>
-        <HoldButton disabled={!asked} button={holding} held={confirm}>
+        <HoldButton disabled={!asked} button={holding} held={() => confirm(first)}>
           {t.shared.confirm}
           <small>{t.shared.hold}</small>
         </HoldButton>

@@ -38,7 +38,12 @@ export function HoldButton({ children, disabled, held, button }: Props) {
   };
   useEffect(() => {
     if (disabled) end();
-    return end;
+    // another window may take the pointer and the keys without a word to the button
+    addEventListener("blur", end);
+    return () => {
+      removeEventListener("blur", end);
+      end();
+    };
   }, [disabled]);
   return (
     <button

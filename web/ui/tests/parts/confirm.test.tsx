@@ -105,6 +105,14 @@ describe("a confirmed button", () => {
     await vi.waitFor(() => expect(armed.value).toBeNull());
   });
 
+  it("does not act while what it is about is another thing", async () => {
+    await draw({ about: "FB-1" });
+    await press(buttons()[0]);
+    await draw({ about: "FB-1CONF" });
+    await confirmed();
+    expect(done).not.toHaveBeenCalled();
+  });
+
   it("withdraws the question when it leaves the page", async () => {
     await press(buttons()[0]);
     await act(() => render(null, place));

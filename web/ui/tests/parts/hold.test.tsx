@@ -53,6 +53,7 @@ describe("a button to hold", () => {
   it.each([
     ["the key is let go", () => key("keyup", "Enter")],
     ["the focus leaves", () => button().dispatchEvent(new FocusEvent("blur"))],
+    ["another window comes up", () => dispatchEvent(new FocusEvent("blur"))],
     ["the pointer goes up", () => pointer("pointerup")],
     ["the pointer is cancelled", () => pointer("pointercancel")],
     ["the pointer slides off", () => pointer("pointermove", { clientX: 500, clientY: 500 })],

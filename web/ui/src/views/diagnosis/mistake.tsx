@@ -1,6 +1,7 @@
 /** A wrong label in the data, without which the diagnosis went on. */
 import { t } from "../../messages";
 import { readable } from "../../names";
+import { phraseText } from "../../phrase";
 import type { Diagnosis } from "../../types";
 
 export function MistakeInData({ found: { mistake } }: { found: Diagnosis }) {
@@ -11,7 +12,7 @@ export function MistakeInData({ found: { mistake } }: { found: Diagnosis }) {
       <h2>
         <strong class="alarm warn">{t.diagnosis.mistakeTitle}</strong>
       </h2>
-      <p>{readable(mistake.text)}</p>
+      <p>{(mistake.said && phraseText(mistake.said)) ?? readable(mistake.text)}</p>
       {mistake.rows.length > 0 && <p class="note">{rows(t.listed(stretches(mistake.rows)))}</p>}
     </section>
   );

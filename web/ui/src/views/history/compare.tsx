@@ -68,7 +68,9 @@ function Numbers({ first, second }: { first: Calibration; second: Calibration })
             </th>
             {runs.map((run) => (
               <th key={run.id} scope="col">
-                <Link to={`/result/${run.id}`}>{t.history.runOf(run.id, run.robot_serial)}</Link>
+                <Link to={`/result/${run.id}`} class="cell">
+                  {t.history.runOf(run.id, run.robot_serial)}
+                </Link>
               </th>
             ))}
             <th scope="col">{t.history.difference}</th>

@@ -8,9 +8,11 @@ interface Props {
 }
 
 export function Table({ label, head, children }: Props) {
+  // where a row is shown as a card, each value has its heading beside it
+  const heads = Object.fromEntries(head.map((text, n) => [`--head-${n + 1}`, JSON.stringify(text)]));
   return (
     <div class="scroll" tabIndex={0} role="region" aria-label={label}>
-      <table class="plain">
+      <table class="plain" style={heads}>
         <thead>
           <tr>
             {head.map((text) => (

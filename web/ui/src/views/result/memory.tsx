@@ -41,11 +41,8 @@ export function Memory({ result: { memory, fleet, robot_serial } }: { result: Ca
 function Taught({ fleet }: { fleet: NonNullable<Calibration["fleet"]> }) {
   const { serials, type } = fleet.prior;
   const p = fixed(fleet.p_value, 3);
-  return fleet.used ? (
-    <>{t.result.fleetUsed(serials.length, type, serials.join(", "), p)}</>
-  ) : (
-    <strong class="alarm warn">{t.result.fleetNotUsed(type, serials.join(", "), p)}</strong>
-  );
+  if (fleet.used) return t.result.fleetUsed(serials.length, type, serials.join(", "), p);
+  return <strong class="alarm warn">{t.result.fleetNotUsed(type, serials.join(", "), p)}</strong>;
 }
 
 function Used({ memory }: { memory: NonNullable<Calibration["memory"]> }) {

@@ -1,5 +1,6 @@
 import { render, type VNode } from "preact";
 import { describe, expect, it } from "vitest";
+import { loadPhrases } from "../../../src/messages/phrases";
 import { BeforeAfter } from "../../../src/parts/before-after";
 import type { Diagnosis, Held, PositionError } from "../../../src/types";
 import { Causes } from "../../../src/views/diagnosis/causes";
@@ -65,6 +66,7 @@ const open: Partial<Diagnosis> = {
   mistake: {
     kind: "position_labels",
     text: "The labels of two positions are exchanged.",
+    said: null,
     rows: [9, 3, 4, 5],
   },
 };
@@ -125,6 +127,20 @@ describe("a mistake in the data", () => {
     const text = drawn(<MistakeInData found={found} />).textContent;
     expect(text).toContain("The labels of two positions are exchanged.");
     expect(text).toContain("Rows of the file: 3 to 5, 9.");
+  });
+
+  it("is said by its codes once the templates are there, until then in English", async () => {
+    const said = {
+      code: "position_labels",
+      params: { rows: { code: "readings_from_to", params: { first: 3, last: 5 } } },
+    };
+    const coded = { ...found, mistake: { ...found.mistake!, said } };
+    await loadPhrases();
+    expect(drawn(<MistakeInData found={coded} />).textContent).toContain(
+      "Column position: readings that share a label stand degrees apart (readings 3 to 5); ",
+    );
+    const unknown = { ...coded, mistake: { ...coded.mistake, said: { code: "of_tomorrow", params: {} } } };
+    expect(drawn(<MistakeInData found={unknown} />).textContent).toContain("The labels of two positions");
   });
 
   it.each([

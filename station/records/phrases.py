@@ -1,0 +1,43 @@
+"""A sentence by its code, with parameters that may be sentences or parts of one themselves."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from station.messages import Language, certificate_text, phrase_text
+from station.records.record import Record
+
+
+class Phrase(Record):
+    """`code` is a template in `station.messages`; every language says it from the same parameters."""
+
+    code: str
+    params: Annotated[dict[str, PhraseValue], Field(default_factory=dict)]
+    """Numbers, names of columns and keys, other phrases, or several of these, which are joined by "and"."""
+
+    def text(self, language: Language = "en") -> str:
+        """A whole sentence."""
+        text = self._part(language)
+        return text[:1].upper() + text[1:]
+
+    def _part(self, language: Language) -> str:
+        values = {name: _said(value, language) for name, value in self.params.items()}
+        return phrase_text(self.code, values, language)
+
+
+PhraseValue = float | int | str | Phrase | tuple[str | Phrase, ...]
+
+
+def phrase(code: str, **params: PhraseValue) -> Phrase:
+    """Its sentence is made at once, so that a missing parameter is found where it is missing."""
+    made = Phrase(code=code, params=params)
+    made.text()
+    return made
+
+
+def _said(value: PhraseValue, language: Language) -> float | int | str:
+    if isinstance(value, tuple):
+        return certificate_text("and", language).join(str(_said(one, language)) for one in value)
+    return value._part(language) if isinstance(value, Phrase) else value
