@@ -95,7 +95,7 @@ def test_signing_in_and_out(ada: Service) -> None:
 
 def test_a_cookie_that_was_signed_out_elsewhere_says_so(ada: Service) -> None:
     sign_in(ada)
-    ada.runtime.store.remove_user(ROOT, "ada")
+    ada.runtime.store.remove_user(ROOT, ada.runtime.store.user("ada"))
     assert "session has ended" in refusal(ada.client.get("/api/v1/station"))[1]
 
 
