@@ -19,6 +19,8 @@ from web.aside import aside
 from web.strict_json import StrictRequest, is_json
 
 COOKIE = "station_session"
+UNATTENDED = "x-unattended"
+"""Header of what the page asks by itself, while nobody touches it."""
 NOBODY = Actor(name="nobody", via="open")
 """Who has not said who they are, on the way in."""
 LOOKUP_LIMIT_S = 1.0
@@ -68,17 +70,25 @@ def needs(permission: Permission) -> Any:
     return Depends(Needs(permission))
 
 
-async def who_asks(
-    connection: HTTPConnection, *, active: bool = True, timeout_s: float | None = None
-) -> Actor:
+async def who_asks(connection: HTTPConnection, *, timeout_s: float | None = None) -> Actor:
     """By key, else by session.  :raises NotSignedIn: says why."""
     access: Access = connection.app.state.access
     key, cookie = bearer(connection), connection.cookies.get(COOKIE)
     if access.open and key is None and cookie is None:
         return access.actor(None, None, named=named(connection))  # nothing to look up
+    active = attended(connection)
     return await aside(
         lambda: access.actor(key, cookie, named=named(connection), active=active), timeout_s=timeout_s
     )
+
+
+def attended(connection: HTTPConnection) -> bool:
+    """Whether this is a sign of somebody at the page, who stays signed in by it.
+
+    A page that was left alone goes on asking, and opens its live feed again: it says so, and that does not
+    count.
+    """
+    return connection.scope["type"] == "http" and UNATTENDED not in connection.headers
 
 
 def bearer(connection: HTTPConnection) -> str | None:

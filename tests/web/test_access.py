@@ -10,11 +10,11 @@ import pytest
 from fastapi.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
-from station.people import hashed_password, hashed_pin, secret_hash
+from station.people import access, hashed_password, hashed_pin, secret_hash
 from station.records import Actor
 from station.store import Store
 from tests.web.conftest import LIMIT_S, Service
-from web.guarded import COOKIE
+from web.guarded import COOKIE, UNATTENDED
 from web.routes import live
 
 ROOT = Actor(name="root", via="terminal")
@@ -202,14 +202,34 @@ def test_the_live_feed_asks_too_and_ends_with_the_session(
 
 def test_a_session_ends_by_itself_but_not_while_a_run_is_under_way(ada: Service) -> None:
     sign_in(ada)
-    access = ada.client.app.state.access  # type: ignore[attr-defined]
-    access._idle_s = -1.0
+    theirs = ada.client.app.state.access  # type: ignore[attr-defined]
+    theirs._idle_s = -1.0
     assert ada.client.get(SESSION).status_code == 401
     sign_in(ada)
-    access._idle_s = 60.0
+    theirs._idle_s = 60.0
     run = ada.hold()
-    access._idle_s = -1.0
+    theirs._idle_s = -1.0
     assert ada.client.get(SESSION).status_code == 200
     ada.client.post("/api/v1/stop")
     ada.runtime.orchestrator.wait(run, LIMIT_S)
     assert ada.client.get(SESSION).status_code == 401
+
+
+def test_a_page_that_was_left_alone_keeps_nobody_signed_in(
+    ada: Service, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It goes on asking who is signed in, and opens its live feed again."""
+    late_ms = 0
+    now_ms = access._now_ms
+    monkeypatch.setattr(access, "_now_ms", lambda: now_ms() + late_ms)
+    sign_in(ada)
+    cookie = {"cookie": f"{COOKIE}={ada.client.cookies[COOKIE]}"}
+    by_itself = {UNATTENDED: "1"}
+    late_ms = 40 * 60_000
+    assert ada.client.get(SESSION).status_code == 200, "somebody is there"
+    late_ms = 80 * 60_000
+    assert ada.client.get(SESSION, headers=by_itself).status_code == 200
+    with ada.client.websocket_connect("/api/v1/live", headers=cookie) as feed:
+        assert feed.receive_json()["type"] == "snapshot"
+    late_ms = 101 * 60_000
+    assert ada.client.get(SESSION, headers=by_itself).status_code == 401
