@@ -56,15 +56,15 @@ export function SignInOf({ users, changed }: { users: User[]; changed: () => voi
         <ActionButton act={save} disabled={!(password.value || badge.value.trim() || pin.value)}>
           {m.saveSignIn}
         </ActionButton>
-        <ConfirmedButton
-          label={m.removeBadge}
-          disabled={!user.has_badge || !connected.value}
-          about={chosen.value}
-          act={() => change({ remove_badge: true }, m.badgeRemoved(user.name))}
-        >
-          {m.removeBadgeText(user.name)}
-        </ConfirmedButton>
       </div>
+      <ConfirmedButton
+        label={m.removeBadge}
+        disabled={!user.has_badge || !connected.value}
+        about={chosen.value}
+        act={() => change({ remove_badge: true }, m.badgeRemoved(user.name))}
+      >
+        {m.removeBadgeText(user.name)}
+      </ConfirmedButton>
       <p class="note" role="status">
         {done.value}
       </p>
