@@ -1,4 +1,4 @@
-import { afterAll, beforeAll, beforeEach, expect, it, vi } from "vitest";
+import { beforeAll, beforeEach, expect, it, vi } from "vitest";
 import * as api from "../src/api";
 
 const MINUTE_MS = 60_000;
@@ -15,9 +15,6 @@ beforeAll(() => {
 });
 beforeEach(() => {
   vi.stubGlobal("fetch", fetched);
-});
-afterAll(() => {
-  vi.useRealTimers();
 });
 
 it.each(["pointerdown", "keydown", "wheel"])("somebody is there for a minute after a %s", async (sign) => {
