@@ -17,6 +17,7 @@ from station.people import Access, Permission
 from station.records import Actor
 from web.aside import aside
 from web.cookies import sent_session, sent_sessions
+from web.problems import documented
 from web.strict_json import StrictRequest, is_json
 
 UNATTENDED = "x-unattended"
@@ -130,6 +131,12 @@ def at_the_panel(connection: HTTPConnection) -> bool:
 
 class GuardedRoute(APIRoute):
     """Asks who it is before it reads the body, and reads JSON strictly."""
+
+    def __init__(self, *arguments: Any, **options: Any) -> None:
+        super().__init__(*arguments, **options)
+        by_hand = "requestBody" in (self.openapi_extra or {})
+        if by_hand or self.body_field is not None:  # too slow or too large, before anybody looks at it
+            self.responses = {**documented(408, 413), **self.responses}
 
     def get_route_handler(self) -> Callable[[Request], Awaitable[Response]]:  # type: ignore[override]
         handler = super().get_route_handler()
