@@ -135,7 +135,7 @@ class GuardedRoute(APIRoute):
     def __init__(self, *arguments: Any, **options: Any) -> None:
         super().__init__(*arguments, **options)
         by_hand = "requestBody" in (self.openapi_extra or {})
-        if by_hand or self.body_field is not None:  # too slow or too large, before anybody looks at it
+        if by_hand or self.body_field is not None:  # it may be too slow or too large
             self.responses = {**documented(408, 413), **self.responses}
 
     def get_route_handler(self) -> Callable[[Request], Awaitable[Response]]:  # type: ignore[override]

@@ -42,8 +42,6 @@ ROOT = Actor(name="root", via="terminal")
 NOBODY = "nobody"
 EVERYBODY = (NOBODY, *get_args(Role))
 KEPT_OUT = (401, 403)
-NOT_LOOKED_AT = (405, 413)
-"""Answered before anybody looks who asks: no such method, and a body that is too large."""
 ANSWERS = {"/api/v1/stop": 502, "/readyz": 503}
 """What is an answer there: an axis that has an ordered fault did not confirm, or is not ready."""
 CONFORMING = ("response_schema_conformance", "content_type_conformance", "status_code_conformance")
@@ -126,7 +124,7 @@ class Asker:
             self.found.note(f"{name}: {status} {answer.text[:200]}", case)
         may = permission is Permission.ENTER or (self.who in ALLOWED[permission])
         panel = permission is Permission.STOP  # this computer's own stop needs no sign-in
-        if not (may or panel) and status not in (*KEPT_OUT, *NOT_LOOKED_AT):
+        if not (may or panel) and status not in (*KEPT_OUT, 405):
             self.found.note(f"{name}: {self.who} got {status}", case)
         try:
             case.validate_response(answer, checks=_checks())
