@@ -16,6 +16,7 @@ from pydantic import (
     JsonValue,
     SerializeAsAny,
     ValidationError,
+    ValidationInfo,
     model_validator,
 )
 from pydantic_core import ErrorDetails
@@ -28,6 +29,15 @@ from station.interlock_settings import InterlockSettings
 from station.records import EventType, ScaleCertificate, content_of, said, sections_of_toml
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
+
+
+def _beside_the_station_file(path: Path, info: ValidationInfo) -> Path:
+    folder: Path | None = info.context  # None where the settings are no file's
+    return path if folder is None else folder / path
+
+
+NamedPath = Annotated[Path, AfterValidator(_beside_the_station_file)]
+"""A relative path counts from the folder of the station file, wherever the station is started."""
 
 
 class _Section(StrictNumbers):
@@ -169,7 +179,7 @@ class ServiceSettings(_Section):
     """Address to listen at; `0.0.0.0` is every address of this computer."""
     port: Annotated[int, Field(ge=0, le=65535)] = 8000
     """Port to listen at; 0 takes a free one."""
-    database: Path | None = None
+    database: NamedPath | None = None
     """File of the history; by default `station.db` in the home folder."""
     least_free_mb: Annotated[float, Field(ge=0, le=1e6)] = 4.0
     """No run starts with less room on the disk of the history, MB."""
@@ -191,7 +201,7 @@ class BackupSettings(_Section):
 
     every_h: Annotated[float, Field(gt=0, le=8760)] | None = None
     """Hours from one to the next; without it only on request."""
-    folder: Path | None = None
+    folder: NamedPath | None = None
     """Where they are written, best on another disk; by default `backups` in the home folder."""
     keep: Annotated[int, Field(ge=1, le=10_000)] = 14
     """The newest so many stay; older ones are deleted, and an event says so."""
@@ -266,7 +276,7 @@ class WebhookSettings(_Section):
 
     url: Annotated[str, Field(pattern=r"^https?://[^\s@]+$")]
     """`https://...`; plain `http` to this computer only."""
-    secret_file: Path
+    secret_file: NamedPath
     """File with the secret, `whsec_` and base64 of 24 bytes or more."""
     events: EventTypes = ("run.ended", "alarm")
     """Types of event that are sent."""
@@ -291,7 +301,7 @@ class MqttSettings(_Section):
 class FolderSettings(_Section):
     """`[[outbox.folder]]`: a folder where each event becomes a file."""
 
-    path: Path
+    path: NamedPath
     """It is made where there is none."""
     format: Literal["json", "csv"] = "json"
     """Of the files."""
@@ -308,7 +318,7 @@ class OpenIdSettings(_Section):
     """`https://...` as the provider calls itself; plain `http` to this computer only."""
     client_id: Annotated[str, Field(min_length=1, max_length=200)]
     """Under which the provider knows this station."""
-    client_secret_file: Path | None = None
+    client_secret_file: NamedPath | None = None
     """File with the secret of the client; without it the client is public, PKCE alone protects the code."""
     scope: Annotated[str, Field(pattern=r"^openid( \S+)*$")] = "openid profile"
     """What is asked for; `openid` is the first."""
@@ -349,7 +359,7 @@ class OutboxSettings(_Section):
 class EmulatedSettings(_Section):
     """`[emulated]`: the machine that stands in when no devices are named."""
 
-    rig: Path | None = None
+    rig: NamedPath | None = None
     """Rig file; by default the paper's group 1."""
     speed: Annotated[float, Field(gt=0, le=1000)] = 50.0
     """How much faster than real time it lives."""
@@ -394,7 +404,7 @@ def load_settings(path: Path | None) -> Settings:
         return Settings()
     data = sections_of_toml(content_of(path, "Station file"), f"Station file {path}")
     try:
-        return Settings.model_validate(data)
+        return Settings.model_validate(data, context=path.absolute().parent)
     except ValidationError as error:
         raise InputRefused(f"Station file {path}: {_sentence(error.errors()[0])}") from error
 

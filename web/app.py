@@ -62,8 +62,6 @@ State is pushed on the WebSocket `/api/v1/live`: first a snapshot, then numbered
 Errors are problem documents (RFC 9457)."""
 
 
-JSON_BYTES = 1_000_000
-"""Largest body of JSON."""
 NOTE_USE_S = 60.0
 ROUTES = (
     station, audit, backups, calibrations, certificates, datasets, devices, diagnoses, emulator, error_maps,
@@ -99,28 +97,22 @@ def create_app(runtime: Runtime, *, access: Access | None = None, static: Path =
         docs_url=None,
         redoc_url=None,
         responses=problems.RESPONSES,
-        max_body_size=JSON_BYTES,
     )
     app.state.access = access
     app.state.runtime = runtime
     app.state.openid = OpenId(openid_settings, runtime.store) if openid_settings else None
     app.state.feed = LiveFeed(runtime.orchestrator, build=pages.build_id(static), open=access.open)
     app.state.metrics = Metrics(runtime, lambda: app.state.feed.clients)
-    _add_routes(app, dataset_bytes=round(service.body_mb * 1e6))
+    _add_routes(app)
     pages.add(app, static)
     problems.add(app)
     _add_middleware(app, service)
     return app
 
 
-def _add_routes(app: Application, *, dataset_bytes: int) -> None:
+def _add_routes(app: Application) -> None:
     for module in ROUTES:
-        app.include_router(
-            module.router,
-            prefix=API,
-            dependencies=[Depends(known_query)],
-            max_body_size=dataset_bytes if module is datasets else None,
-        )
+        app.include_router(module.router, prefix=API, dependencies=[Depends(known_query)])
     for module in (*LIVE_ROUTES, *PROVIDER_ROUTES):
         app.include_router(module.router, prefix=API)
     app.include_router(health.router)

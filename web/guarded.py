@@ -16,11 +16,16 @@ from station.errors import NotSignedIn, StoreUnavailable
 from station.people import Access, Permission
 from station.records import Actor
 from web.aside import aside
+from web.cookies import sent_session, sent_sessions
+from web.problems import documented
 from web.strict_json import StrictRequest, is_json
 
-COOKIE = "station_session"
+UNATTENDED = "x-unattended"
+"""Header of what the page asks by itself, while nobody touches it."""
 NOBODY = Actor(name="nobody", via="open")
 """Who has not said who they are, on the way in."""
+_OF_PROXIES = frozenset({"forwarded", "via", "x-real-ip"})
+"""Headers that only a proxy adds; beside the family `X-Forwarded-`."""
 LOOKUP_LIMIT_S = 1.0
 """Whoever wants to stop does not wait longer for a history that hangs."""
 
@@ -53,14 +58,19 @@ class Needs:
 
     async def _who_stops(self, connection: HTTPConnection) -> Actor:
         """The panel needs no sign-in, and a history that cannot be read keeps nobody from a stop."""
-        try:
-            return await who_asks(connection, timeout_s=LOOKUP_LIMIT_S)
-        except NotSignedIn:
-            if at_the_panel(connection):
-                return Actor(name=named(connection) or "panel", via="panel")
-            raise
-        except (StoreUnavailable, TimeoutError):
-            return Actor(name=named(connection) or "unknown", via="panel")
+        refused = NotSignedIn()
+        # one that another host has set stops no stop
+        sessions: list[str | None] = [*sent_sessions(connection)] or [None]
+        for session in sessions:
+            try:
+                return await _known(connection, session, LOOKUP_LIMIT_S)
+            except NotSignedIn as error:
+                refused = error
+            except (StoreUnavailable, TimeoutError):
+                return Actor(name=named(connection) or "unknown", via="panel")
+        if at_the_panel(connection):
+            return Actor(name=named(connection) or "panel", via="panel")
+        raise refused
 
 
 def needs(permission: Permission) -> Any:
@@ -68,26 +78,38 @@ def needs(permission: Permission) -> Any:
     return Depends(Needs(permission))
 
 
-async def who_asks(
-    connection: HTTPConnection, *, active: bool = True, timeout_s: float | None = None
-) -> Actor:
+async def who_asks(connection: HTTPConnection) -> Actor:
     """By key, else by session.  :raises NotSignedIn: says why."""
+    return await _known(connection, sent_session(connection))
+
+
+async def _known(connection: HTTPConnection, session: str | None, timeout_s: float | None = None) -> Actor:
     access: Access = connection.app.state.access
-    key, cookie = bearer(connection), connection.cookies.get(COOKIE)
-    if access.open and key is None and cookie is None:
+    key = bearer(connection)
+    if access.open and key is None and session is None:
         return access.actor(None, None, named=named(connection))  # nothing to look up
+    active = attended(connection)
     return await aside(
-        lambda: access.actor(key, cookie, named=named(connection), active=active), timeout_s=timeout_s
+        lambda: access.actor(key, session, named=named(connection), active=active), timeout_s=timeout_s
     )
+
+
+def attended(connection: HTTPConnection) -> bool:
+    """Whether this is a sign of somebody at the page, who stays signed in by it.
+
+    A page that was left alone goes on asking, and opens its live feed again: it says so, and that does not
+    count.
+    """
+    return connection.scope["type"] == "http" and UNATTENDED not in connection.headers
 
 
 def bearer(connection: HTTPConnection) -> str | None:
     """The key that is shown.  :raises NotSignedIn: the header has another form."""
-    given = connection.headers.get("authorization")
-    if given is None:
+    given = connection.headers.getlist("authorization")
+    if not given:
         return None
-    scheme, _, key = given.partition(" ")
-    if scheme.lower() != "bearer" or not key.strip():
+    scheme, _, key = given[0].partition(" ")
+    if len(given) > 1 or scheme.lower() != "bearer" or not key.strip():
         raise NotSignedIn("The header `Authorization` must be `Bearer KEY`.")
     return key.strip()
 
@@ -103,12 +125,18 @@ def at_the_panel(connection: HTTPConnection) -> bool:
         address = ipaddress.ip_address(connection.client.host if connection.client else "")
     except ValueError:
         return False
-    through = connection.headers.get("x-forwarded-for") or connection.headers.get("forwarded")
+    through = any(name in _OF_PROXIES or name.startswith("x-forwarded-") for name in connection.headers)
     return address.is_loopback and (not through or "forwarded_by" in connection.scope)
 
 
 class GuardedRoute(APIRoute):
     """Asks who it is before it reads the body, and reads JSON strictly."""
+
+    def __init__(self, *arguments: Any, **options: Any) -> None:
+        super().__init__(*arguments, **options)
+        by_hand = "requestBody" in (self.openapi_extra or {})
+        if by_hand or self.body_field is not None:  # it may be too slow or too large
+            self.responses = {**documented(408, 413), **self.responses}
 
     def get_route_handler(self) -> Callable[[Request], Awaitable[Response]]:  # type: ignore[override]
         handler = super().get_route_handler()

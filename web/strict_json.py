@@ -9,14 +9,28 @@ from typing import Any
 
 from fastapi import Request
 from fastapi.exceptions import RequestValidationError
+from starlette.exceptions import HTTPException
 
 _NOT_TEXT = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff]")
 """Control characters but tab and ends of lines, and halves of UTF-16 pairs."""
 DEEPEST = 64
+LARGEST = 1_000_000
+"""Bytes of a body; files have a limit of their own (`web.uploads`)."""
 
 
 class StrictRequest(Request):
-    """A request whose JSON holds only what can be stored and sent again."""
+    """A request whose JSON holds only what can be stored and sent again, and whose body has a limit."""
+
+    async def body(self) -> bytes:
+        """:raises HTTPException: it is too large; what follows is not read."""
+        if not hasattr(self, "_body"):
+            content = bytearray()
+            async for chunk in self.stream():
+                content += chunk
+                if len(content) > LARGEST:
+                    raise HTTPException(413, f"The body is larger than {LARGEST} bytes.")
+            self._body = bytes(content)
+        return self._body
 
     async def json(self) -> Any:
         """:raises RequestValidationError: names where it is not JSON."""

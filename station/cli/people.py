@@ -12,7 +12,7 @@ from pydantic import TypeAdapter, ValidationError
 from station.cli.kept import at_terminal, config_option, kept, open_or_begin
 from station.cli.listing import print_list
 from station.errors import InputRefused
-from station.people import ROLES, Administration, NewUser, hashed_password
+from station.people import ROLES, Administration, NewUser, UserChange, hashed_password
 from station.records import AuditEntry, PersonName, Role, csv_text
 
 _NAME: TypeAdapter[str] = TypeAdapter(PersonName)
@@ -59,6 +59,32 @@ def change_password(home: Path, name: str, password_stdin: bool, config: Path | 
         store.set_password(at_terminal(), name, hashed_password(_secret("Password", password_stdin)))
 
 
+@user_command.command("badge")
+@click.argument("name")
+@click.option("--badge", help="Text of the badge; without it the badge stays.")
+@click.option("--remove", is_flag=True, help="Badge and PIN open nothing any more.")
+@click.option("--pin-stdin", is_flag=True, help="Read the PIN from standard input.")
+@config_option
+@click.pass_obj
+def change_badge(
+    home: Path, name: str, badge: str | None, remove: bool, pin_stdin: bool, config: Path | None
+) -> None:
+    """Give somebody a badge and a PIN, or another PIN alone, which is asked for; whoever is signed in under
+    this name is signed off."""
+    if remove and (badge is not None or pin_stdin):
+        raise click.UsageError("Give another badge or PIN, or --remove; not both.")
+    with kept(home, config, writing=True) as store:
+        user = store.user(name)
+        change = (
+            UserChange(remove_badge=True)
+            if remove
+            else UserChange(badge=badge or None, pin=_secret("PIN", pin_stdin))
+        )
+        Administration(store).change_user(at_terminal(), user.id, change)
+    said = "has no badge any more" if remove else "signs in with the badge and the new PIN"
+    click.echo(f"User {user.name} {said}.", err=True)
+
+
 @user_command.command("change")
 @click.argument("name")
 @click.option("--role", type=click.Choice(ROLES), help="What they may do from now on.")
@@ -83,7 +109,7 @@ def remove_user(home: Path, name: str, erase: bool, config: Path | None) -> None
     with kept(home, config, writing=True) as store:
         known = any(user.name.casefold() == name.casefold() for user in store.users())
         if known or not erase:
-            store.remove_user(at_terminal(), name)
+            store.remove_user(at_terminal(), store.user(name))
         if erase:
             click.echo(f"The name was erased in {store.erase_name(name)} entries of the audit.", err=True)
 

@@ -136,7 +136,7 @@ class Access:
         if not self._matches(secret, kept.secret_hash if kept else None) or kept is None:
             self._tries.failed(*counted)
             raise NotSignedIn(wrong)
-        self._tries.succeeded(*counted)
+        self._tries.succeeded(who)  # not the address: who has an account could try others' from there
         return self._begin(kept.user), kept.user
 
     def _matches(self, secret: str, kept_hash: str | None) -> bool:

@@ -31,6 +31,9 @@ class UserChange:
     role: Role | None = None
     disabled: bool | None = None
     password: str | None = None
+    badge: str | None = None
+    pin: str | None = None
+    remove_badge: bool = False
 
 
 class Administration:
@@ -57,28 +60,36 @@ class Administration:
         )
 
     def change_user(self, by: Actor, user_id: int, change: UserChange) -> User:
-        """A new role holds from the next request on; a disabled user is signed off at once.
+        """A new role holds from the next request on.  Who is disabled, or is to sign in with something else,
+        is signed off at once.
 
         :raises NotFound: no such user.
-        :raises NotApplicable: the last administrator would be one no more.
-        :raises FieldRefused: a password that is none.
+        :raises NotApplicable: the last administrator would be one no more; nothing would be left to sign in
+            with; or it is for the plant's provider to say who signs in.
+        :raises FieldRefused: a password or PIN that is none, or a badge without a PIN.
+        :raises InputRefused: another user has the badge.
         """
-        password_hash = None if change.password is None else hashed_password(change.password)
         user = self._store.user_by_id(user_id)
-        if change.role not in (None, "administrator") or change.disabled:
-            self._keep_an_administrator(user)
+        _check_ways_in(user, change)
         return self._store.change_user(
-            by, user, role=change.role, disabled=change.disabled, password_hash=password_hash
+            by,
+            user,
+            role=change.role,
+            disabled=change.disabled,
+            password_hash=None if change.password is None else hashed_password(change.password),
+            badge_sha256=None if change.badge is None else secret_hash(change.badge),
+            pin_hash=None if change.pin is None else hashed_pin(change.pin),
+            remove_badge=change.remove_badge,
+            keep_one=True,
         )
 
     def remove_user(self, by: Actor, user_id: int) -> None:
         """The account is gone; the audit keeps what was done.
 
-        :raises: as `change_user`.
+        :raises NotFound: no such user.
+        :raises NotApplicable: the last administrator; at the computer's own terminal it stays possible.
         """
-        user = self._store.user_by_id(user_id)
-        self._keep_an_administrator(user)
-        self._store.remove_user(by, user.name)
+        self._store.remove_user(by, self._store.user_by_id(user_id), keep_one=True)
 
     def add_key(self, by: Actor, name: str, role: Role, days: float | None = None) -> tuple[ApiKey, str]:
         """What is kept of a new key, and the key itself, which nobody can show again.
@@ -90,12 +101,18 @@ class Administration:
         expires_at = None if days is None else datetime.now(UTC) + timedelta(days=days)
         return self._store.add_key(by, name, role, secret_hash(key), expires_at), key
 
-    def _keep_an_administrator(self, user: User) -> None:
-        """Nobody can lock everybody out from the page; at the computer's own terminal it stays possible."""
-        others = (
-            u for u in self._store.users() if u.role == "administrator" and not u.disabled and u.id != user.id
+
+def _check_ways_in(user: User, change: UserChange) -> None:
+    """:raises: as `Administration.change_user`."""
+    given = [way for way in (change.password, change.badge, change.pin) if way is not None]
+    if given and user.by_provider:
+        raise NotApplicable(
+            f"{user.name} signs in with the plant's provider; a password or badge of the station would still"
+            " open it after the provider has let the person go."
         )
-        if user.role == "administrator" and not user.disabled and next(others, None) is None:
-            raise NotApplicable(
-                f"{user.name} is the last administrator who can sign in; make another one first."
-            )
+    if change.remove_badge and (change.badge is not None or change.pin is not None):
+        raise FieldRefused("remove_badge", "Give another badge or PIN, or remove the badge; not both.")
+    if change.badge is not None and change.pin is None and not user.has_badge:
+        raise FieldRefused("pin", f"{user.name} has no PIN yet; give one with the badge.")
+    if change.pin is not None and change.badge is None and not user.has_badge:
+        raise FieldRefused("badge", f"{user.name} has no badge yet; give one with the PIN.")

@@ -43,11 +43,10 @@ class Tries:
             while len(self._failures) > MOST_KEPT:
                 del self._failures[next(iter(self._failures))]
 
-    def succeeded(self, *who: str) -> None:
-        """Forget the failures of these."""
+    def succeeded(self, who: str) -> None:
+        """Forget the failures of this one."""
         with self._lock:
-            for name in who:
-                self._failures.pop(name, None)
+            self._failures.pop(who, None)
 
     def _wait_s(self, name: str, now: float) -> float:
         failures = self._failures.get(name)

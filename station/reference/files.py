@@ -50,6 +50,7 @@ def station_file_page() -> str:
         "Station file",
         "TOML. Every option has a default unless it says *required*; an option that does not exist is refused. "
         "Without a file, and without `[scale]` and `[servo]`, the station runs on the emulated rig. "
+        "A relative path counts from the folder of the station file. "
         "An example is [station.toml](../examples/station.toml).",
         *_sections(Settings, ""),
         *drivers,

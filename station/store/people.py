@@ -5,12 +5,19 @@ from __future__ import annotations
 import sqlite3
 from datetime import UTC, datetime
 
-from station.errors import InputRefused, NotFound
+from sqlite_utils import Database
+
+from station.errors import InputRefused, NotApplicable, NotFound
 from station.records import Actor, ApiKey, Credentials, Role, Session, User
 from station.store.audit import AuditTrail
 from station.store.rows import millis, moment
 from station.store.times import now_ms
 
+_NEXT_NUMBER = (
+    "SELECT 1 + max(coalesce((SELECT max(id) FROM users), 0), coalesce((SELECT"
+    " max(CAST(substr(subject, 6) AS INTEGER)) FROM audit WHERE action = 'user.added'), 0))"
+)
+"""Never used before: the audit, and a page that was loaded earlier, name people by their numbers."""
 _USER = "users.id, users.name, users.role, badge_sha256, openid_sha256, users.created_ms, users.disabled_ms"
 
 
@@ -32,14 +39,14 @@ class People(AuditTrail):
         with self._writing() as db:
             if db.execute("SELECT 1 FROM users WHERE name = ?", [name]).fetchone():
                 raise InputRefused(f"There is a user {name} already; choose another name.")
-            if db.execute("SELECT 1 FROM users WHERE badge_sha256 = ?", [badge_sha256]).fetchone():
-                raise InputRefused("Another user has this badge; remove that user first.")
-            user_id = db.execute(
+            _refuse_taken_badge(db, badge_sha256)
+            (user_id,) = db.execute(_NEXT_NUMBER).fetchone()
+            db.execute(
                 "INSERT INTO users"
-                " (name, role, password_hash, badge_sha256, pin_hash, openid_sha256, created_ms)"
-                " VALUES (?, ?, ?, ?, ?, ?, ?)",
-                [name, role, password_hash, badge_sha256, pin_hash, openid_sha256, now_ms()],
-            ).lastrowid
+                " (id, name, role, password_hash, badge_sha256, pin_hash, openid_sha256, created_ms)"
+                " VALUES (?, ?, ?, ?, ?, ?, ?, ?)",
+                [user_id, name, role, password_hash, badge_sha256, pin_hash, openid_sha256, now_ms()],
+            )
             self.record(by, "user.added", f"user {user_id}", after={"role": role})
         return self.user(name)
 
@@ -48,8 +55,44 @@ class People(AuditTrail):
         user = self.user(name)
         with self._writing() as db:
             db.execute("UPDATE users SET password_hash = ? WHERE id = ?", [password_hash, user.id])
-            db.execute("DELETE FROM sessions WHERE user_id = ?", [user.id])
+            _sign_off(db, user)
             self.record(by, "user.password_changed", f"user {user.id}")
+
+    def set_badge(
+        self, by: Actor, user: User, *, badge_sha256: bytes | None = None, pin_hash: str | None = None
+    ) -> None:
+        """What is None stays.  It ends the sessions of the user: what was valid may be in other hands.
+
+        :raises InputRefused: another user has the badge.
+        """
+        with self._writing() as db:
+            _refuse_taken_badge(db, badge_sha256, user.id)
+            db.execute(
+                "UPDATE users SET badge_sha256 = coalesce(?, badge_sha256), pin_hash = coalesce(?, pin_hash)"
+                " WHERE id = ?",
+                [badge_sha256, pin_hash, user.id],
+            )
+            _sign_off(db, user)
+            if badge_sha256 is not None:
+                self.record(by, "user.badge_changed", f"user {user.id}")
+            if pin_hash is not None:
+                self.record(by, "user.pin_changed", f"user {user.id}")
+
+    def remove_badge(self, by: Actor, user: User) -> None:
+        """Badge and PIN open nothing any more; whoever signed in with them is signed off.
+
+        :raises NotApplicable: nothing would be left to sign in with.
+        """
+        with self._writing() as db:
+            kept = db.execute("SELECT password_hash FROM users WHERE id = ?", [user.id]).fetchone()
+            if kept == (None,) and not user.by_provider:
+                raise NotApplicable(
+                    f"Without the badge {user.name} has nothing to sign in with; give a password with it,"
+                    " or disable the user."
+                )
+            db.execute("UPDATE users SET badge_sha256 = NULL, pin_hash = NULL WHERE id = ?", [user.id])
+            _sign_off(db, user)
+            self.record(by, "user.badge_removed", f"user {user.id}")
 
     def change_user(
         self,
@@ -59,9 +102,22 @@ class People(AuditTrail):
         role: Role | None = None,
         disabled: bool | None = None,
         password_hash: str | None = None,
+        badge_sha256: bytes | None = None,
+        pin_hash: str | None = None,
+        remove_badge: bool = False,
+        keep_one: bool = False,
     ) -> User:
-        """All of it or nothing; what is None, and what is so already, stays as it is."""
+        """All of it or nothing; what is None, and what is so already, stays as it is.
+
+        :param keep_one: whether the last administrator stays one
+        :raises NotFound: the user was removed meanwhile.
+        :raises NotApplicable: the last administrator would be one no more; or as `remove_badge`.
+        :raises InputRefused: as `set_badge`.
+        """
         with self._writing() as db:
+            user = self.user_by_id(user.id)  # nobody else changes it any more
+            if keep_one and (role not in (None, "administrator") or disabled):
+                _keep_an_administrator(db, user)
             if role not in (None, user.role):
                 db.execute("UPDATE users SET role = ? WHERE id = ?", [role, user.id])
                 self.record(
@@ -75,17 +131,28 @@ class People(AuditTrail):
                 db.execute(
                     "UPDATE users SET disabled_ms = ? WHERE id = ?", [now_ms() if disabled else None, user.id]
                 )
-                db.execute("DELETE FROM sessions WHERE user_id = ?", [user.id])
+                _sign_off(db, user)
                 self.record(by, "user.disabled" if disabled else "user.enabled", f"user {user.id}")
             if password_hash is not None:
                 self.set_password(by, user.name, password_hash)
+            if badge_sha256 is not None or pin_hash is not None:
+                self.set_badge(by, user, badge_sha256=badge_sha256, pin_hash=pin_hash)
+            if remove_badge and user.has_badge:
+                self.remove_badge(by, user)
         return self.user_by_id(user.id)
 
-    def remove_user(self, by: Actor, name: str) -> None:
-        """The account and its sessions are gone; the audit keeps what was done.  :raises NotFound:"""
-        user = self.user(name)
+    def remove_user(self, by: Actor, user: User, *, keep_one: bool = False) -> None:
+        """The account and its sessions are gone; the audit keeps what was done.
+
+        :param keep_one: whether the last administrator stays
+        :raises NotFound: the user was removed meanwhile.
+        :raises NotApplicable: the last administrator.
+        """
         with self._writing() as db:
-            db.execute("DELETE FROM sessions WHERE user_id = ?", [user.id])
+            user = self.user_by_id(user.id)
+            if keep_one:
+                _keep_an_administrator(db, user)
+            _sign_off(db, user)
             db.execute("DELETE FROM users WHERE id = ?", [user.id])
             self.record(by, "user.removed", f"user {user.id}", before={"role": user.role})
 
@@ -230,6 +297,28 @@ class People(AuditTrail):
         """Who started a run; None where that is not on record."""
         row = self._readers.one("SELECT name, via FROM run_starters WHERE run_id = ?", [calibration_id])
         return None if row is None else Actor(name=row["name"], via=row["via"])
+
+
+def _keep_an_administrator(db: Database, user: User) -> None:
+    """Within the transaction that would end it: two who remove each other are looked at one by one."""
+    if user.role != "administrator" or user.disabled:
+        return
+    if not db.execute(
+        "SELECT 1 FROM users WHERE role = 'administrator' AND disabled_ms IS NULL AND id != ?", [user.id]
+    ).fetchone():
+        raise NotApplicable(f"{user.name} is the last administrator who can sign in; make another one first.")
+
+
+def _refuse_taken_badge(db: Database, badge_sha256: bytes | None, user_id: int = 0) -> None:
+    """:param user_id: whose it may be."""
+    if db.execute(
+        "SELECT 1 FROM users WHERE badge_sha256 = ? AND id != ?", [badge_sha256, user_id]
+    ).fetchone():
+        raise InputRefused("Another user has this badge; remove it there first.")
+
+
+def _sign_off(db: Database, user: User) -> None:
+    db.execute("DELETE FROM sessions WHERE user_id = ?", [user.id])
 
 
 def _user(row: sqlite3.Row) -> User:

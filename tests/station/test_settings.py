@@ -11,7 +11,7 @@ from drivers.scaling import JointScaling
 from station.errors import InputRefused
 from station.home import station_home
 from station.motion.devices import build_devices
-from station.settings import Settings, load_settings
+from station.settings import FolderSettings, Settings, backup_folder, database_path, load_settings
 
 REAL = """
 name = "Line 3"
@@ -102,6 +102,49 @@ def test_options_of_a_driver_may_stand_in_a_table_of_its_own(tmp_path: Path) -> 
     assert settings.scale.options == HeidenhainSettings(
         url="serial:///dev/ttyUSB0?baud=9600&format=7E2", timeout_s=2.5
     )
+
+
+def test_every_relative_path_counts_from_the_folder_of_the_station_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    text = """
+        [service]
+        database = "kept/station.db"
+        [backup]
+        folder = "backups"
+        [emulated]
+        rig = "rig.toml"
+        [openid]
+        issuer = "https://login.example"
+        client_id = "station"
+        client_secret_file = "client"
+        roles = {it = "administrator"}
+        [[outbox.webhook]]
+        url = "https://mes.example"
+        secret_file = "secret"
+        [[outbox.folder]]
+        path = "../results"
+        [[outbox.folder]]
+        path = "/srv/results"
+    """
+    (tmp_path / "here").mkdir()
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "here" / "station.toml").write_text(text)
+    settings = load_settings(Path("here/station.toml"))
+    assert settings.openid is not None
+    assert database_path(settings, tmp_path) == tmp_path / "here" / "kept" / "station.db"
+    assert backup_folder(settings, tmp_path) == tmp_path / "here" / "backups"
+    assert settings.emulated.rig == tmp_path / "here" / "rig.toml"
+    assert settings.openid.client_secret_file == tmp_path / "here" / "client"
+    assert settings.outbox.webhook[0].secret_file == tmp_path / "here" / "secret"
+    assert [folder.path for folder in settings.outbox.folder] == [
+        tmp_path / "here" / ".." / "results",
+        Path("/srv/results"),
+    ]
+
+
+def test_a_path_that_is_given_without_a_file_stays() -> None:
+    assert FolderSettings(path=Path("results")).path == Path("results")
 
 
 def test_half_a_machine_is_refused(tmp_path: Path) -> None:

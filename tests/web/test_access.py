@@ -10,11 +10,12 @@ import pytest
 from fastapi.testclient import TestClient
 from starlette.websockets import WebSocketDisconnect
 
-from station.people import hashed_password, hashed_pin, secret_hash
+from station.people import access, hashed_password, hashed_pin, secret_hash
 from station.records import Actor
 from station.store import Store
 from tests.web.conftest import LIMIT_S, Service
-from web.guarded import COOKIE
+from web.cookies import COOKIE, HOST_COOKIE
+from web.guarded import UNATTENDED
 from web.routes import live
 
 ROOT = Actor(name="root", via="terminal")
@@ -95,7 +96,7 @@ def test_signing_in_and_out(ada: Service) -> None:
 
 def test_a_cookie_that_was_signed_out_elsewhere_says_so(ada: Service) -> None:
     sign_in(ada)
-    ada.runtime.store.remove_user(ROOT, "ada")
+    ada.runtime.store.remove_user(ROOT, ada.runtime.store.user("ada"))
     assert "session has ended" in refusal(ada.client.get("/api/v1/station"))[1]
 
 
@@ -130,8 +131,17 @@ def test_the_panel_stops_without_signing_in_and_others_do_not(closed: Service) -
     assert panel.post("/api/v1/stop").json()["confirmed"]
     assert panel.post("/api/v1/stop", headers={"Authorization": "Bearer revoked"}).json()["confirmed"]
     assert panel.get("/api/v1/station").status_code == 401
-    through = {"X-Forwarded-For": "192.0.2.9"}
-    assert panel.post("/api/v1/stop", headers=through).status_code == 401, "a proxy that is not declared"
+    for through in (
+        {"X-Forwarded-For": "192.0.2.9"},
+        {"X-Forwarded-For": "127.0.0.1"},
+        {"X-Forwarded-For": ""},
+        {"X-Forwarded-Proto": "https"},
+        {"X-Forwarded-Host": "station"},
+        {"Forwarded": "for=127.0.0.1"},
+        {"X-Real-IP": "127.0.0.1"},
+        {"Via": "1.1 proxy"},
+    ):
+        assert panel.post("/api/v1/stop", headers=through).status_code == 401, "a proxy that is not declared"
     assert run.running is None
 
 
@@ -202,14 +212,138 @@ def test_the_live_feed_asks_too_and_ends_with_the_session(
 
 def test_a_session_ends_by_itself_but_not_while_a_run_is_under_way(ada: Service) -> None:
     sign_in(ada)
-    access = ada.client.app.state.access  # type: ignore[attr-defined]
-    access._idle_s = -1.0
+    theirs = ada.client.app.state.access  # type: ignore[attr-defined]
+    theirs._idle_s = -1.0
     assert ada.client.get(SESSION).status_code == 401
     sign_in(ada)
-    access._idle_s = 60.0
+    theirs._idle_s = 60.0
     run = ada.hold()
-    access._idle_s = -1.0
+    theirs._idle_s = -1.0
     assert ada.client.get(SESSION).status_code == 200
     ada.client.post("/api/v1/stop")
     ada.runtime.orchestrator.wait(run, LIMIT_S)
     assert ada.client.get(SESSION).status_code == 401
+
+
+def test_a_page_that_was_left_alone_keeps_nobody_signed_in(
+    ada: Service, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """It goes on asking who is signed in, and opens its live feed again."""
+    late_ms = 0
+    now_ms = access._now_ms
+    monkeypatch.setattr(access, "_now_ms", lambda: now_ms() + late_ms)
+    sign_in(ada)
+    cookie = {"cookie": f"{COOKIE}={ada.client.cookies[COOKIE]}"}
+    by_itself = {UNATTENDED: "1"}
+    late_ms = 40 * 60_000
+    assert ada.client.get(SESSION).status_code == 200, "somebody is there"
+    late_ms = 80 * 60_000
+    assert ada.client.get(SESSION, headers=by_itself).status_code == 200
+    with ada.client.websocket_connect("/api/v1/live", headers=cookie) as feed:
+        assert feed.receive_json()["type"] == "snapshot"
+    late_ms = 101 * 60_000
+    assert ada.client.get(SESSION, headers=by_itself).status_code == 401
+
+
+def test_who_has_an_account_cannot_try_those_of_others_without_end(ada: Service) -> None:
+    """A sign-in that succeeds forgets the failures of that name, not those of the address."""
+    told = []
+    for guess in range(8):
+        assert sign_in(ada).status_code in (201, 429)
+        told.append(sign_in(ada, f"name {guess}", "wrong password").status_code)
+    assert told == [401] * 5 + [429] * 3
+
+
+def test_a_key_stands_in_one_header_alone(closed: Service) -> None:
+    shown = closed.key("administrator")["Authorization"]
+    key = shown.removeprefix("Bearer ")
+    for headers in (
+        [("X-API-Key", key)],
+        [("Proxy-Authorization", shown)],
+        [("Cookie", f"{COOKIE}={key}")],
+        [("Authorization", key)],
+        [("Authorization", shown), ("Authorization", "Bearer fbs_another")],
+        [("Authorization", "Bearer fbs_another"), ("Authorization", shown)],
+    ):
+        assert closed.client.get("/api/v1/station", headers=headers).status_code == 401, headers
+    assert closed.client.get(f"/api/v1/station?access_token={key}").status_code == 401
+
+
+@pytest.fixture
+def sessions(ada: Service) -> tuple[str, str]:
+    """Ada's cookie, and that of somebody who has an account too."""
+    ada.runtime.store.add_user(ROOT, "Eve", "operator", password_hash=HASHED)
+    cookies = []
+    for name in ("ada", "eve"):
+        sign_in(ada, name)
+        cookies.append(ada.client.cookies[COOKIE])
+        ada.client.cookies.clear()
+    return cookies[0], cookies[1]
+
+
+def test_a_session_that_another_host_has_set_takes_nobodys_place(
+    ada: Service, sessions: tuple[str, str]
+) -> None:
+    """Hosts of one domain can set cookies for each other: Ada would work under the name of Eve."""
+    mine, theirs = sessions
+    for both in (f"{COOKIE}={mine}; {COOKIE}={theirs}", f"{COOKIE}={theirs}; {COOKIE}={mine}"):
+        assert "two sessions" in refusal(ada.client.get(SESSION, headers={"Cookie": both}))[1]
+        assert ada.client.post("/api/v1/stop", headers={"Cookie": both}).json()["confirmed"]
+    same = f"{COOKIE}={mine}; {COOKIE}={mine}"
+    assert ada.client.get(SESSION, headers={"Cookie": same}).json()["name"] == "Ada"
+    unknown = f"{COOKIE}=of-another-station; {COOKIE}={mine}"
+    assert ada.client.post("/api/v1/stop", headers={"Cookie": unknown}).json()["confirmed"]
+    assert ada.client.delete(SESSION, headers={"Cookie": both}).status_code == 204
+    for one in sessions:
+        assert ada.client.get(SESSION, headers={"Cookie": f"{COOKIE}={one}"}).status_code == 401
+
+
+def test_with_tls_no_other_host_can_set_a_session(ada: Service) -> None:
+    client = TestClient(ada.client.app, base_url="https://station")
+    answer = client.post(SESSION, json={"name": "ada", "password": PASSWORD})
+    said = answer.headers["set-cookie"]
+    assert said.startswith(f"{HOST_COOKIE}=") and "Secure" in said and "Path=/" in said
+    assert "Domain" not in said
+    assert client.get(SESSION).json()["name"] == "Ada"
+    plain = {"Cookie": f"{COOKIE}={client.cookies[HOST_COOKIE]}"}
+    client.cookies.clear()
+    assert client.get(SESSION, headers=plain).status_code == 401, "under the name that any host can set"
+
+
+def test_a_key_that_expires_ends_the_live_feed(closed: Service, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(live, "LOOK_EVERY_S", 0.02)
+    soon = datetime.now(UTC) + timedelta(seconds=1)
+    headers = closed.key("viewer", "old", expires_at=soon)
+    with closed.client.websocket_connect("/api/v1/live", headers=headers) as feed:
+        assert feed.receive_json()["type"] == "snapshot"
+        with pytest.raises(WebSocketDisconnect) as ended:
+            while True:
+                feed.receive_json()
+    assert ended.value.code == live.NOT_SIGNED_IN and "expired at" in ended.value.reason
+
+
+def test_a_run_goes_on_when_the_user_who_started_it_is_removed(ada: Service) -> None:
+    sign_in(ada)
+    run = ada.hold()
+    ada.runtime.store.remove_user(ROOT, ada.runtime.store.user("ada"))
+    assert ada.client.post(f"/api/v1/calibrations/{run}/abort").status_code == 401
+    assert ada.client.post("/api/v1/stop").status_code == 401
+    assert ada.runtime.store.summary(run).state == "running"
+    another = ada.key("operator", "Bo")
+    assert ada.client.post(f"/api/v1/calibrations/{run}/abort", headers=another).status_code == 202
+    assert ada.runtime.orchestrator.wait(run, LIMIT_S) == "aborted"
+    starts = [entry.who for entry in ada.runtime.store.audit() if entry.action == "run.started"]
+    assert starts == ["Ada"]
+
+
+def test_a_role_that_is_changed_holds_for_the_session_that_is_open(ada: Service) -> None:
+    store = ada.runtime.store
+    sign_in(ada)
+    run = ada.hold()
+    store.change_user(ROOT, store.user("ada"), role="viewer")
+    assert ada.client.post(f"/api/v1/calibrations/{run}/abort").status_code == 403
+    assert ada.client.post("/api/v1/stop").json()["confirmed"], "everybody who is signed in may stop"
+    ada.runtime.orchestrator.wait(run, LIMIT_S)
+    assert ada.start().status_code == 403
+    store.change_user(ROOT, store.user("ada"), role="administrator")
+    assert ada.client.get("/api/v1/users").status_code == 200

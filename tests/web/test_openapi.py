@@ -40,3 +40,8 @@ def test_every_answer_has_a_schema() -> None:
             else:
                 told_as = (["text/csv"], ["text/html"], ["text/plain"], ["application/pdf"])
                 assert list(kinds) in told_as, f"{name} {status}"
+
+
+def test_whatever_takes_a_body_may_find_it_too_slow_or_too_large() -> None:
+    for name, operation in operations(json.loads(openapi.text())):
+        assert ("requestBody" in operation) == ({"408", "413"} <= operation["responses"].keys()), name

@@ -30,7 +30,7 @@ from station.records import Actor
 from station.settings import OpenIdSettings, load_settings
 from tests.station.conftest import SETTINGS
 from tests.web.conftest import LIMIT_S, Service, a_service
-from web.guarded import COOKIE
+from web.cookies import COOKIE
 from web.routes.openid import BROWSER
 
 FOLDER = Path(__file__).parent / "provider"

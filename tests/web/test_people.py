@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import json
+from threading import Barrier, Thread
 from typing import Any
 
 import pytest
 
-from station.people import secret_hash
+from station.errors import NotApplicable, NotFound
+from station.people import Administration, NewUser, secret_hash
+from station.records import STATION, Actor, User
 from tests.web.conftest import Service
 
+ROOT = Actor(name="root", via="terminal")
 USERS, KEYS, SESSION = "/api/v1/users", "/api/v1/keys", "/api/v1/session"
 PASSWORD = "correct horse"
 BO = {"name": "Bo", "role": "operator", "password": PASSWORD, "badge": "0042", "pin": "1234"}
@@ -60,6 +64,127 @@ def test_a_user_is_added_changed_disabled_and_removed(closed: Service, root: dic
         "user.removed",
     ]  # fmt: skip
     assert all(entry["who"] == "root" for entry in audit(closed, root) if entry["action"] in told)
+
+
+BADGE = {"badge": "0042", "pin": "1234"}
+
+
+def test_a_user_gets_a_badge_another_pin_and_another_badge(closed: Service, root: dict[str, str]) -> None:
+    bo = {"name": "Bo", "role": "operator", "password": PASSWORD}
+    path = f"{USERS}/{closed.client.post(USERS, json=bo, headers=root).json()['id']}"
+
+    def change(**what: Any) -> Any:
+        return closed.client.patch(path, json=what, headers=root)
+
+    def opens(badge: str, pin: str) -> bool:
+        status = closed.client.post(SESSION, json={"badge": badge, "pin": pin}).status_code
+        assert status in (201, 401)
+        return bool(status == 201)
+
+    for field, alone in (("pin", {"badge": "0042"}), ("badge", {"pin": "1234"})):
+        refused = change(**alone)
+        assert (refused.status_code, refused.json()["field"]) == (422, field)
+    assert not opens(**BADGE)
+    assert change(**BADGE).json()["has_badge"] is True
+    assert opens(**BADGE)
+    assert change(pin="98765").status_code == 200
+    assert closed.client.get(SESSION).status_code == 401, "whoever knew the PIN that was is signed off"
+    assert not opens("0042", "1234") and opens("0042", "98765")
+    assert change(badge="0043").status_code == 200
+    assert not opens("0042", "98765") and opens("0043", "98765"), "a lost badge opens nothing; the PIN stays"
+    assert change(remove_badge=True, pin="1111").json()["field"] == "remove_badge"
+    assert opens("0043", "98765")
+    assert change(remove_badge=True).json()["has_badge"] is False
+    assert closed.client.get(SESSION).status_code == 401
+    assert not opens("0043", "98765")
+    assert change(remove_badge=True).status_code == 200, "again is harmless"
+    assert closed.client.post(SESSION, json={"name": "Bo", "password": PASSWORD}).status_code == 201
+    told = audit(closed, root)
+    assert [e["action"] for e in told if e["action"].startswith("user.")] == [
+        "user.added", "user.badge_changed", "user.pin_changed", "user.pin_changed", "user.badge_changed",
+        "user.badge_removed",
+    ]  # fmt: skip
+    for secret in ("0042", "0043", "1234", "98765", secret_hash("0043").hex(), "argon2"):
+        assert secret not in json.dumps([{**e, "hash": "", "at": ""} for e in told])
+
+
+def test_a_badge_that_cannot_be_given_is_refused_and_nothing_has_changed(
+    closed: Service, root: dict[str, str]
+) -> None:
+    closed.client.post(USERS, json=BO, headers=root)
+    cy = {"name": "Cy", "role": "operator", "badge": "0050", "pin": "5555"}
+    path = f"{USERS}/{closed.client.post(USERS, json=cy, headers=root).json()['id']}"
+    before = len(audit(closed, root))
+    for change, status, said in (
+        ({"badge": "0042", "pin": "1234", "role": "viewer"}, 422, "Another user has this badge"),
+        ({"pin": "12", "role": "viewer"}, 422, "4 digits"),
+        ({"pin": "abcd"}, 422, "4 digits"),
+        ({"remove_badge": True, "role": "viewer"}, 409, "nothing to sign in with"),
+    ):
+        refused = closed.client.patch(path, json=change, headers=root)
+        assert refused.status_code == status and said in refused.json()["detail"]
+    assert len(audit(closed, root)) == before
+    assert closed.client.post(SESSION, json={"badge": "0050", "pin": "5555"}).json()["role"] == "operator"
+    both = closed.client.patch(path, json={"remove_badge": True, "password": PASSWORD}, headers=root)
+    assert both.status_code == 200
+    assert closed.client.post(SESSION, json={"name": "Cy", "password": PASSWORD}).status_code == 201
+
+
+def test_who_signs_in_with_the_provider_gets_no_way_past_it(closed: Service, root: dict[str, str]) -> None:
+    store = closed.runtime.store
+    eve = store.add_user(STATION, "Eve", "operator", openid_sha256=secret_hash("https://login.example\n7"))
+    for change in ({"password": PASSWORD}, BADGE):
+        refused = closed.client.patch(f"{USERS}/{eve.id}", json=change, headers=root)
+        assert refused.status_code == 409 and "the plant's provider" in refused.json()["detail"]
+    assert closed.client.patch(f"{USERS}/{eve.id}", json={"disabled": True}, headers=root).status_code == 200
+
+
+def test_a_number_of_a_user_is_never_used_again(closed: Service, root: dict[str, str]) -> None:
+    """The audit says `user 2`, and so does a page that was loaded before the user was removed."""
+    first = closed.client.post(USERS, json=BO, headers=root).json()["id"]
+    assert closed.client.delete(f"{USERS}/{first}", headers=root).status_code == 204
+    assert closed.client.post(USERS, json=BO, headers=root).json()["id"] == first + 1
+
+
+def test_two_administrators_who_remove_each_other_leave_one(closed: Service, root: dict[str, str]) -> None:
+    """Both are let in before either is gone."""
+    administration = Administration(closed.runtime.store)
+    ada, bea = (
+        administration.add_user(ROOT, NewUser(name, "administrator", PASSWORD)) for name in ("Ada", "Bea")
+    )
+    at_once = Barrier(2)
+    told: list[str] = []
+
+    def remove(other: User) -> None:
+        at_once.wait()
+        try:
+            administration.remove_user(ROOT, other.id)
+        except NotApplicable as refused:
+            told.append(str(refused))
+
+    both = [Thread(target=remove, args=[user]) for user in (ada, bea)]
+    for one in both:
+        one.start()
+    for one in both:
+        one.join()
+    assert len(closed.runtime.store.users()) == 1 and len(told) == 1
+    assert "last administrator" in told[0]
+
+
+def test_an_administrator_who_is_removed_meanwhile_removes_nobody(
+    closed: Service, root: dict[str, str]
+) -> None:
+    """Whoever looked at the other one before that was removed."""
+    store = closed.runtime.store
+    ada = store.add_user(ROOT, "Ada", "administrator", password_hash="none")
+    bea = store.add_user(ROOT, "Bea", "administrator", password_hash="none")
+    store.remove_user(ROOT, ada, keep_one=True)
+    with pytest.raises(NotApplicable):
+        store.change_user(ROOT, bea, role="viewer", keep_one=True)
+    with pytest.raises(NotApplicable):
+        store.change_user(ROOT, bea, disabled=True, keep_one=True)
+    with pytest.raises(NotFound):
+        store.change_user(ROOT, ada, disabled=True)
 
 
 def test_no_secret_comes_out_again(closed: Service, root: dict[str, str]) -> None:

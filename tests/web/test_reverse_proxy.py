@@ -31,6 +31,7 @@ from tests.station.conftest import SETTINGS
 from tests.waiting import all_threads_end, soon
 from tests.web.conftest import LIMIT_S, a_runtime, listening
 from web.app import create_app
+from web.cookies import HOST_COOKIE
 
 CONFIG = Path(__file__).parents[2] / "deploy" / "nginx.conf"
 NAME = "station.plant.example"
@@ -99,6 +100,7 @@ def proxied(request: pytest.FixtureRequest, tmp_path_factory: pytest.TempPathFac
             signed_in = one.ask("POST", "/api/v1/session", json={"name": "Bo", "password": PASSWORD})
             assert signed_in.status_code == 201, signed_in.text
             assert "secure" in signed_in.headers["set-cookie"].lower()
+            assert signed_in.headers["set-cookie"].startswith(f"{HOST_COOKIE}=")
             yield one
 
 

@@ -47,7 +47,7 @@ async def _watch(websocket: WebSocket) -> None:
     while True:
         await asyncio.sleep(LOOK_EVERY_S)
         try:
-            Access.check(await who_asks(websocket, active=False), Permission.READ)
+            Access.check(await who_asks(websocket), Permission.READ)
         except StoreUnavailable:
             continue
         except (NotSignedIn, Forbidden) as ended:

@@ -13,10 +13,10 @@ from station.errors import NotFound
 from station.people import OpenId, Permission, SignInRefused
 from station.records import Actor, Record
 from web.aside import aside, record_later
-from web.guarded import COOKIE, Router, needs
+from web.cookies import sent_sessions, set_session
+from web.guarded import Router, needs
 from web.problems import documented
 from web.routes.parts import TheAccess, TheRuntime
-from web.routes.sessions import set_session
 
 log = logging.getLogger(__name__)
 
@@ -61,7 +61,7 @@ async def read_ways(request: Request) -> SignInWays:
 )
 async def begin(provider: TheProvider, request: Request) -> RedirectResponse:
     """For a browser: on to the provider's page."""
-    earlier = request.cookies.get(COOKIE)
+    earlier = next(iter(sent_sessions(request)), None)
     try:
         begun = await aside(lambda: provider.begin(_here(request, f"{PATH}/callback"), earlier))
     except SignInRefused as refused:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Annotated
 
 from fastapi import BackgroundTasks, Request, Response
@@ -12,7 +13,8 @@ from station.people import FEWEST_CHARACTERS, Access, Permission
 from station.records import Actor, PersonName, SignedIn, User
 from web.aside import aside, record_later
 from web.bodies import Body
-from web.guarded import COOKIE, Router, needs
+from web.cookies import delete_session, sent_sessions, set_session
+from web.guarded import Router, needs
 from web.problems import documented
 from web.routes.parts import TheAccess, TheRuntime
 
@@ -72,8 +74,8 @@ async def sign_in(
         cookie, user = await aside(lambda: access.sign_in(name, password, address))
     else:
         raise FieldRefused("name", "Give name and password, or badge and PIN.")
-    if earlier := request.cookies.get(COOKIE):  # who signed in before at this page is not there any more
-        await aside(lambda: access.sign_out(earlier))
+    for earlier in sent_sessions(request):  # who signed in before at this page is not there any more
+        await aside(partial(access.sign_out, earlier))
     actor = _actor(user)
     later.add_task(record_later, runtime.orchestrator, actor, "session.begun", f"user {user.id}")
     return _signed_in(access, actor, cookie, request, response)
@@ -91,9 +93,9 @@ async def make_first_administrator(
 @router.delete("", status_code=204, dependencies=[needs(Permission.ENTER)])
 async def sign_out(access: TheAccess, request: Request, response: Response) -> None:
     """Sign out; again is harmless."""
-    if cookie := request.cookies.get(COOKIE):
-        await aside(lambda: access.sign_out(cookie))
-    response.delete_cookie(COOKIE, path="/", httponly=True, samesite="strict")
+    for cookie in sent_sessions(request):
+        await aside(partial(access.sign_out, cookie))
+    delete_session(response, request)
 
 
 def _actor(user: User) -> Actor:
@@ -103,10 +105,3 @@ def _actor(user: User) -> Actor:
 def _signed_in(access: Access, actor: Actor, cookie: str, request: Request, response: Response) -> SignedIn:
     set_session(response, cookie, request)
     return access.session(actor)
-
-
-def set_session(response: Response, cookie: str, request: Request) -> None:
-    """Only this station's page can send it."""
-    response.set_cookie(
-        COOKIE, cookie, path="/", httponly=True, samesite="strict", secure=request.url.scheme == "https"
-    )

@@ -39,6 +39,11 @@ class UserChangeBody(Body):
     role: Role | None = None
     disabled: bool | None = Field(default=None, description="true: kept, signed off, not let in again")
     password: Secret | None = Field(default=None, description="signs the user off everywhere")
+    badge: Secret | None = Field(
+        default=None, description="text of another badge; without `pin` the PIN stays; signs the user off"
+    )
+    pin: Secret | None = Field(default=None, description="another PIN for the badge; signs the user off")
+    remove_badge: bool = Field(default=False, description="true: badge and PIN open nothing any more")
 
 
 class UserList(Record):
@@ -65,7 +70,7 @@ async def add_user(body: UserBody, by: Administrator, runtime: TheRuntime, respo
 
 @router.patch("/{user_id}", response_model=User, responses=documented(404, 409))
 async def change_user(user_id: UserId, body: UserChangeBody, by: Administrator, runtime: TheRuntime) -> User:
-    """Another role, another password, disabled or enabled; it holds from the next request on."""
+    """Another role, password, badge or PIN, disabled or enabled; it holds from the next request on."""
     change = UserChange(**body.model_dump())
     return await aside(lambda: Administration(runtime.store).change_user(by, user_id, change))
 

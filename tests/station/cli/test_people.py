@@ -14,6 +14,7 @@ from click.testing import CliRunner, Result
 from station.cli import main
 from station.errors import InputRefused
 from station.people import secret_hash
+from station.people.passwords import matches
 from station.service import check_entrance, listens_on_loopback
 from station.store.store import Store
 
@@ -58,6 +59,31 @@ def test_users_and_what_the_audit_says_of_them(tmp_path: Path) -> None:
         ("user.removed", "terminal"), ("user.added", "terminal"),
     ]  # fmt: skip
     assert "Ada" not in audit.stdout
+
+
+def test_a_badge_is_given_to_somebody_who_is_there_and_taken_away(tmp_path: Path) -> None:
+    def bo(command: str, *options: str, input: str | None = None) -> Result:
+        return station(tmp_path, "user", command, "Bo", *options, input=input)
+
+    assert bo("badge", "--badge", "0042", "--pin-stdin", input="1234\n").exit_code == 2, "no history yet"
+    bo("add", "--role", "operator", "--password-stdin", input="correct horse\n")
+    alone = bo("badge", "--pin-stdin", input="1234\n")
+    assert alone.exit_code == 2 and "no badge yet" in alone.stderr
+    given = bo("badge", "--badge", "0042", input="1234\n1234\n")
+    assert given.exit_code == 0 and "with the badge and the new PIN" in given.stderr
+    assert bo("badge", "--pin-stdin", input="5678\n").exit_code == 0
+    with closing(Store(tmp_path / "station.db", read_only=True)) as store:
+        kept = store.badge_credentials(secret_hash("0042"))
+    assert kept is not None and matches("5678", kept.secret_hash) and not matches("1234", kept.secret_hash)
+    assert bo("badge", "--remove", "--pin-stdin", input="1\n").exit_code == 2
+    assert bo("badge", "--remove").exit_code == 0
+    with closing(Store(tmp_path / "station.db", read_only=True)) as store:
+        assert store.badge_credentials(secret_hash("0042")) is None
+    audit = station(tmp_path, "audit", "--csv").stdout
+    assert [row["action"] for row in csv.DictReader(io.StringIO(audit))][::-1] == [
+        "user.added", "user.badge_changed", "user.pin_changed", "user.pin_changed", "user.badge_removed",
+    ]  # fmt: skip
+    assert "0042" not in audit and "5678" not in audit
 
 
 def test_an_audit_that_was_changed_is_named(tmp_path: Path) -> None:

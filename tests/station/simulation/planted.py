@@ -160,6 +160,14 @@ def _not_caught(_: Callable[..., None]) -> Callable[..., None]:
     return repeat
 
 
+def _recorded_twice(record: Callable[..., None]) -> Callable[..., None]:
+    def twice(trail: AuditTrail, *args: Any, **kwargs: Any) -> None:
+        record(trail, *args, **kwargs)
+        record(trail, *args, **kwargs)
+
+    return twice
+
+
 def _gives_up(_: Callable[..., None]) -> Callable[..., None]:
     return lambda store, delivery, until, detail: store.settle(delivery, "delivered", detail)
 
@@ -233,6 +241,7 @@ PLANTED = (
     Planted("the newest event is delivered first", _replace(Store, "next_delivery", _newest_first)),
     Planted("a run is changed after its end", _replace(Store, "finish", _changed_afterwards)),
     Planted("starts are not in the audit", _replace(AuditTrail, "record", lambda _: _nothing)),
+    Planted("starts are in the audit twice", _replace(AuditTrail, "record", _recorded_twice)),
     Planted(
         "times go by the clock on the wall",
         _replace(RunTimes, "now_ms", _by_the_wall_clock),

@@ -12,6 +12,7 @@ QUICK = {
     "an interrupted run stays under way": 1,
     "stop is confirmed unasked": 1,
     "starts are not in the audit": 1,
+    "starts are in the audit twice": 1,
     "a run is changed after its end": 1,
 }
 """Mistakes that the first days show, and a seed; `python -m tests.station.simulation.planted` plants all."""

@@ -1,4 +1,5 @@
 /** The REST calls, the same that the MES uses. */
+import { attendance } from "./attended";
 import { stationTime } from "./live";
 import { t } from "./messages";
 import { said } from "./messages/said";
@@ -51,7 +52,12 @@ export async function call<T>(
 ): Promise<T> {
   let response: Response;
   try {
-    response = await fetch(`/api/v1${path}`, { method, signal: AbortSignal.timeout(TIMEOUT_MS), ...options });
+    response = await fetch(`/api/v1${path}`, {
+      method,
+      signal: AbortSignal.timeout(TIMEOUT_MS),
+      ...options,
+      headers: { ...options.headers, ...attendance() },
+    });
   } catch {
     throw new Refused(t.refusals.noAnswer);
   }

@@ -52,7 +52,16 @@ export interface NewUser {
   pin: string | null;
 }
 export const addUser = (user: NewUser) => call<User>("POST", "/users", sent(user));
-export const changeUser = (id: number, change: { role?: Role; disabled?: boolean }) =>
+/** What is left out stays. */
+export interface UserChange {
+  role?: Role;
+  disabled?: boolean;
+  password?: string;
+  badge?: string;
+  pin?: string;
+  remove_badge?: boolean;
+}
+export const changeUser = (id: number, change: UserChange) =>
   call<User>("PATCH", `/users/${id}`, sent(change));
 export const keys = () => call<Items<ApiKey>>("GET", "/keys");
 export const addKey = (key: { name: string; role: Role; days: number | null }) =>

@@ -9,6 +9,7 @@ import type { Role, User } from "../../types";
 import { ActionButton, Pending } from "./action";
 import { addUser, changeUser, users } from "./calls";
 import { ChoiceField, TextField } from "./fields";
+import { SignInOf } from "./sign-in-of";
 import { Table } from "./table";
 
 export const ROLE_OPTIONS = Object.entries(t.maintenance.roles) as [Role, string][];
@@ -18,12 +19,15 @@ export function Users() {
   const changed = useSignal(0);
   const trouble = useSignal<string | null>(null);
   const { value, trouble: missing } = useLoaded(String(changed.value), users).value;
+  const again = () => {
+    changed.value += 1;
+  };
   const change = async (id: number, what: { role?: Role; disabled?: boolean }) => {
     trouble.value = await changeUser(id, what).then(
       () => null,
       (error: Error) => error.message,
     );
-    changed.value += 1;
+    again();
   };
   return (
     <section class="panel part" aria-labelledby="users-title">
@@ -40,11 +44,8 @@ export function Users() {
       <p class="trouble" role="alert">
         {trouble.value && `▲ ${trouble.value}`}
       </p>
-      <AddUser
-        added={() => {
-          changed.value += 1;
-        }}
-      />
+      <AddUser added={again} />
+      {value && value.items.length > 0 && <SignInOf users={value.items} changed={again} />}
     </section>
   );
 }
