@@ -16,6 +16,8 @@ from station.diagnosis.explanations.situation import Action, Situation
 from station.records import Real
 
 TURNS = ({"per_turn": 1.0}, {"per_turn": 2.0}, {"per_turn": 3.0})
+NAMED = ((TURNS[0], 3), (TURNS[0], 4))
+"""Once a turn square to the arm is an eccentric encoder; on a circle with the arm it is another length."""
 PLACE_FACTORS = 6
 LOADS = 4
 STRETCH = sizes(0.004, 1.0)
@@ -96,7 +98,9 @@ def _centre(joint: int, range_: Real) -> Family:
 
 def _path(joint: int, range_: Real) -> Family:
     """The same on a line (x, y, along the arm, square to it) or a circle, with or against the turning."""
-    hidden = tuple({**turns, "form": float(form)} for turns in TURNS for form in range(6))
+    hidden = tuple(
+        {**turns, "form": float(form)} for turns in TURNS for form in range(6) if (turns, form) not in NAMED
+    )
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
         theta = s.theta[:, joint - 1]
@@ -129,13 +133,16 @@ def _both_centres(range_: Real) -> Family:
 
 
 def _elbow(joint: int, range_: Real) -> Family:
-    """The passive bearing between the links: along the distal link, by the angle between both."""
+    """The passive bearing between the links: along the distal link, by the angle between both.
+
+    Once a turn is another length of the arm and another zero.
+    """
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
         i = joint - 1
         return [Action(f"l{joint}", wave(s.phi[:, i] - s.theta[:, i], _turns(hidden)))]
 
-    return unnamed("elbow bearing", f"joint{joint}", 0.25, range_, TURNS, actions)
+    return unnamed("elbow bearing", f"joint{joint}", 0.25, range_, TURNS[1:], actions)
 
 
 def _numbered(count: int) -> tuple[Hidden, ...]:
