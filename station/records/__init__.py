@@ -53,7 +53,7 @@ from station.records.error_map import ErrorMap, FreshReading
 from station.records.files import content_of
 from station.records.foreign_table import ForeignTable, read_foreign
 from station.records.guesses import TIME, guesses_in_words, with_guesses
-from station.records.happenings import Backlog, Delivery, DeliveryCount, DeliveryState, Event, EventType
+from station.records.happenings import Backlog, Delivery, DeliveryState, Event, EventType
 from station.records.identification_document import (
     Convergence,
     GateOfMemory,
@@ -229,7 +229,6 @@ __all__ = [
     "Credentials",
     "DataSource",
     "Delivery",
-    "DeliveryCount",
     "DeliveryState",
     "Dependence",
     "DeviceDetail",

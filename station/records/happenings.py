@@ -47,11 +47,3 @@ class Backlog(Record):
     count: int
     oldest_at: datetime
     """When the oldest of these events happened."""
-
-
-class DeliveryCount(Record):
-    """How many deliveries of one receiver are in one state."""
-
-    receiver: str
-    state: DeliveryState
-    count: int

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import json
 import sqlite3
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Mapping, Sequence
 from datetime import UTC, datetime
 from typing import Literal
 
 from pydantic import JsonValue
 
 from station.errors import NotFound
-from station.records import Backlog, Delivery, DeliveryCount, Event, EventType, State, uid7
+from station.records import Backlog, Delivery, Event, EventType, State, uid7
 from station.store.kept_file import KeptFile
 from station.store.rows import LIST_COLUMNS, compact, moment, summary_from_row
 from station.store.times import now_ms
@@ -40,7 +40,7 @@ class Outbox(KeptFile):
     def happenings(self, *, after: int = 0, limit: int = 100) -> list[Event]:
         """Events with a higher number, in order."""
         rows = self._readers.all("SELECT * FROM happenings WHERE n > ? ORDER BY n LIMIT ?", [after, limit])
-        return [self._event(row) for row in rows]
+        return self._events(rows)
 
     def enqueue(self, receiver: str, types: Collection[str]) -> None:
         """Deliveries of all events that came since the last time; a new receiver begins with the next one."""
@@ -68,30 +68,34 @@ class Outbox(KeptFile):
             f"SELECT at_ms, data, {_DELIVERY} WHERE receiver = ? AND state = 'waiting' ORDER BY n LIMIT 1",
             [receiver],
         )
-        return None if row is None else (_delivery(row), self._event(row))
+        return None if row is None else (_delivery(row), self._events([row])[0])
 
-    def _event(self, row: sqlite3.Row) -> Event:
-        data = json.loads(row["data"])
-        return Event(
-            n=row["n"],
-            uid=row["uid"],
-            type=row["type"],
-            at=datetime.fromtimestamp(row["at_ms"] / 1000, UTC),
-            data=self._of_run(row["type"], data["run"]) if row["type"] in _OF_RUNS else data,
-        )
+    def _events(self, rows: Sequence[sqlite3.Row]) -> list[Event]:
+        data = [json.loads(row["data"]) for row in rows]
+        of_runs = {k: of["run"] for k, of in enumerate(data) if rows[k]["type"] in _OF_RUNS}
+        summaries = self._summaries(of_runs.values())
+        for k, run in of_runs.items():
+            # a backup from before the run may have been put in the place of the history
+            data[k] = _of_run(rows[k]["type"], summaries[run]) if run in summaries else {"id": run}
+        return [
+            Event(
+                n=row["n"],
+                uid=row["uid"],
+                type=row["type"],
+                at=datetime.fromtimestamp(row["at_ms"] / 1000, UTC),
+                data=of,
+            )
+            for row, of in zip(rows, data, strict=True)
+        ]
 
-    def _of_run(self, type: str, run: int) -> dict[str, JsonValue]:
-        """The summary of a run that has ended; of one that began what does not change any more."""
-        row = self._readers.one(
-            f"SELECT {LIST_COLUMNS} FROM calibrations LEFT JOIN results ON calibration_id = id WHERE id = ?",
-            [run],
+    def _summaries(self, runs: Collection[int]) -> dict[int, dict[str, JsonValue]]:
+        marks = ", ".join("?" * len(runs))
+        rows = self._readers.all(
+            f"SELECT {LIST_COLUMNS} FROM calibrations LEFT JOIN results ON calibration_id = id"
+            f" WHERE id IN ({marks})",
+            list(runs),
         )
-        if row is None:  # a backup from before the run was put in the place of the history
-            return {"id": run}
-        summary = summary_from_row(row).model_dump(mode="json", by_alias=True)
-        if type == "run.ended":
-            return summary
-        return {**{key: summary[key] for key in _OF_A_START}, "state": State.QUEUED.value}
+        return {row["id"]: summary_from_row(row).model_dump(mode="json", by_alias=True) for row in rows}
 
     def postpone(self, delivery_id: int, until: datetime, detail: str) -> None:
         """It failed and is tried again."""
@@ -165,12 +169,12 @@ class Outbox(KeptFile):
             for row in rows
         ]
 
-    def delivery_counts(self) -> list[DeliveryCount]:
-        """By receiver and state."""
-        rows = self._readers.all(
-            "SELECT receiver, state, count(*) AS count FROM deliveries GROUP BY receiver, state ORDER BY 1, 2"
-        )
-        return [DeliveryCount.model_validate(dict(row)) for row in rows]
+
+def _of_run(type: str, summary: dict[str, JsonValue]) -> dict[str, JsonValue]:
+    """The summary of a run that has ended; of one that began what does not change any more."""
+    if type == "run.ended":
+        return summary
+    return {**{key: summary[key] for key in _OF_A_START}, "state": State.QUEUED.value}
 
 
 def _delivery(row: sqlite3.Row) -> Delivery:
