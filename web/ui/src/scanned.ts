@@ -46,9 +46,11 @@ export function scanned({ text, readable, secret }: Scan): void {
     return;
   }
   disarm();
+  const field = fieldForBadges();
   const badgeOf = readable && known ? matching(known.badge, text) : null;
   if (!known) notice.value = { text: t.scan.noCodes, refused: true };
   else if (!readable) refuse(secret ? "" : text, "unreadable", t.scan.unreadable);
+  else if (badgeOf && field) fill(field, text);
   else if (badgeOf) signOn(text, badgeOf[1] ?? text);
   else if (!secret && matching(known.serial, text)) toStation(text);
   else refuse(secret ? "" : text, "unknown", secret ? t.scan.unknown : t.scan.notSerial(shortened(text)));
@@ -61,6 +63,13 @@ function matching(pattern: string, text: string): RegExpExecArray | null {
   } catch {
     return null;
   }
+}
+
+const fieldForBadges = () => document.querySelector<HTMLInputElement>("input[data-takes-badge]:focus");
+
+function fill(field: HTMLInputElement, text: string): void {
+  field.value = text;
+  field.dispatchEvent(new Event("input", { bubbles: true }));
 }
 
 const shortened = (text: string) => (text.length > LONGEST ? `${text.slice(0, LONGEST - 1)}…` : text);

@@ -60,6 +60,21 @@ describe("a scan", () => {
     expect([operator.value, badge.value]).toEqual(["Bo", "BADGE:Cy"]);
   });
 
+  it("of a badge fills the field for a new badge that has the focus, and signs nobody on", () => {
+    open(false);
+    document.body.innerHTML = "<input data-takes-badge><input>";
+    const [field, other] = document.querySelectorAll("input");
+    field!.focus();
+    scan("BADGE:Cy");
+    expect([field!.value, badge.value]).toEqual(["BADGE:Cy", null]);
+    scan("FB-7");
+    expect(field!.value).toBe("BADGE:Cy");
+    other!.focus();
+    scan("BADGE:Cy");
+    expect([other!.value, badge.value]).toEqual(["", "BADGE:Cy"]);
+    document.body.innerHTML = "";
+  });
+
   it("of the code confirms what waits, and is refused where nothing does", () => {
     scan("CONFIRM");
     expect(refused).toHaveBeenCalledWith({ text: "CONFIRM", because: "nothing_to_confirm" });

@@ -7,9 +7,11 @@ interface TextProps {
   value: Signal<string>;
   type?: "text" | "password";
   numeric?: boolean;
+  /** A badge that is scanned here is meant for the field and signs nobody on. */
+  takesBadge?: boolean;
 }
 
-export function TextField({ id, label, value, type = "text", numeric }: TextProps) {
+export function TextField({ id, label, value, type = "text", numeric, takesBadge }: TextProps) {
   return (
     <p class="field">
       <label for={id}>{label}</label>
@@ -20,6 +22,7 @@ export function TextField({ id, label, value, type = "text", numeric }: TextProp
         autocomplete={type === "password" ? "new-password" : "off"}
         maxLength={type === "password" ? 256 : 64}
         spellcheck={false}
+        data-takes-badge={takesBadge}
         value={value.value}
         onInput={(event) => {
           value.value = event.currentTarget.value;

@@ -51,7 +51,7 @@ export function SignInOf({ users, changed }: { users: User[]; changed: () => voi
           }}
         />
         <TextField id="sign-in-password" label={m.newPassword} value={password} type="password" />
-        <TextField id="sign-in-badge" label={m.newBadge} value={badge} />
+        <TextField id="sign-in-badge" label={m.newBadge} value={badge} takesBadge />
         <TextField id="sign-in-pin" label={m.newPin} value={pin} type="password" />
         <ActionButton act={save} disabled={!(password.value || badge.value.trim() || pin.value)}>
           {m.saveSignIn}

@@ -117,7 +117,7 @@ function AddUser({ added }: { added: () => void }) {
     <div class="fields">
       <TextField id="user-name" label={m.name} value={name} />
       <TextField id="user-password" label={m.password} value={password} type="password" />
-      <TextField id="user-badge" label={m.badgeText} value={badge} />
+      <TextField id="user-badge" label={m.badgeText} value={badge} takesBadge />
       <TextField id="user-pin" label={m.badgePin} value={pin} type="password" />
       <ChoiceField
         id="user-role"
