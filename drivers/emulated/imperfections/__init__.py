@@ -8,6 +8,7 @@ within its tolerance and the mechanism's error have taken up what they can.
 ==================== =============== ================================ ======= =======
 kind                 rough or smooth size (default)                    raw um  left um
 ==================== =============== ================================ ======= =======
+arm_coupling         smooth          deg_at_horizontal = 0.016            10     0.7
 axis_tilt            smooth          tilt_deg = 1.3                       11     0.5
 base_flex            smooth          sideways_mm = 0.15                   11     0.4
 bearing_runout       smooth          amplitude_mm = 0.04, waves = 2       10     0.5
@@ -21,11 +22,14 @@ platform_tilt        smooth          deg_at_reach = 0.16                  10    
 platform_yaw         smooth          share = 0.006                        10     0.1
 stiffening_sag       smooth          deg_at_horizontal = 0.03             11     0.2
 base_gradient        smooth in time  out_mm = 0.06, up_mm = 0.02           9     7
+sinking_bearing      smooth in time  mm_per_min = 0.07                    10    10
 mounting_creep       smooth in time  mm_per_decade = 0.033                10    10
 room_cycle           smooth in time  amplitude_mm = 0.014                 10    10
 base_ringing         rough           mm_at_100_deg_per_s = 0.09           10     7
 healing_step         rough           step_mm = 0.02                        9     9
 interpolation_error  rough           amplitude_mm = 0.013                  9     7
+loose_head           rough           sd_mm = 0.01                         10    10
+slipping_link        rough           mm = 0.04                            11    10
 loose_elbow          rough           mm = 0.017                           10     8
 magnetised_spot      rough           peak_mm = 0.025                      11     6
 readout_lag          rough           share = 0.00015                      10     7
@@ -44,6 +48,7 @@ from typing import Annotated
 
 from pydantic import Field
 
+from drivers.emulated.imperfections.arm_coupling import ArmCoupling
 from drivers.emulated.imperfections.axis_tilt import AxisTilt
 from drivers.emulated.imperfections.backlash import Backlash
 from drivers.emulated.imperfections.base import Effect
@@ -69,6 +74,7 @@ from drivers.emulated.imperfections.joint_clearance import JointClearance
 from drivers.emulated.imperfections.link_bend import LinkBend
 from drivers.emulated.imperfections.link_length import LinkLength
 from drivers.emulated.imperfections.loose_elbow import LooseElbow
+from drivers.emulated.imperfections.loose_head import LooseHead
 from drivers.emulated.imperfections.magnetised_spot import MagnetisedSpot
 from drivers.emulated.imperfections.mounting_creep import MountingCreep
 from drivers.emulated.imperfections.outliers import Outliers
@@ -84,7 +90,9 @@ from drivers.emulated.imperfections.scale_bow import ScaleBow
 from drivers.emulated.imperfections.scale_cyclic import ScaleCyclic
 from drivers.emulated.imperfections.scale_gain import ScaleGain
 from drivers.emulated.imperfections.scale_hysteresis import ScaleHysteresis
+from drivers.emulated.imperfections.sinking_bearing import SinkingBearing
 from drivers.emulated.imperfections.slider_drag import SliderDrag
+from drivers.emulated.imperfections.slipping_link import SlippingLink
 from drivers.emulated.imperfections.speed_stiction import SpeedStiction
 from drivers.emulated.imperfections.sticky_patch import StickyPatch
 from drivers.emulated.imperfections.stiction_patch import StictionPatch
@@ -95,7 +103,8 @@ from drivers.emulated.imperfections.wandering_zero import WanderingZero
 from drivers.emulated.imperfections.worn_sector import WornSector
 
 AnyEffect = Annotated[
-    AxisTilt
+    ArmCoupling
+    | AxisTilt
     | Backlash
     | BaseFlex
     | BaseGradient
@@ -119,6 +128,7 @@ AnyEffect = Annotated[
     | LinkBend
     | LinkLength
     | LooseElbow
+    | LooseHead
     | MagnetisedSpot
     | MountingCreep
     | Outliers
@@ -134,7 +144,9 @@ AnyEffect = Annotated[
     | ScaleCyclic
     | ScaleGain
     | ScaleHysteresis
+    | SinkingBearing
     | SliderDrag
+    | SlippingLink
     | SpeedStiction
     | StickyPatch
     | StictionPatch
@@ -148,6 +160,7 @@ AnyEffect = Annotated[
 
 __all__ = [
     "AnyEffect",
+    "ArmCoupling",
     "AxisTilt",
     "Backlash",
     "BaseFlex",
@@ -173,6 +186,7 @@ __all__ = [
     "LinkBend",
     "LinkLength",
     "LooseElbow",
+    "LooseHead",
     "MagnetisedSpot",
     "MountingCreep",
     "Outliers",
@@ -188,7 +202,9 @@ __all__ = [
     "ScaleCyclic",
     "ScaleGain",
     "ScaleHysteresis",
+    "SinkingBearing",
     "SliderDrag",
+    "SlippingLink",
     "SpeedStiction",
     "StickyPatch",
     "StictionPatch",

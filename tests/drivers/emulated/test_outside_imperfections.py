@@ -6,6 +6,7 @@ import math
 import time
 from typing import get_args
 
+import numpy as np
 import pytest
 
 from drivers.emulated import imperfections
@@ -25,6 +26,7 @@ ASIDE = (9.0, 153.0)
 """A stop with P well to the left."""
 
 OUTSIDE: tuple[AnyEffect, ...] = (
+    imperfections.ArmCoupling(joint=1),
     imperfections.AxisTilt(joint=1),
     imperfections.BaseFlex(),
     imperfections.BaseGradient(),
@@ -39,6 +41,7 @@ OUTSIDE: tuple[AnyEffect, ...] = (
     imperfections.InterpolationError(),
     imperfections.LinkBend(),
     imperfections.LooseElbow(joint=2),
+    imperfections.LooseHead(),
     imperfections.MagnetisedSpot(),
     imperfections.MountingCreep(),
     imperfections.PlatformTilt(),
@@ -48,6 +51,8 @@ OUTSIDE: tuple[AnyEffect, ...] = (
     imperfections.RestByDistance(joint=1),
     imperfections.ReversalSlip(joint=2),
     imperfections.RoomCycle(),
+    imperfections.SinkingBearing(joint=1),
+    imperfections.SlippingLink(joint=1, from_stop=2),
     imperfections.SpeedStiction(joint=1),
     imperfections.StiffeningSag(),
     imperfections.WornSector(joint=1),
@@ -57,6 +62,7 @@ OF_THE_MOMENT = (
     imperfections.BaseRinging,
     imperfections.MountingCreep,
     imperfections.RoomCycle,
+    imperfections.SinkingBearing,
 )
 """Depend on the time of a reading, which no two sequences share to the last digit."""
 
@@ -269,6 +275,36 @@ def test_base_gradient_warms_one_side() -> None:
         got = read(quiet(effect), stop)[0]
         assert got.true_point_mm == pytest.approx(same.true_point_mm, abs=1e-9)
         assert got.temperature_rise_k == 0.0
+
+
+def test_a_bearing_sinks_with_time() -> None:
+    stop = (9.0, 180.0)
+    at_s = read(quiet(), stop)[0].t_s
+    effect = imperfections.SinkingBearing(joint=2, mm_per_min=0.6)
+    same = read(quiet(e_error_mm=(0.0, 0.0, 0.0, -0.01 * at_s)), stop)[0]
+    assert read(quiet(effect), stop)[0].true_point_mm == pytest.approx(same.true_point_mm, abs=1e-9)
+
+
+def test_a_link_slips_once() -> None:
+    effect = imperfections.SlippingLink(joint=1, mm=0.3, from_stop=2)
+    got = read(quiet(effect), HOME, ASIDE, HOME)
+    longer = read(quiet(l_error_mm=(0.3, 0.0)), HOME, ASIDE, HOME)
+    assert got[0].true_point_mm == pytest.approx((0.0, Y_HOME_MM), abs=1e-9)
+    for after, same in zip(got[1:], longer[1:], strict=True):
+        assert after.true_point_mm == pytest.approx(same.true_point_mm, abs=1e-9)
+
+
+def test_an_arm_twists_the_bracket_of_the_other_joint() -> None:
+    """At 180 degrees the other arm lies flat and pulls the other way; at 120 it is half."""
+    effect = imperfections.ArmCoupling(joint=1, deg_at_horizontal=0.2)
+    check_turn(effect, [(0.0, 180.0)], (-0.2, 0.0))
+    check_turn(effect, [(20.0, 120.0)], (-0.1, 0.0))
+
+
+def test_a_loose_head_scatters_and_does_not_wander() -> None:
+    changes = change_mm(imperfections.LooseHead(sd_mm=0.01), *[(float(k % 7), 180.0) for k in range(401)])
+    assert np.std(changes) == pytest.approx(0.01, rel=0.15)
+    assert abs(np.corrcoef(changes[1:], changes[:-1])[0, 1]) < 0.15
 
 
 def test_platform_tilt_moves_the_mechanism_and_not_the_platform() -> None:

@@ -129,9 +129,8 @@ def _newest_first(_: Callable[..., Any]) -> Callable[..., Any]:
         waiting = store.deliveries(state="waiting", limit=1)
         if not waiting:
             return None
-        row = store._readers.one("SELECT * FROM happenings WHERE n = ?", [waiting[0].event])
-        assert row is not None
-        return waiting[0], store._event(row)
+        (event,) = store.happenings(after=waiting[0].event - 1, limit=1)
+        return waiting[0], event
 
     return next_delivery
 
