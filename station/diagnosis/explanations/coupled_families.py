@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from station.diagnosis.explanations.family import Family, Hidden, side_by_side, sizes
+from station.diagnosis.explanations.family import Family, Hidden, Shapes, side_by_side, sizes
 from station.diagnosis.explanations.rough_families import DEG, beginnings, stepped, wave
 from station.diagnosis.explanations.situation import Action, Situation
 from station.diagnosis.explanations.structured_families import unnamed
@@ -23,14 +23,13 @@ SLIPS_SELDOM = 0.01
 
 def coupled_families(s: Situation) -> tuple[Family, ...]:
     """For the readings of `s`."""
-    low, span = float(s.t_s.min()), float(np.ptp(s.t_s)) or 1.0
-    slow = (low, span)
+    course = _course(s)
     return (
         *(_by_other_joint(joint) for joint in (1, 2)),
         *(_dragged(joint) for joint in (1, 2)),
-        *(_slow(targets, "frame in time", slow) for targets in (("e1x", "e1y"), ("e2x", "e2y"))),
-        *(_slow((link,), "link in time", slow) for link in ("L1", "L2", "l1", "l2")),
-        _mounting(slow),
+        *(_moving(targets, "frame in time", 0.1, course) for targets in (("e1x", "e1y"), ("e2x", "e2y"))),
+        *(_moving((link,), "link in time", 0.2, course) for link in ("L1", "L2", "l1", "l2")),
+        _mounting(course),
         *(_slipped(part, beginnings(s)) for part in PARTS),
     )
 
@@ -56,20 +55,20 @@ def _dragged(joint: int) -> Family:
     return unnamed("mechanism by link", "place", 0.2, sizes(0.004, 3.0), ({},), actions)
 
 
-def _slow(targets: tuple[str, ...], kind: str, slow: tuple[float, float]) -> Family:
+def _moving(targets: tuple[str, ...], kind: str, weight: float, course: Shapes) -> Family:
     """A part moves steadily, or ever faster or slower."""
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
-        return side_by_side(targets, [_course(s, slow)[None] for _ in targets])
+        return side_by_side(targets, [course(s)[None] for _ in targets])
 
-    return unnamed(kind, "time", 0.2 / len(targets), sizes(0.002, 0.5), ({},), actions)
+    return unnamed(kind, "time", weight, sizes(0.002, 0.5), ({},), actions)
 
 
-def _mounting(slow: tuple[float, float]) -> Family:
+def _mounting(course: Shapes) -> Family:
     """The same of the point where the mechanism hangs."""
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
-        return [_of_mechanism(s, _course(s, slow))]
+        return [_of_mechanism(s, course(s))]
 
     return unnamed("mechanism in time", "time", 0.2, sizes(0.002, 0.5), ({},), actions)
 
@@ -83,11 +82,15 @@ def _slipped(part: str, moments: tuple[Hidden, ...]) -> Family:
     return unnamed("part slips", "time", SLIPS_SELDOM, sizes(0.002, 5.0), moments, actions)
 
 
-def _course(s: Situation, slow: tuple[float, float]) -> Real:
-    """(K, 2)"""
-    low, span = slow
-    part = (s.t_s - low) / span
-    return np.column_stack([part, part * part])
+def _course(s: Situation) -> Shapes:
+    """The time of these readings as a part of one, and its square."""
+    low, span = float(s.t_s.min()), float(np.ptp(s.t_s)) or 1.0
+
+    def shapes(s: Situation) -> Real:
+        part = (s.t_s - low) / span
+        return np.column_stack([part, part * part])
+
+    return shapes
 
 
 def _of_mechanism(s: Situation, shapes: Real) -> Action:

@@ -14,6 +14,8 @@ from station.records import Quantity, Real
 Hidden = Mapping[str, float]
 Quantities = Callable[[Hidden, Real, Real], tuple[Quantity, ...]]
 """Hidden parameters, amplitudes (q,) and their covariance (q, q) in the units of the catalogue."""
+Shapes = Callable[[Situation], Real]
+"""(K, q) how an error goes with the readings, for a unit of each of its amplitudes."""
 NODES = 6
 """Sizes of a family, evenly in the logarithm."""
 

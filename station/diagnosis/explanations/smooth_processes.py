@@ -13,7 +13,7 @@ from functools import cache
 
 import numpy as np
 
-from station.diagnosis.explanations.family import Family, Hidden, sizes
+from station.diagnosis.explanations.family import Family, Hidden, Shapes, sizes
 from station.diagnosis.explanations.rough_families import DEG
 from station.diagnosis.explanations.situation import Action, Situation
 from station.diagnosis.explanations.structured_families import unnamed
@@ -22,8 +22,6 @@ from station.records import Real
 NEGLIGIBLE = 3e-4
 """Eigenvalues below this share of the largest are left out."""
 MOST_SHAPES = 16
-Shapes = Callable[[Situation], Real]
-"""(K, q)"""
 
 
 def processes(s: Situation) -> tuple[Family, ...]:
