@@ -15,6 +15,8 @@ from station.diagnosis.explanations.rough_families import DEG, wave
 from station.diagnosis.explanations.situation import Action, Situation
 from station.records import Real
 
+RARE = 0.5
+"""Prior weight of an error without a name, relative to one of the catalogue."""
 TURNS = ({"per_turn": 1.0}, {"per_turn": 2.0}, {"per_turn": 3.0})
 NAMED = ((TURNS[0], 3), (TURNS[0], 4))
 """Once a turn square to the arm is an eccentric encoder; on a circle with the arm it is another length."""
@@ -62,7 +64,7 @@ def unnamed(
 ) -> Family:
     """A family without a name in the catalogue."""
     part = Part("unnamed", None, kind, (), nothing)
-    return Family(kind, (part,), weight, range_, hidden, actions, depends_on=depends_on)
+    return Family(kind, (part,), RARE * weight, range_, hidden, actions, depends_on=depends_on)
 
 
 def _turns(hidden: Sequence[Hidden]) -> list[float]:
