@@ -9,7 +9,7 @@ import logging
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any, Protocol, Self
+from typing import Any, Literal, Protocol, Self
 
 import numpy as np
 
@@ -94,8 +94,8 @@ class MachineKind:
     """Every effect at every place where it can act."""
     weak_direction: Callable[[Any, Solution, Real, float], WeakDirection]
     """From mechanism, solution, row_sd (R,) and sd_factor."""
-    extent: str
-    """Over what its position error is predicted, in words."""
+    extent: Literal["workspace", "measured poses"]
+    """Over what its position error is predicted."""
 
 
 KINDS: dict[str, MachineKind] = {
@@ -106,7 +106,7 @@ KINDS: dict[str, MachineKind] = {
         infers_columns=False,
         catalogue=lambda _: five_bar_catalogue(),
         weak_direction=describe_weak_direction,
-        extent="the workspace",
+        extent="workspace",
     ),
     ARM_MODEL: MachineKind(
         robot=Arm,
@@ -121,7 +121,7 @@ KINDS: dict[str, MachineKind] = {
             warmed=reference_of(arm.measurements).temperature_c is not None,
         ),
         weak_direction=describe_separability,
-        extent="the measured poses",
+        extent="measured poses",
     ),
 }
 """By `model` of the robot file."""

@@ -39,6 +39,7 @@ from station.diagnosis import (
 )
 from station.five_bar import Robot
 from station.machines import AnyRobot, read_readings, read_robot, robot_of
+from station.messages import LANGUAGES, Language
 from station.records import (
     ColumnMap,
     Measured,
@@ -59,6 +60,9 @@ from station.records import (
 @columns_option
 @json_option("the whole diagnosis")
 @click.option("--html", "html_file", type=file_path, help="Write the report page here.")
+@click.option(
+    "--language", type=click.Choice(LANGUAGES), default="en", show_default=True, help="Of the report page."
+)
 @click.pass_context
 def diagnose_command(
     context: click.Context,
@@ -70,6 +74,7 @@ def diagnose_command(
     mapping: ColumnMap | None,
     json_file: Path | None,
     html_file: Path | None,
+    language: Language,
 ) -> None:
     """Trace what the model leaves over to its cause.
 
@@ -98,7 +103,7 @@ def diagnose_command(
     if json_file:
         write_json(json_file, findings.document(described))
     if html_file:
-        write_text(html_file, page(findings, data.name).to_html())
+        write_text(html_file, page(findings, data.name, language).to_html())
     _print(findings)
     context.exit(0 if findings.decision.passed else 1)
 
@@ -197,8 +202,8 @@ def _print_causes(console: Console, findings: Findings) -> None:
         if found.aliases:
             others = ", ".join(found.alias_labels)
             console.print(f"  Cannot be distinguished from {others}. To distinguish: {found.experiment}")
-        if found.remedy:
-            console.print(f"  {found.remedy}")
+        if remedy := found.advice():
+            console.print(f"  {remedy}")
     if findings.decision.verdict not in ("adequate", "explained"):
         for one in findings.explanations:
             labels = " and ".join(effect.label for effect in one.effects) or "no effect"
@@ -221,7 +226,7 @@ def _errors(findings: Findings) -> Table:
 
 
 def _print_position_errors(console: Console, findings: Findings) -> None:
-    predicted = f"over {findings.extent}, predicted"
+    predicted = f"over the {findings.extent}, predicted"
     for what, errors in (
         (predicted, findings.position_errors),
         ("against the tracker", findings.true_position_errors),

@@ -30,6 +30,7 @@ from station.diagnosis.report import (
     kept_fresh,
     page,
     residuals,
+    run_source,
     shown,
 )
 from station.diagnosis.search import Scan
@@ -75,6 +76,7 @@ __all__ = [
     "read_part",
     "read_targets",
     "residuals",
+    "run_source",
     "shown",
     "solve_targets",
     "targets_of",

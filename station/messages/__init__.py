@@ -1,13 +1,16 @@
 """What people read: display names, explanations and reasons, in one file for each language (`en.json`);
-sentences that are put together of parts in another (`en-phrases.json`).
+sentences that are put together of parts in another (`en-phrases.json`), what only the report on a diagnosis
+says in a third (`en-report.json`), and what a diagnosis says in English only in `de-sentences.json`.
 
 The page reads the same files; what travels over REST is a code with parameters beside the English sentence.
 """
 
 from __future__ import annotations
 
-from station.messages.locales import local_date, local_number, local_time, measured
+from station.messages.filling import reason_text, report_text
+from station.messages.locales import local_date, local_number, local_time, measured, unit_name
 from station.messages.phrases import phrase_text
+from station.messages.sentences import in_words, labels_in_words, number_in_words
 from station.messages.texts import (
     LANGUAGES,
     Group,
@@ -19,7 +22,6 @@ from station.messages.texts import (
     explanation,
     parameter_name,
     part_name,
-    reason_text,
     reasons,
 )
 
@@ -32,13 +34,18 @@ __all__ = [
     "display_name",
     "effect_name",
     "explanation",
+    "in_words",
+    "labels_in_words",
     "local_date",
     "local_number",
     "local_time",
     "measured",
+    "number_in_words",
     "parameter_name",
     "part_name",
     "phrase_text",
     "reason_text",
     "reasons",
+    "report_text",
+    "unit_name",
 ]

@@ -22,9 +22,14 @@ def local_number(value: float, digits: int, language: Language) -> str:
     return text.replace(".", ",") if language in DECIMAL_COMMA else text
 
 
+def unit_name(unit: str) -> str:
+    """As people write it."""
+    return _UNITS.get(unit, unit)
+
+
 def measured(value: float, u95: float | None, unit: str, language: Language) -> str:
     """Value ± U with the unit, to two digits of U; without U the value to six digits."""
-    unit = _UNITS.get(unit, unit)
+    unit = unit_name(unit)
     tail = f"\N{NO-BREAK SPACE}{unit}" if unit else ""
     if u95 is None or not u95 > 0 or not math.isfinite(u95):
         digits = max(0, 5 - math.floor(math.log10(abs(value)))) if value and math.isfinite(value) else 0

@@ -6,7 +6,8 @@ import json
 from functools import cache
 from importlib.resources import files
 
-from station.messages.texts import Language, filled
+from station.messages.filling import filled
+from station.messages.texts import Language
 
 
 def phrase_text(code: str, params: dict[str, float | int | str], language: Language = "en") -> str:

@@ -6,8 +6,7 @@ import json
 import re
 from functools import cache
 from importlib.resources import files
-from string import Formatter
-from typing import Any, Literal, get_args
+from typing import Literal, get_args
 
 Language = Literal["en", "de", "zh"]
 LANGUAGES: tuple[Language, ...] = get_args(Language)
@@ -20,7 +19,7 @@ _Entry = dict[str, str] | str
 _PLACES = {"n": r"(\d+)", "axis": "([xyz])"}
 _LABEL = re.compile(
     r"(?P<effect>\w+?)(?P<curve> curve)?"
-    r"(?: of joint (?P<joint>\d+)| of the (?P<part>links)| (?P<link>[Ll]\d+))?"
+    r"(?: of joint (?P<joint>\d+)| of the (?P<part>links|mounting)| (?P<link>[Ll]\d+))?"
 )
 """As the diagnosis labels an effect: `gear_cyclic of joint 1`, `link_length L1`."""
 
@@ -29,6 +28,14 @@ _LABEL = re.compile(
 def _texts(language: Language) -> dict[str, dict[str, _Entry]]:
     content: dict[str, dict[str, _Entry]] = json.loads(
         files("station.messages").joinpath(f"{language}.json").read_text(encoding="utf-8")
+    )
+    return content
+
+
+@cache
+def _report(language: Language) -> dict[str, str]:
+    content: dict[str, str] = json.loads(
+        files("station.messages").joinpath(f"{language}-report.json").read_text(encoding="utf-8")
     )
     return content
 
@@ -54,14 +61,14 @@ def reasons(language: Language = "en") -> dict[str, str]:
     return {code: text for code, text in _texts(language)["reasons"].items() if isinstance(text, str)}
 
 
-def reason_text(code: str, params: dict[str, float | int | str], language: Language = "en") -> str:
-    """A reason in a sentence.  :raises KeyError: an unknown code, or a parameter that its sentence needs."""
-    return filled(_text("reasons", code, language), params, language)
+def reason_template(code: str, language: Language = "en") -> str:
+    """The sentence of a reason, with places for values.  :raises KeyError:"""
+    return _text("reasons", code, language)
 
 
-def filled(template: str, params: dict[str, float | int | str], language: Language) -> str:
-    """With the values as the language writes them.  :raises KeyError: a value is missing."""
-    return template.format_map(params) if language == "en" else _Local(language).vformat(template, (), params)
+def report_template(key: str, language: Language) -> str:
+    """A label or sentence of the report on a diagnosis, with places for values.  :raises KeyError:"""
+    return _report(language)[key]
 
 
 def parameter_name(id: str, language: Language) -> str:
@@ -93,27 +100,6 @@ def effect_name(label: str, language: Language) -> str:
     if part := known["part"] or known["link"]:
         return certificate_text("of_part", language).format(effect=name, part=part_name(part, language))
     return name
-
-
-class _Local(Formatter):
-    """Numbers and identifiers as the language writes them."""
-
-    def __init__(self, language: Language) -> None:
-        self._language: Language = language
-
-    def get_value(self, key: int | str, args: Any, kwargs: Any) -> Any:
-        value = kwargs[key]
-        if key == "depends_on":
-            return dependence_name(value, self._language)
-        if key == "causes":
-            joint = certificate_text("and", self._language)
-            return joint.join(effect_name(label, self._language) for label in value.split(" and "))
-        return value
-
-    def format_field(self, value: Any, format_spec: str) -> str:
-        text: str = super().format_field(value, format_spec)
-        comma = isinstance(value, float) and self._language in DECIMAL_COMMA
-        return text.replace(".", ",") if comma else text
 
 
 def _text(group: str, key: str, language: Language) -> str:

@@ -6,6 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from station.messages import Language, certificate_text, report_text
 from station.records.measurements import Measurements
 from station.records.types import Index, Real
 
@@ -42,13 +43,14 @@ def counts_rows(t_s: Real) -> bool:
     return bool(len(steps)) and bool(np.ptp(steps) < EQUAL_S)
 
 
-def guesses_in_words(m: Measurements) -> str:
+def guesses_in_words(m: Measurements, language: Language = "en") -> str:
     """What was guessed, for people."""
-    guessed = [name for name in m.guessed if name != TIME]
-    text = f"Not recorded, but guessed from the rows themselves: {' and '.join(guessed)}." if guessed else ""
+    names = [report_text(f"guessed_{name}", language) for name in m.guessed if name != TIME]
+    and_ = certificate_text("and", language)
+    texts = [report_text("guessed", language, names=and_.join(names))] if names else []
     if TIME in m.guessed:
-        text += " t_s only numbers the rows: nothing that depends on time is looked for."
-    return text.strip()
+        texts.append(report_text("guessed_time", language))
+    return report_text("between_sentences", language).join(texts)
 
 
 def _unwrapped(theta: Real) -> Real:

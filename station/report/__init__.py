@@ -6,6 +6,7 @@ from station.report.page import Chart, Page, Section, Table
 from station.report.printing import as_pdf
 from station.report.svg import Series, bar, line, place_map, scatter, standalone
 from station.report.templates import environment
+from station.report.words import Words
 
 __all__ = [
     "Chart",
@@ -13,6 +14,7 @@ __all__ = [
     "Section",
     "Series",
     "Table",
+    "Words",
     "as_pdf",
     "bar",
     "environment",

@@ -8,6 +8,10 @@ from dataclasses import dataclass
 from markupsafe import Markup
 
 from station.report.templates import environment
+from station.report.words import ENGLISH, Words
+
+LONG = 24
+"""Letters of a cell beyond which it is no number."""
 
 
 @dataclass(frozen=True)
@@ -17,6 +21,12 @@ class Table:
     columns: Sequence[str]
     rows: Sequence[Sequence[object]]
     caption: str = ""
+
+    @property
+    def in_words(self) -> tuple[bool, ...]:
+        """Whether a column says something at length: it stands at the left, and its lines may break."""
+        columns = zip(*self.rows, strict=True) if self.rows else ((),) * len(self.columns)
+        return tuple(any(isinstance(c, str) and len(c) > LONG for c in cells) for cells in columns)
 
 
 @dataclass(frozen=True)
@@ -44,6 +54,7 @@ class Page:
     title: str
     lead: str
     sections: Sequence[Section]
+    words: Words = ENGLISH
 
     def to_html(self) -> str:
         return environment().get_template("page.html.j2").render(page=self)

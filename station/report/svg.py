@@ -14,6 +14,7 @@ import numpy as np
 from markupsafe import Markup
 
 from station.report.templates import environment
+from station.report.words import ENGLISH, Words
 
 COLOURS = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000")
 DASHES = ("none", "6 3", "2 3", "8 3 2 3", "none", "6 3", "2 3")
@@ -50,6 +51,7 @@ class _Axis:
     start: float
     end: float
     log: bool = False
+    words: Words = ENGLISH
 
     def at(self, value: float) -> float:
         a, b, v = (math.log10(x) for x in (self.first, self.last, value)) if self.log else (
@@ -61,15 +63,17 @@ class _Axis:
     def ticks(self) -> list[tuple[float, str]]:
         if self.log:
             decades = range(math.ceil(math.log10(self.first)), math.floor(math.log10(self.last)) + 1)
-            return [(self.at(10.0**d), f"{10.0**d:g}") for d in decades]
+            return [(self.at(10.0**d), self.words.number(f"{10.0**d:g}")) for d in decades]
         step = _round_step((self.last - self.first) / TICKS)
         values = np.arange(math.ceil(self.first / step - 1e-9), math.floor(self.last / step + 1e-9) + 1)
-        return [(self.at(v * step), f"{v * step:.10g}") for v in values.tolist()]
+        return [(self.at(v * step), self.words.number(f"{v * step:.10g}")) for v in values.tolist()]
 
 
-def line(series: Sequence[Series], x_label: str, y_label: str, *, log_y: bool = False) -> Markup:
+def line(
+    series: Sequence[Series], x_label: str, y_label: str, *, log_y: bool = False, words: Words = ENGLISH
+) -> Markup:
     """Points joined in their order, with a band where `low` and `high` are given."""
-    return _chart("line", series, x_label, y_label, log_y)
+    return _chart("line", series, x_label, y_label, log_y, words)
 
 
 def scatter(
@@ -79,15 +83,18 @@ def scatter(
     *,
     log_y: bool = False,
     x_names: Sequence[str] | None = None,
+    words: Words = ENGLISH,
 ) -> Markup:
     """Points, with whiskers where `low` and `high` are given; x_names stand at x = 0, 1, ... for numbers."""
-    return _chart("scatter", series, x_label, y_label, log_y, x_names)
+    return _chart("scatter", series, x_label, y_label, log_y, words, x_names)
 
 
-def place_map(x: Sequence[float], y: Sequence[float], value: Sequence[float], unit: str) -> Markup:
+def place_map(
+    x: Sequence[float], y: Sequence[float], value: Sequence[float], unit: str, *, words: Words = ENGLISH
+) -> Markup:
     """Discs at places of the workspace (mm), their area as the size of a value, their colour its sign."""
-    x_axis = _Axis(*_range(x, 0.08), LEFT, WIDTH - RIGHT)
-    y_axis = _Axis(*_range(y, 0.12), HEIGHT - BOTTOM, TOP)
+    x_axis = _Axis(*_range(x, 0.08), LEFT, WIDTH - RIGHT, words=words)
+    y_axis = _Axis(*_range(y, 0.12), HEIGHT - BOTTOM, TOP, words=words)
     largest = max(map(abs, value)) or 1.0
     discs = [
         {
@@ -95,17 +102,17 @@ def place_map(x: Sequence[float], y: Sequence[float], value: Sequence[float], un
             "y": y_axis.at(b),
             "r": round(1.0 + LARGEST_DISC * math.sqrt(abs(v) / largest), 2),
             "colour": COLOURS[1] if v > 0 else COLOURS[0],
-            "title": f"x {a:.0f}, y {b:.0f} mm: {v:.3g} {unit}",
+            "title": words.number(f"x {a:.0f}, y {b:.0f} mm: {v:.3g} {unit}"),
         }
         for a, b, v in zip(x, y, value, strict=True)
     ]
     legend = (
-        Series("negative", (), ()),
-        Series(f"positive; largest disc {largest:.3g} {unit}", (), ()),
+        Series(words.negative, (), ()),
+        Series(words.positive.format(size=words.number(f"{largest:.3g} {unit}")), (), ()),
     )
     return _render(
         kind="map", discs=discs, x_ticks=x_axis.ticks, y_ticks=y_axis.ticks, x_label="x mm", y_label="y mm",
-        labels=legend,
+        labels=legend, words=words,
     )  # fmt: skip
 
 
@@ -154,14 +161,15 @@ def _chart(
     x_label: str,
     y_label: str,
     log_y: bool,
+    words: Words,
     x_names: Sequence[str] | None = None,
 ) -> Markup:
     xs = [v for s in series for v in s.x]
     ys = [v for s in series for part in (s.y, s.low or (), s.high or ()) for v in part]
     span = _range(xs, 0.0) if x_names is None else (-0.5, len(x_names) - 0.5)
-    x_axis = _Axis(*span, LEFT + 6, WIDTH - RIGHT - 6)
+    x_axis = _Axis(*span, LEFT + 6, WIDTH - RIGHT - 6, words=words)
     x_ticks = x_axis.ticks if x_names is None else [(x_axis.at(k), name) for k, name in enumerate(x_names)]
-    y_axis = _Axis(*(_decades(ys) if log_y else _range(ys, 0.06)), HEIGHT - BOTTOM, TOP, log_y)
+    y_axis = _Axis(*(_decades(ys) if log_y else _range(ys, 0.06)), HEIGHT - BOTTOM, TOP, log_y, words)
     drawn = []
     for i, s in enumerate(series):
         points = [(x_axis.at(x), y_axis.at(y)) for x, y in zip(s.x, s.y, strict=True)]
@@ -179,20 +187,25 @@ def _chart(
                 "dash": DASHES[(i if s.like is None else s.like) % len(DASHES)],
                 "joined": kind == "line" and not s.points_only,
                 "dotted": kind == "scatter" or s.points_only or len(points) <= FEW,
-                "titles": [f"{s.label}: {x:.5g}, {y:.5g}" for x, y in zip(s.x, s.y, strict=True)],
+                "titles": [
+                    f"{s.label}: {words.numbers(f'{x:.5g}', f'{y:.5g}')}"
+                    for x, y in zip(s.x, s.y, strict=True)
+                ],
             }
         )
     return _render(
         kind=kind, drawn=drawn, x_ticks=x_ticks, y_ticks=y_axis.ticks, x_label=x_label, y_label=y_label,
-        labels=series,
+        labels=series, words=words,
     )  # fmt: skip
 
 
-def _render(labels: Sequence[Series], **parts: object) -> Markup:
+def _render(labels: Sequence[Series], words: Words = ENGLISH, **parts: object) -> Markup:
     legend = [
         (s.label, COLOURS[i % len(COLOURS)], DASHES[i % len(DASHES)]) for i, s in enumerate(labels) if s.label
     ]
+    x_label, y_label = parts["x_label"], parts["y_label"]
     frame = {
+        "title": words.against.format(y=y_label, x=x_label) if x_label else y_label,
         "width": WIDTH,
         "height": HEIGHT + 20 * math.ceil(len(legend) / 2),
         "left": LEFT,

@@ -56,6 +56,11 @@ def test_the_report_is_one_page_that_loads_nothing(service: Service) -> None:
     assert service.client.get(f"{LIST}/{number}/report.html", headers=known).status_code == 304
     assert service.client.get(f"{LIST}/{number}/diagnosis").json()["sentence"] in answer.text
     assert "<script" not in answer.text
+    german = service.client.get(f"{LIST}/{number}/report.html?language=de").text
+    assert '<html lang="de">' in german
+    assert f"Diagnose von Lauf {number}, Kennung {uid}, Roboter R1" in german
+    assert "Getriebespiel von Gelenk 1" in german and "backlash" not in german
+    assert service.client.get(f"{LIST}/{number}/report.html?language=fr").status_code == 422
 
 
 def test_residuals_are_told_with_what_the_effects_account_for(service: Service) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import json
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -17,6 +18,7 @@ from station.run_kinds import zero_state
 
 ROOT = Path(__file__).parents[2]
 MESSAGES = ROOT / "web/ui/src/messages"
+SAID = ROOT / "station/messages"
 BETWEEN = re.compile(r"(?<=[.?!]) (?=[A-Z{])")
 KEY = re.compile(r"""^  (\w+|"(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*'):""", re.MULTILINE)
 FIELD = re.compile(r"\{\w*\}")
@@ -54,7 +56,11 @@ def said() -> list[str]:
 
 def known_in(language: str) -> set[str]:
     """Every sentence that the page has in this language, its fields without their names."""
-    found = set()
+    found: set[str] = set()
+    # what a diagnosis says is written once, for the page and for the report
+    found.update(
+        FIELD.sub("{}", key) for key in json.loads((SAID / f"{language}-sentences.json").read_text())
+    )
     for file in MESSAGES.glob(f"{language}-*s.ts"):
         for key in KEY.findall(file.read_text()):
             found.add(FIELD.sub("{}", key if key.isidentifier() else ast.literal_eval(key)))

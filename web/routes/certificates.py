@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
-
-from fastapi import Query, Response
+from fastapi import Response
 
 from station.certificate import CertificateDocument, Format, issue
 from station.messages import Language
@@ -12,11 +10,9 @@ from station.people import Permission
 from web.guarded import Router, needs
 from web.headers import SELF_CONTAINED
 from web.problems import documented
-from web.routes.parts import CalibrationId, TheRuntime, file_of
+from web.routes.parts import CalibrationId, InLanguage, TheRuntime, file_of
 
 router = Router(prefix="/calibrations/{calibration_id}", tags=["calibrations"])
-
-InLanguage = Annotated[Language, Query(description="of the page")]
 
 
 @router.get(

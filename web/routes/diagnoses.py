@@ -7,7 +7,16 @@ from dataclasses import asdict
 import numpy as np
 from fastapi.responses import HTMLResponse
 
-from station.diagnosis import Findings, learned_model, page, range_text, residuals, solve_targets, targets_of
+from station.diagnosis import (
+    Findings,
+    learned_model,
+    page,
+    range_text,
+    residuals,
+    run_source,
+    solve_targets,
+    targets_of,
+)
 from station.errors import NotApplicable
 from station.people import Permission
 from station.records import DiagnosisDocument, Reading
@@ -25,7 +34,7 @@ from web.bodies import (
 from web.guarded import Router, needs
 from web.headers import SELF_CONTAINED
 from web.problems import documented
-from web.routes.parts import CalibrationId, TheRuntime
+from web.routes.parts import CalibrationId, InLanguage, TheRuntime
 
 REPORT_POLICY = f"{SELF_CONTAINED}; frame-ancestors 'none'"
 
@@ -87,14 +96,20 @@ def read_separating(calibration_id: CalibrationId, runtime: TheRuntime) -> Separ
     responses=documented(404),
     dependencies=[needs(Permission.READ)],
 )
-def read_report(calibration_id: CalibrationId, runtime: TheRuntime) -> HTMLResponse:
-    """The diagnosis as a page with drawings, computed again from the stored readings."""
+def read_report(
+    calibration_id: CalibrationId, runtime: TheRuntime, language: InLanguage = "en"
+) -> HTMLResponse:
+    """The diagnosis as a page with drawings, computed again from the stored readings.
+
+    That of an arm's log was kept when the log was imported, in English.
+    """
     headers = {"Content-Security-Policy": REPORT_POLICY}
     if (kept := runtime.store.log_documents(calibration_id)) is not None:
         return HTMLResponse(kept.report, headers=headers)
     findings, _ = _again(runtime, calibration_id)
     uid = runtime.store.summary(calibration_id).uid
-    report = page(findings, f"run {calibration_id}, uid {uid}, robot {findings.robot.serial}")
+    source = run_source(calibration_id, uid, findings.robot.serial, language)
+    report = page(findings, source, language)
     return HTMLResponse(report.to_html(), headers=headers)
 
 

@@ -9,6 +9,7 @@ from fastapi import Depends, Header, Path, Query, Response
 from pydantic import BeforeValidator
 from starlette.requests import HTTPConnection
 
+from station.messages import Language
 from station.people import Access
 from station.records import LARGEST_ID
 from station.service import Runtime
@@ -44,6 +45,7 @@ def file_of(media_type: str) -> dict[int | str, dict[str, Any]]:
 
 
 CalibrationId = Annotated[int, Path(ge=1, le=LARGEST_ID)]
+InLanguage = Annotated[Language, Query(description="of the page")]
 
 
 def _no_number(text: object) -> object:

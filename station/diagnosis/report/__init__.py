@@ -5,7 +5,8 @@ from __future__ import annotations
 from station.diagnosis.report.findings import Findings, FoundEffect
 from station.diagnosis.report.joint_curves import Curve, curves
 from station.diagnosis.report.of_diagnosis import findings_of
-from station.diagnosis.report.report_page import curve_chart, page, shown
+from station.diagnosis.report.report_charts import curve_chart
+from station.diagnosis.report.report_page import page, run_source, shown
 from station.diagnosis.report.residual_rows import residuals
 from station.diagnosis.report.stages import kept_fresh
 from station.diagnosis.report.traced_findings import TracedFindings
@@ -23,5 +24,6 @@ __all__ = [
     "kept_fresh",
     "page",
     "residuals",
+    "run_source",
     "shown",
 ]

@@ -5,12 +5,14 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 from station.diagnosis.decision import Decision
 from station.diagnosis.report.joint_curves import Curve
 from station.diagnosis.search import Hint
 from station.fitting import ErrorFields, Noise, Outlier
 from station.machines import AnyRobot, kind_of
+from station.messages import Language, in_words, report_text
 from station.records import (
     AnyModelDocument,
     Complex,
@@ -25,6 +27,7 @@ from station.records import (
     FreshReading,
     Measurements,
     MistakeRecord,
+    Phrase,
     PositionError,
     Quantity,
     Real,
@@ -56,6 +59,15 @@ class FoundEffect:
     remedy: str
     experiment: str
     """What separates it from its aliases."""
+    entry: Phrase | None = None
+    """A wrong entry of the robot file that may be the cause instead."""
+
+    def advice(self, language: Language = "en") -> str:
+        """Remedy, and the entry to check."""
+        remedy = in_words(self.remedy, language)
+        if self.entry is None:
+            return remedy
+        return report_text("between_sentences", language).join([remedy, self.entry.text(language)])
 
     def record(self) -> Finding:
         """As the document shows it."""
@@ -69,7 +81,7 @@ class FoundEffect:
             p_value=self.p_value,
             probability=self.probability,
             alias_set=(self.name, *self.aliases),
-            remedy=self.remedy,
+            remedy=self.advice(),
             separating_experiment=self.experiment if self.aliases else None,
         )
 
@@ -143,8 +155,8 @@ class Findings(ABC):
 
     @property
     @abstractmethod
-    def origin(self) -> str:
-        """Which model the parameters are of, in words."""
+    def origin(self) -> str | None:
+        """The stage that the parameters are of; None where they are the mean over all explanations."""
 
     @property
     @abstractmethod
@@ -256,7 +268,7 @@ class Findings(ABC):
         return self.reason.text
 
     @property
-    def extent(self) -> str:
+    def extent(self) -> Literal["workspace", "measured poses"]:
         """Over what position errors are predicted."""
         return kind_of(self.robot).extent
 

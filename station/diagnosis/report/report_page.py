@@ -1,324 +1,218 @@
-"""A diagnosis as one self-contained HTML page."""
+"""A diagnosis as one self-contained HTML page, in the reader's language."""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import replace
 
-import numpy as np
-from markupsafe import Markup
-
-from station.diagnosis.report.findings import Findings, FoundEffect, ResidualView
+from station.diagnosis.report.findings import Findings, FoundEffect
 from station.diagnosis.report.joint_curves import Curve
-from station.records import Measurements, Quantity, Real, guesses_in_words
-from station.report import Chart, Page, Section, Series, Table, line, place_map, scatter
-
-UM = "µm"
-MICROMETRES = 1e3
-MOST_POINTS = 600
-MOST_PLACES = 300
-GAP_DEG = 1.0
+from station.diagnosis.report.report_charts import MICROMETRES, curve_chart, residual_charts
+from station.diagnosis.report.wording import Wording, figures
+from station.messages import Language, report_text
+from station.records import Quantity, guesses_in_words, reason_in
+from station.report import Chart, Page, Section, Table
 
 
-def page(findings: Findings, source: str) -> Page:
-    """Verdict, stages, causes, residual before and after, what could not have been seen."""
-    sections = [_errors(findings)]
+def page(findings: Findings, source: str, language: Language = "en") -> Page:
+    """Verdict, stages, causes, residual before and after, what could not have been seen.
+
+    :param source: what was diagnosed, in the same language
+    """
+    wording = Wording(language)
+    sections = [_errors(findings, wording)]
     if findings.effects:
-        sections.append(_causes(findings))
+        sections.append(_causes(findings, wording))
     if findings.explanations:
-        sections.append(_probabilities(findings))
+        sections.append(_probabilities(findings, wording))
     if findings.curves:
-        sections.append(_curves(findings.curves))
+        sections.append(_curves(findings.curves, wording))
     if findings.hints:
-        sections.append(_hints(findings))
-    sections += [_residual(findings), _parameters(findings), _invisible(findings)]
-    return Page(f"Diagnosis of {source}", findings.sentence, sections)
+        sections.append(_hints(findings, wording))
+    sections += [
+        _residual(findings, wording),
+        _parameters(findings, wording),
+        _invisible(findings, wording),
+    ]
+    reason = findings.reason
+    return Page(
+        wording.say("title", source=source),
+        reason_in(reason.code, reason.params, language),
+        sections,
+        wording.of_charts,
+    )
+
+
+def run_source(run: int, uid: str, robot: str, language: Language) -> str:
+    """A run of this station as the title of its report names it."""
+    return report_text("run", language, run=run, uid=uid, robot=robot)
 
 
 def shown(q: Quantity) -> str:
     """Value +- sd with two digits of the sd."""
-    if not q.sd:
-        return f"{q.value:.6g} {q.unit}"
-    digits = max(0, 1 - int(np.floor(np.log10(q.sd))))
-    return f"{q.value:.{digits}f} ± {q.sd:.{digits}f} {q.unit}"
+    return f"{figures(q)} {q.unit}"
 
 
-def _errors(findings: Findings) -> Section:
+def _errors(findings: Findings, w: Wording) -> Section:
     rows = []
     for s in findings.stages:
         sizes = (s.fit_rms_mm, s.holdout_rms_mm, s.holdout_max_mm, s.confirm_rms_mm, s.confirm_max_mm)
-        rows.append((s.model, s.unknowns, *(_um(v) for v in sizes)))
+        rows.append((w.stage(s.model), s.unknowns, *(_um(v, w) for v in sizes)))
     noise, measurements = findings.noise, findings.measurements
-    origin = f"from {noise.dof} repeats" if noise.source == "repeats" else "as specified"
+    noise_um = noise.sigma_mm * MICROMETRES
+    text = (
+        w.say("noise_repeats", noise_um=noise_um, dof=noise.dof)
+        if noise.source == "repeats"
+        else w.say("noise_specified", noise_um=noise_um)
+    )
+    heads = ("model", "unknowns", "fit_rms", "left_out_rms", "largest", "fresh_rms", "largest")
     return Section(
-        "Errors before and after",
-        (
-            f"Noise of one reading {noise.sigma_mm * MICROMETRES:.2f} {UM}, {origin}. "
-            "“Place left out”: each place predicted from all others. "
-            "“Fresh”: readings taken afterwards, predicted with everything frozen.",
-            *([guesses_in_words(measurements)] if measurements.guessed else []),
-        ),
-        (
-            Table(
-                ("model", "unknowns", "fit rms", "place left out rms", "largest", "fresh rms", "largest"),
-                rows,
-                f"Measured less predicted, {UM}",
-            ),
-            *_position_errors(findings),
-        ),
+        w.say("errors"),
+        (text, *([guesses_in_words(measurements, w.language)] if measurements.guessed else [])),
+        (Table(_heads(w, *heads), rows, w.say("errors_caption")), *_position_errors(findings, w)),
     )
 
 
-def _position_errors(findings: Findings) -> Iterator[Table]:
-    predicted = f"Predicted position error over {findings.extent}, mm"
+def _heads(w: Wording, *keys: str) -> tuple[str, ...]:
+    return tuple(map(w.say, keys))
+
+
+def _position_errors(findings: Findings, w: Wording) -> Iterator[Table]:
     for by, errors, caption in (
-        ("commands by", findings.position_errors, predicted),
-        ("position by", findings.true_position_errors, "True position error, against the tracker, mm"),
+        ("commands_by", findings.position_errors, f"predicted_{findings.extent.replace(' ', '_')}"),
+        ("position_by", findings.true_position_errors, "true_error"),
     ):
         if errors is not None:
-            named = zip(("base model", "last model"), errors, strict=True)
-            rows = [(name, f"{e.rms:.3f}", f"{e.max:.3f}") for name, e in named]
-            yield Table((by, "rms", "largest"), rows, caption)
+            named = zip(_heads(w, "base_model", "last_model"), errors, strict=True)
+            rows = [(name, w.number(f"{e.rms:.3f}"), w.number(f"{e.max:.3f}")) for name, e in named]
+            yield Table(_heads(w, by, "rms", "largest"), rows, w.say(caption))
 
 
-def _um(value: float | None) -> str:
-    return "" if value is None else f"{value * MICROMETRES:.2f}"
+def _um(value: float | None, w: Wording) -> str:
+    return "" if value is None else w.number(f"{value * MICROMETRES:.2f}")
 
 
-def _causes(findings: Findings) -> Section:
+def _causes(findings: Findings, w: Wording) -> Section:
     rows = [
         (
-            found.label,
-            "; ".join(f"{q.name} {shown(q)}" for q in found.parameters),
-            f"{100.0 * found.share:.1f} %",
-            f"{found.p_value:.1g}" if found.probability is None else f"{100.0 * found.probability:.0f} %",
-            ", ".join(found.alias_labels) or "nothing",
+            w.labels([found.label]),
+            "; ".join(f"{w.parameter(q.name)} {w.quantity(q)}" for q in found.parameters),
+            w.number(f"{100.0 * found.share:.1f} %"),
+            w.number(f"{found.p_value:.1g}" if found.probability is None else _percent(found.probability)),
+            w.listed(found.alias_labels) or w.say("nothing"),
         )
         for found in findings.effects
     ]
-    certainty = "p" if findings.effects[0].probability is None else "probability"
+    certainty = "p_value" if findings.effects[0].probability is None else "probability"
+    heads = _heads(w, "effect", "size", "share_of_square", certainty, "looks_the_same")
     return Section(
-        "Effects tried" if findings.decision.refuted else "Effects added",
-        _explanations(findings.effects),
-        (
-            Table(
-                (
-                    "effect",
-                    "size",
-                    "share of the residual's square",
-                    certainty,
-                    "looks the same in these readings",
-                ),
-                rows,
-            ),
-        ),
+        w.say("effects_tried" if findings.decision.refuted else "effects_added"),
+        _explanations(findings.effects, w),
+        (Table(heads, rows),),
     )
 
 
-def _probabilities(findings: Findings) -> Section:
+def _percent(share: float) -> str:
+    return f"{100.0 * share:.0f} %"
+
+
+def _probabilities(findings: Findings, w: Wording) -> Section:
     """The set of explanations, and what would decide between them."""
     rows = [
         (
-            " and ".join(effect.label for effect in one.effects) or "no effect",
-            f"{100.0 * one.probability:.0f} %",
+            w.labels([effect.label for effect in one.effects]) if one.effects else w.say("no_effect"),
+            _percent(one.probability),
         )
         for one in findings.explanations
     ]
-    tables = [Table(("explanation", "probability"), rows)]
+    tables = [Table(_heads(w, "explanation", "probability"), rows)]
     if findings.experiments:
         tables.append(
             Table(
-                ("experiment", "probability that it decides"),
-                [(one.text, f"{100.0 * one.decides:.0f} %") for one in findings.experiments],
+                _heads(w, "experiment", "decides"),
+                [(w.sentence(one.text), _percent(one.decides)) for one in findings.experiments],
             )
         )
-    text = ["Every explanation of these readings with a probability of 1 % or more."]
-    if findings.mistake is not None:
-        text.insert(0, findings.mistake.text)
-    return Section("Explanations", text, tuple(tables))
+    text = [w.say("explanations_text")]
+    mistake = findings.mistake
+    if mistake is not None:
+        text.insert(0, mistake.text if mistake.said is None else mistake.said.text(w.language))
+    return Section(w.say("explanations"), text, tuple(tables))
 
 
-def _curves(drawn: Sequence[Curve]) -> Section:
+def _curves(drawn: Sequence[Curve], w: Wording) -> Section:
     """Each joint's curve with twice its sd, and what the readings say of it."""
-    return Section(
-        "Curves learned",
-        (
-            "Error of the joint, in thousandths of a degree, over the angles it has been at; the band is "
-            "twice the standard uncertainty. Points: means over two degrees of what the readings say of it "
-            "when everything else in the model is right. Outside these angles the curve is not known.",
-        ),
-        (),
-        tuple(Chart(curve_chart(curve), curve.label) for curve in drawn),
-    )
+    charts = tuple(Chart(curve_chart(curve, w), w.labels([curve.label])) for curve in drawn)
+    return Section(w.say("curves"), (w.say("curves_text"),), (), charts)
 
 
-def curve_chart(curve: Curve) -> Markup:
-    """One joint's curve."""
-    low, high = (curve.value_deg + sign * 2.0 * curve.sd_deg for sign in (-1.0, 1.0))
-    gaps = np.flatnonzero(np.diff(curve.angle_deg) > GAP_DEG) + 1
-    stretches = [
-        _milli(*(values[part] for values in (curve.angle_deg, curve.value_deg, low, high)))
-        for part in np.split(np.arange(len(curve.angle_deg)), gaps)
-    ]
-    measured = _milli(curve.binned_angle_deg, curve.binned_deg)
-    return line(
-        [
-            replace(stretches[0], label="learned"),
-            replace(measured, label="measured", points_only=True),
-            *(replace(stretch, like=0) for stretch in stretches[1:]),
-        ],
-        f"theta{curve.joint} deg",
-        "error 0.001 deg",
-    )
-
-
-def _milli(angle: Real, value: Real, low: Real | None = None, high: Real | None = None) -> Series:
-    return Series(
-        "",
-        angle.tolist(),
-        (1e3 * value).tolist(),
-        None if low is None else (1e3 * low).tolist(),
-        None if high is None else (1e3 * high).tolist(),
-    )
-
-
-def _explanations(effects: Sequence[FoundEffect]) -> list[str]:
+def _explanations(effects: Sequence[FoundEffect], w: Wording) -> list[str]:
     """Physics and remedy, once for all effects that share them."""
     by_text: dict[str, list[str]] = {}
     for found in effects:
-        text = f"{found.physics} Remedy: {found.remedy}" if found.remedy else found.physics
+        text = w.sentence(found.physics)
+        if remedy := found.advice(w.language):
+            text = w.say("remedy", physics=text, remedy=remedy)
         if found.aliases:
-            text += f" To distinguish them: {found.experiment}"
-        by_text.setdefault(text, []).append(found.label)
-    return [f"{', '.join(labels)}: {text}" for text, labels in by_text.items()]
+            text = w.say("to_distinguish", text=text, experiment=w.sentence(found.experiment))
+        by_text.setdefault(text, []).append(w.labels([found.label]))
+    return [
+        w.say("effects_are", labels=w.say("between").join(labels), text=text)
+        for text, labels in by_text.items()
+    ]
 
 
-def _hints(findings: Findings) -> Section:
+def _hints(findings: Findings, w: Wording) -> Section:
+    rows = [(w.depends_on(h.depends_on), _percent(h.strength), w.sentence(h.text)) for h in findings.hints]
     return Section(
-        "What the rest depends on",
-        ("Found without the catalogue.",),
-        (
-            Table(
-                ("depends on", "share", "in words"),
-                [(h.depends_on, f"{100.0 * h.strength:.0f} %", h.text) for h in findings.hints],
-            ),
-        ),
+        w.say("hints"),
+        (w.say("hints_text"),),
+        (Table(_heads(w, "depends_on_head", "share", "in_words"), rows),),
     )
 
 
-def _residual(findings: Findings) -> Section:
+def _residual(findings: Findings, w: Wording) -> Section:
     added = bool(findings.added)
-    text = ["Left: the base model's residual" + (", and what the effects account for. " if added else ". ")]
-    if added:
-        text[0] += "Right: what is left with the effects in the model."
-    return Section("Residual", text, (), tuple(_charts(findings.measurements, findings.residual, added)))
+    text = w.say("residual_effects" if added else "residual_base")
+    charts = residual_charts(findings.measurements, findings.residual, added, w)
+    return Section(w.say("residual"), (text,), (), tuple(charts))
 
 
-def _by_joint(m: Measurements, view: ResidualView) -> Iterator[tuple[str, Real]]:
-    for i in range(m.joints):
-        if i + 1 in m.sliding:
-            yield f"travel{i + 1} mm", view.theta[:, i] * 1e3
-        else:
-            yield f"theta{i + 1} deg", np.degrees(view.theta[:, i])
-
-
-def _charts(m: Measurements, view: ResidualView, added: bool) -> Iterator[Chart]:
-    """Pairs against order, time, angles, travel, approach and place; single ones where nothing was added."""
-    was, left = view.before_mm * MICROMETRES, view.after_mm * MICROMETRES
-    by_number: list[tuple[str, Real]] = [
-        ("order", np.arange(1.0, len(was) + 1.0)),
-        ("time s", m.t_s),
-        *_by_joint(m, view),
-    ]
-    if np.ptp(view.travel_mm) > 0:
-        by_number.append(("travel mm", view.travel_mm))
-    if view.temperature_rise_k is not None:
-        by_number.append(("temperature rise K", view.temperature_rise_k))
-    for name, along in by_number:
-        yield Chart(scatter(_series(along, was, left, added), name, f"residual {UM}"), f"before, by {name}")
-        if added:
-            yield Chart(scatter([_points("left", along, left)], name, f"rest {UM}"), f"after, by {name}")
-    for i in range(m.joints):
-        if np.any(view.approach[:, i]):
-            yield from _by_approach(i, view.approach[:, i], was, left, added)
-    at = view.place_mm
-    first = np.unique(m.position, return_index=True)[1]
-    for values, name in ((was, "before"), (left, "after")):
-        mean = np.bincount(m.position, values) / np.maximum(np.bincount(m.position), 1)
-        places = mean[m.position[first]]
-        every = -(-len(first) // MOST_PLACES)
-        x, y, value = (v[::every].tolist() for v in (at[first, 0], at[first, 1], places))
-        drawing = place_map(x, y, value, UM)
-        yield Chart(drawing, f"{name}, mean of each place")
-        if not added:
-            break
-
-
-def _by_approach(i: int, approach: Real, was: Real, left: Real, added: bool) -> Iterator[Chart]:
-    names = ("from above (-1)", "unknown (0)", "from below (+1)")
-    # side by side, so that points of one kind do not cover each other
-    along = approach + 1.0 + np.linspace(-0.3, 0.3, len(approach))
-    label = f"approach of joint {i + 1}"
-    yield Chart(
-        scatter(_series(along, was, left, added), label, f"residual {UM}", x_names=names),
-        f"before, by {label}",
-    )
-    if added:
-        drawing = scatter([_points("left", along, left)], label, f"rest {UM}", x_names=names)
-        yield Chart(drawing, f"after, by {label}")
-
-
-def _series(along: Real, was: Real, left: Real, added: bool) -> Sequence[Series]:
-    measured = _points("measured less base model", along, was)
-    return (measured, _points("the effects account for", along, was - left)) if added else (measured,)
-
-
-def _points(label: str, x: Real, y: Real) -> Series:
-    """Of thousands of points only so many as can be told apart on the page, evenly spread over the log."""
-    every = -(-len(x) // MOST_POINTS)
-    return Series(label, x[::every].tolist(), y[::every].tolist())
-
-
-def _parameters(findings: Findings) -> Section:
-    weak = findings.weak_direction
-    text = [
-        f"{findings.origin} Determined least: "
-        f"{weak.text}, standard uncertainty {weak.sd_deg or 0.0:.4f} deg. "
-        f"Not seen by one distance at all: {'; '.join(weak.blind)}."
-    ]
+def _parameters(findings: Findings, w: Wording) -> Section:
+    weak, stage = findings.weak_direction, findings.origin
+    origin = w.say("origin_mean") if stage is None else w.say("origin_stage", stage=w.stage(stage))
+    blind = "; ".join(map(w.sentence, weak.blind))
+    text = [w.say("weak", origin=origin, weak=w.sentence(weak.text), sd_deg=weak.sd_deg or 0.0, blind=blind)]
     if findings.decision.sd_factor > 1.0:
-        text.append(
-            f"The model does not fit: every sd is widened by {findings.decision.sd_factor:.1f}, "
-            "the ratio of what is left to the noise."
-        )
-    text += [f"Left out: reading {o.reading}, {o.reason}." for o in findings.outliers]
+        text.append(w.say("widened", factor=findings.decision.sd_factor))
+    text += [w.say("outlier", reading=o.reading, why=w.sentence(o.reason)) for o in findings.outliers]
     if findings.fresh_outliers:
-        names = ", ".join(map(str, findings.fresh_outliers))
-        text.append(f"Left out of the confirmation: fresh reading {names}.")
-    rows = [(q.name, f"{q.value:.5f}", f"{q.sd:.5f}", q.unit) for q in findings.parameters]
-    remedies = [(r.text, f"{r.sd_deg:.4f}") for r in weak.remedies]
+        text.append(w.say("fresh_outliers", readings=", ".join(map(str, findings.fresh_outliers))))
+    rows = [
+        (w.parameter(q.name), w.number(f"{q.value:.5f}"), w.number(f"{q.sd:.5f}"), w.unit(q.unit))
+        for q in findings.parameters
+    ]
+    remedies = [(w.sentence(r.text), w.number(f"{r.sd_deg:.4f}")) for r in weak.remedies]
     return Section(
-        "Parameters",
+        w.say("parameters"),
         text,
         (
-            Table(("parameter", "value", "sd", "unit"), rows),
-            Table(("what would hold the weak direction", "sd deg"), remedies),
+            Table(_heads(w, "parameter", "value", "sd", "unit"), rows),
+            Table(_heads(w, "would_hold", "sd_deg"), remedies),
         ),
     )
 
 
-def _invisible(findings: Findings) -> Section:
+def _invisible(findings: Findings, w: Wording) -> Section:
     rows = [
         (
-            i.label,
-            i.parameter or "",
-            "" if i.minimum_detectable is None else f"{i.minimum_detectable:.3g} {i.unit}",
-            i.text,
+            w.labels([i.label]),
+            w.parameter(i.parameter) if i.parameter else "",
+            ""
+            if i.minimum_detectable is None
+            else w.number(f"{i.minimum_detectable:.3g} ") + w.unit(i.unit or ""),
+            w.sentence(i.text),
         )
         for i in findings.invisible
     ]
-    return Section(
-        "What these readings could not have shown",
-        ("Smaller effects may be present. An effect of the size shown is detected with 80 % probability.",),
-        (Table(("effect", "parameter", "smallest visible size", "remark"), rows),),
-    )
+    heads = _heads(w, "effect", "parameter", "smallest", "remark")
+    return Section(w.say("invisible"), (w.say("invisible_text"),), (Table(heads, rows),))

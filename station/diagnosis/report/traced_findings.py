@@ -169,7 +169,7 @@ class TracedFindings(Findings):
     @cached_property
     def origin(self) -> str:
         """The trusted stage."""
-        return f"From the model “{self.stages[self.decision.trusted + 1].model}”."
+        return self.stages[self.decision.trusted + 1].model
 
     @cached_property
     def residual(self) -> ResidualView:

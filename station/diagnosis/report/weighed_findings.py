@@ -75,9 +75,9 @@ class WeighedFindings(Findings):
         return self.diagnosis.decision
 
     @property
-    def origin(self) -> str:
+    def origin(self) -> None:
         """Of the whole set."""
-        return "Mean over all explanations; the standard uncertainty covers their differences."
+        return None
 
     @cached_property
     def zeros_only_bound_mm(self) -> float | None:
@@ -178,8 +178,9 @@ class WeighedFindings(Findings):
                     probability=min(finding.probability, 1.0),
                     aliases=tuple(name_record(key) for key in finding.alias_set),
                     alias_labels=tuple(alias.label for alias in aliases),
-                    remedy=naming.remedy if entry is None else f"{naming.remedy} {entry.text}",
+                    remedy=naming.remedy,
                     experiment=naming.experiment,
+                    entry=None if entry is None else entry.said,
                 )
             )
         return tuple(sorted(out, key=lambda f: -f.share))

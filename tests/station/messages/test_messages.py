@@ -68,6 +68,16 @@ def test_every_phrase_is_used_and_every_phrase_in_use_has_its_text() -> None:
     assert [code for code in codes if f'"{code}"' not in source] == []
 
 
+def test_every_text_of_the_report_is_in_use() -> None:
+    package = Path(station.__file__).parent
+    source = "".join(path.read_text(encoding="utf-8") for path in package.rglob("*.py"))
+    keys = json.loads((package / "messages/en-report.json").read_text(encoding="utf-8"))
+    # those that are put together: of a stage, of what was guessed, of the extent
+    keys = [key for key in keys if not key.startswith(("stage_", "guessed_", "predicted_"))]
+    assert len(keys) > 60
+    assert [key for key in keys if f'"{key}"' not in source] == []
+
+
 def test_a_phrase_is_said_with_its_parts_in_each_language() -> None:
     joints = tuple(phrase("joint", number=number) for number in (1, 2))
     said = phrase("ratio_by_factor", joints=joints, factor=1.25)
@@ -96,7 +106,7 @@ def texts_of(language: str) -> dict[str, str]:
             found[path] = str(value)
 
     folder = Path(station.__file__).parent / "messages"
-    for name in (language, f"{language}-phrases"):
+    for name in (language, f"{language}-phrases", f"{language}-report"):
         collect(json.loads((folder / f"{name}.json").read_text(encoding="utf-8")), name[len(language) :])
     return found
 

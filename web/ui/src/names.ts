@@ -66,7 +66,7 @@ export function effectName({ effect, joint, part, label, depends_on }: EffectAt)
 
 /** `gear_cyclic of joint 1`, `link_length L1`, `thermal_growth of the links`. */
 const LABEL =
-  /^(?<effect>\w+?)(?<curve> curve)?(?: of joint (?<joint>\d+)| of the (?<part>links)| (?<link>[Ll]\d+))?$/;
+  /^(?<effect>\w+?)(?<curve> curve)?(?: of joint (?<joint>\d+)| of the (?<part>links|mounting)| (?<link>[Ll]\d+))?$/;
 
 /** Of an effect that the service names by its label alone. */
 export function labelName(label: string): string {
@@ -82,7 +82,7 @@ export function labelName(label: string): string {
 const MENTIONED = new RegExp(
   Object.keys(t.effects)
     .flatMap((id) => {
-      const at = "(?: of joint \\d+| of the links| [Ll]\\d+)";
+      const at = "(?: of joint \\d+| of the (?:links|mounting)| [Ll]\\d+)";
       const acting = `\\b${id.replaceAll("_", "[_ ]")}(?: curve)?${at}\\b`;
       return id.includes("_") ? [acting, `\\b${id}(?: curve)?\\b`] : [acting];
     })

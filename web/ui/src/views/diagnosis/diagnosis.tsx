@@ -80,7 +80,7 @@ export function DiagnosisSummary(props: { run: Calibration; found: Diagnosis; re
         <Link class="button" to={`/result/${run.id}`}>
           {t.shared.result(run.id)}
         </Link>
-        <a class="button" href={`/api/v1/calibrations/${run.id}/report.html`}>
+        <a class="button" href={`/api/v1/calibrations/${run.id}/report.html?language=${t.language}`}>
           {t.shared.report}
         </a>
         <a class="button" href={`/api/v1/calibrations/${run.id}/readings.csv`} download>

@@ -67,7 +67,7 @@ export function Ways({
         </Link>
       )}
       {diagnosed && (
-        <a class="button" href={`/api/v1/calibrations/${id}/report.html`}>
+        <a class="button" href={`/api/v1/calibrations/${id}/report.html?language=${t.language}`}>
           {t.shared.report}
         </a>
       )}

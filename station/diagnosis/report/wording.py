@@ -1,0 +1,100 @@
+"""How the report says things in a language: its own words, and what the diagnosis names or says in English.
+
+In English, effects and parameters stand as they are called in documents and at the terminal.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from station.messages import (
+    Language,
+    dependence_name,
+    in_words,
+    labels_in_words,
+    number_in_words,
+    parameter_name,
+    report_text,
+    unit_name,
+)
+from station.records import Quantity
+from station.report import Words
+
+NAMED_STAGES = ("paper", "nominal", "base")
+ADDED = "+ "
+
+
+@dataclass(frozen=True)
+class Wording:
+    """In one language."""
+
+    language: Language
+
+    def say(self, key: str, **values: float | int | str) -> str:
+        """A text of the report."""
+        return report_text(key, self.language, **values)
+
+    def sentence(self, english: str) -> str:
+        """Of the diagnosis; begins as it does in English, small or capital."""
+        return in_words(english, self.language)
+
+    def number(self, text: str) -> str:
+        """One that is a text already."""
+        return number_in_words(text, self.language)
+
+    def labels(self, labels: Sequence[str]) -> str:
+        """Effects, with "and" between them."""
+        return labels_in_words(" and ".join(labels), self.language)
+
+    def listed(self, labels: Sequence[str]) -> str:
+        """Effects, one after another."""
+        return self.say("between").join(self.labels([label]) for label in labels)
+
+    def parameter(self, name: str) -> str:
+        """Also of a further mount, `rMx@2`."""
+        if self.language == "en":
+            return name
+        bare, _, mount = name.partition("@")
+        shown = parameter_name(bare, self.language)
+        return self.say("mounted", name=shown, mount=mount) if mount else shown
+
+    def depends_on(self, name: str) -> str:
+        """What a residual depends on."""
+        return name if self.language == "en" else dependence_name(name, self.language)
+
+    def stage(self, model: str) -> str:
+        """One of three models by name, or one with one more effect."""
+        if model in NAMED_STAGES:
+            return self.say(f"stage_{model}")
+        return ADDED + self.labels([model.removeprefix(ADDED)])
+
+    def unit(self, unit: str) -> str:
+        """As people write it."""
+        return unit if self.language == "en" else unit_name(unit)
+
+    def quantity(self, q: Quantity) -> str:
+        """Value ± sd with its unit."""
+        return f"{self.number(figures(q))} {self.unit(q.unit)}".rstrip()
+
+    @property
+    def of_charts(self) -> Words:
+        """What a chart and the page say themselves."""
+        texts = {key: self.say(key, y="{y}", x="{x}", size="{size}") for key in OF_CHARTS}
+        return Words(self.language, self.number("."), **texts)
+
+
+OF_CHARTS = ("contents", "against", "negative", "positive")
+
+
+def figures(q: Quantity) -> str:
+    """Value ± sd with two digits of the sd."""
+    if not q.sd:
+        return f"{q.value:.6g}"
+    digits = max(0, 1 - int(np.floor(np.log10(q.sd))))
+    return f"{q.value:.{digits}f} ± {q.sd:.{digits}f}"
+
+
+ENGLISH = Wording("en")
