@@ -329,8 +329,18 @@ export const reports: Record<string, string> = {
   "There is no key {which}.": "Es gibt keinen Schlüssel {which}.",
   "There is a user {name} already; choose another name.":
     "Einen Benutzer {name} gibt es schon; wählen Sie einen anderen Namen.",
-  "Another user has this badge; remove that user first.":
-    "Ein anderer Benutzer hat diesen Ausweis; entfernen Sie zuerst jenen Benutzer.",
+  "{name} signs in with the plant's provider; a password or badge of the station would still open it after the provider has let the person go.":
+    "{name} meldet sich über den Anbieter des Werks an; ein Kennwort oder Ausweis der Station würde sie noch öffnen, wenn der Anbieter die Person schon entlassen hat.",
+  "Give another badge or PIN, or remove the badge; not both.":
+    "Geben Sie einen anderen Ausweis oder eine andere PIN an, oder entfernen Sie den Ausweis; nicht beides.",
+  "{name} has no PIN yet; give one with the badge.":
+    "{name} hat noch keine PIN; geben Sie mit dem Ausweis eine an.",
+  "{name} has no badge yet; give one with the PIN.":
+    "{name} hat noch keinen Ausweis; geben Sie mit der PIN einen an.",
+  "Another user has this badge; remove it there first.":
+    "Ein anderer Benutzer hat diesen Ausweis; entfernen Sie ihn zuerst dort.",
+  "Without the badge {name} has nothing to sign in with; give a password with it, or disable the user.":
+    "Ohne den Ausweis kann sich {name} nicht anmelden; geben Sie zugleich ein Kennwort an, oder sperren Sie den Benutzer.",
   "There is a key {name} already; revoke it first or choose another name.":
     "Einen Schlüssel {name} gibt es schon; widerrufen Sie ihn zuerst, oder wählen Sie einen anderen Namen.",
   "The {source} is a machine of model {model}. Its logs can be imported and diagnosed; measuring, applying and solving are for five-bars.":

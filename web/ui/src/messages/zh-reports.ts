@@ -290,7 +290,15 @@ export const reports: Record<string, string> = {
   "There is no key {which}; `station key list` shows them.": "没有密钥 {which}；`station key list` 可列出。",
   "There is no key {which}.": "没有密钥 {which}。",
   "There is a user {name} already; choose another name.": "已有用户 {name}；请另选名称。",
-  "Another user has this badge; remove that user first.": "该工卡属于另一用户；请先删除该用户。",
+  "{name} signs in with the plant's provider; a password or badge of the station would still open it after the provider has let the person go.":
+    "{name}通过工厂的身份提供方登录；若另有本站的密码或工卡，提供方停用此人后仍能进入本站。",
+  "Give another badge or PIN, or remove the badge; not both.":
+    "请填写新的工卡或 PIN，或者移除工卡；不能同时进行。",
+  "{name} has no PIN yet; give one with the badge.": "{name}还没有 PIN；请与工卡一起填写。",
+  "{name} has no badge yet; give one with the PIN.": "{name}还没有工卡；请与 PIN 一起填写。",
+  "Another user has this badge; remove it there first.": "该工卡属于另一位用户；请先在那里移除。",
+  "Without the badge {name} has nothing to sign in with; give a password with it, or disable the user.":
+    "没有工卡，{name}就无法登录；请同时设置密码，或停用该用户。",
   "There is a key {name} already; revoke it first or choose another name.":
     "已有密钥 {name}；请先吊销或另选名称。",
   "The {source} is a machine of model {model}. Its logs can be imported and diagnosed; measuring, applying and solving are for five-bars.":

