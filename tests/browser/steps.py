@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from collections.abc import Callable
 from typing import Any
 
 from playwright.sync_api import Locator, Page, expect
@@ -15,8 +16,14 @@ AXE_RUN = """() => axe.run(document, {runOnly: ['wcag2a', 'wcag2aa', 'wcag21a', 
 
 
 def open_station(page: Page, station: Station) -> None:
-    page.goto(station.url)
+    loaded(page, lambda: page.goto(station.url))
     expect(page.locator("header")).to_contain_text("connected")
+
+
+def loaded(page: Page, load: Callable[[], object]) -> None:
+    """Until the page knows who is there and what codes look like, which may be after it shows READY."""
+    with page.expect_response("**/api/v1/scans"), page.expect_response("**/api/v1/session"):
+        load()
 
 
 SCANNER_MS = 5

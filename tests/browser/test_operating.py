@@ -7,7 +7,7 @@ from pathlib import Path
 from playwright.sync_api import Page, expect
 
 from tests.browser.conftest import Serve, Station
-from tests.browser.steps import HOLD_MS, add_run, confirm, open_station, run_to_end, scan, start
+from tests.browser.steps import HOLD_MS, add_run, confirm, loaded, open_station, run_to_end, scan, start
 
 
 def test_calibrate_confirm_result_and_history_after_a_restart(
@@ -53,7 +53,7 @@ def test_the_last_result_stays_until_the_next_serial_is_scanned(page: Page, stat
     open_station(page, station)
     run_to_end(page, "FB-300")
     page.get_by_label("Operator").fill("bob")
-    page.reload()
+    loaded(page, page.reload)
     expect(page.locator(".outcome")).to_contain_text("FB-300")
     scan(page, "FB-301")
     expect(page.locator(".outcome")).to_be_hidden()
