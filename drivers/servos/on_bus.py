@@ -32,7 +32,7 @@ class OnBus(OnLine, ABC):
         self._name = name
         self._commands = JointCommands(name, scaling, _MAX_RPM)
         self._target_pulses: int | None = None
-        """Of the latest move; None where a stop or a preset has taken it away."""
+        """Of the latest move; None before it, and after a stop or a preset."""
 
     @property
     def name(self) -> str:

@@ -1,4 +1,4 @@
-"""`station reproduce`: the paper's tables and figures, computed anew."""
+"""`station reproduce`: the paper's tables and figures, computed again."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Joint that yields to the torque of the other one (outside the diagnosis's catalogue)."""
+"""Joint whose bracket the other arm twists (outside the diagnosis's catalogue)."""
 
 import math
 from typing import Literal

@@ -12,7 +12,7 @@ import numpy as np
 from station.diagnosis.explanations.family import Family, Hidden, Shapes, side_by_side, sizes
 from station.diagnosis.explanations.rough_families import DEG, beginnings, stepped, wave
 from station.diagnosis.explanations.situation import Action, Situation
-from station.diagnosis.explanations.structured_families import unnamed
+from station.diagnosis.explanations.structured_families import of_mechanism, unnamed
 from station.records import Real
 
 PARTS = ("L1", "L2", "l1", "l2", "e1x", "e1y", "e2x", "e2y")
@@ -55,8 +55,7 @@ def _mounting(course: Shapes) -> Family:
     """The same of the point where the mechanism hangs."""
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
-        shapes = course(s)
-        return [Action("reading", np.hstack([shapes * s.direction[:, [k]] for k in (0, 1)])[None])]
+        return [of_mechanism(s, course(s))]
 
     return unnamed("mechanism in time", "time", 0.2, sizes(0.002, 0.5), ({},), actions)
 

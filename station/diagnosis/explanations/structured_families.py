@@ -187,14 +187,18 @@ def _shift(kind: str, axis: str, field: Field, count: int, weight: float, *, mov
     return unnamed(name, "place", weight, sizes(0.004, 3.0), _numbered(count), actions)
 
 
+def of_mechanism(s: Situation, shapes: Real) -> Action:
+    """Shapes (K, q) of a shift in x, and the same in y, of the point where the mechanism hangs."""
+    return Action("reading", np.hstack([shapes * s.direction[:, [k]] for k in (0, 1)])[None])
+
+
 def _tilt(*, moves: bool) -> Family:
     """Sideways and down at once, each in proportion to x and y: frame or platform turn as they go."""
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
-        shapes = s.place[None]
         if moves:
-            return side_by_side(("shift_x", "shift_y"), (shapes, shapes))
-        return [Action("reading", np.hstack([s.place * s.direction[:, [k]] for k in (0, 1)])[None])]
+            return side_by_side(("shift_x", "shift_y"), (s.place[None], s.place[None]))
+        return [of_mechanism(s, s.place)]
 
     name = "platform by place" if moves else "mechanism by place"
     return unnamed(name, "place", 0.2, sizes(0.004, 3.0), ({},), actions)

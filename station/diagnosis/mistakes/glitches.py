@@ -15,7 +15,7 @@ FAR_SDS = 8.0
 CURED = 5.0
 """Times that leaving them out has to reduce the scatter of the rest."""
 ALIKE = 2.0
-"""A row of readings off to one side and alike within this factor is something that happened."""
+"""Readings in a row that are off to one side and agree within this factor show that something happened."""
 
 
 def glitches(robot: Robot, m: Measurements, base: Fitted | None, agreed: Rough, file: str) -> Mistake | None:
