@@ -6,11 +6,9 @@ The page has the same sentences from the same files. `{}` stands for a number, `
 
 from __future__ import annotations
 
-import json
 import re
 from dataclasses import dataclass
 from functools import cache
-from importlib.resources import files
 
 from station.messages.texts import (
     DECIMAL_COMMA,
@@ -19,6 +17,7 @@ from station.messages.texts import (
     effect_name,
     parameter_name,
     report_template,
+    templates,
 )
 
 _BETWEEN = re.compile(r"(?<=[.?!]) (?=[A-Z])")
@@ -37,7 +36,10 @@ class _Sentence:
 
 
 def in_words(text: str, language: Language) -> str:
-    """As few sentences as are known; one that is not stays as it is."""
+    """A text whose sentences are known in this language; a sentence that is not stays in English.
+
+    Several sentences that are known as one are translated as one.
+    """
     if language == "en":
         return text
     sentences = _BETWEEN.split(text)
@@ -94,8 +96,7 @@ def _value(text: str, language: Language) -> str:
 @cache
 def _known(language: Language) -> tuple[_Sentence, ...]:
     """Those with most words of their own first."""
-    source = files("station.messages").joinpath(f"{language}-sentences.json")
-    content: dict[str, str] = json.loads(source.read_text(encoding="utf-8"))
+    content = templates(language, "sentences")
     by_letters = sorted(content, key=lambda english: -len(_PLACE.sub("", english)))
     return tuple(_Sentence(_form(one), tuple(_PLACE.findall(one)), content[one]) for one in by_letters)
 

@@ -33,9 +33,10 @@ def _texts(language: Language) -> dict[str, dict[str, _Entry]]:
 
 
 @cache
-def _report(language: Language) -> dict[str, str]:
+def templates(language: Language, of: Literal["phrases", "report", "sentences"]) -> dict[str, str]:
+    """Those of one file, by code; sentences by what they are in English."""
     content: dict[str, str] = json.loads(
-        files("station.messages").joinpath(f"{language}-report.json").read_text(encoding="utf-8")
+        files("station.messages").joinpath(f"{language}-{of}.json").read_text(encoding="utf-8")
     )
     return content
 
@@ -68,7 +69,7 @@ def reason_template(code: str, language: Language = "en") -> str:
 
 def report_template(key: str, language: Language) -> str:
     """A label or sentence of the report on a diagnosis, with places for values.  :raises KeyError:"""
-    return _report(language)[key]
+    return templates(language, "report")[key]
 
 
 def parameter_name(id: str, language: Language) -> str:
