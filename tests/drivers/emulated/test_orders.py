@@ -72,7 +72,7 @@ def test_a_rig_file_may_order_faults() -> None:
 def devices(rig: EmulatedRig) -> tuple[LinearScale, ServoAxis]:
     scale, servo = SCALES["heidenhain-nd"], SERVOS["leadshine-el7"]
     drive = Drive("servo axis 1", 1, JointScaling(10_000, 20, 0.0, 1))
-    (axis,) = servo.make(servo.settings.model_validate({"url": rig.servo_url, "timeout_s": 0.1}), [drive])
+    (axis,) = servo.make(servo.settings.model_validate({"url": rig.servo_url, "timeout_s": 0.5}), [drive])
     return scale.make(scale.settings.model_validate({"url": rig.scale_url, "timeout_s": 0.3})), axis
 
 
