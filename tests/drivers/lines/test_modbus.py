@@ -18,6 +18,7 @@ from drivers.lines.modbus import ModbusBus, UnansweredWrite
 from drivers.lines.modbus_frames import find_rtu_reply, read_request
 from drivers.lines.url import BadUrl
 from tests.drivers.wire import NEW_CONNECTION, SILENCE, Exchange, PtyEnd, Say, TcpEnd, echoing_port, rtu
+from tests.waiting import soon
 
 READ_1000 = rtu("01 03 1000 0001")
 READ_2000 = rtu("01 03 2000 0001")
@@ -146,7 +147,7 @@ def test_a_late_reply_does_not_shift_those_after_it() -> None:
 
     drive = threading.Thread(target=play)
     drive.start()
-    bus = ModbusBus(f"modbus+rtu://{os.ttyname(station)}?baud=115200", timeout_s=0.05)
+    bus = ModbusBus(f"modbus+rtu://{os.ttyname(station)}?baud=115200", timeout_s=0.2)
     bus.open("test")
     try:
         assert [bus.read(1, address, 1) for address in (0x1000, 0x1001)] == [[0x1111], [0x2222]]
@@ -238,7 +239,7 @@ def test_a_connection_that_fell_silent_is_replaced() -> None:
     """A half-open connection never says so: the far end took the request, or not, and no reply comes."""
     ask = "03 1000 0001"
     with TcpEnd([(mbap(1, ask), SILENCE), NEW_CONNECTION, (mbap(2, ask), mbap(2, "03 02 2222"))]) as end:
-        bus = tcp_bus(end.port, timeout_s=0.05)
+        bus = tcp_bus(end.port, timeout_s=0.3)
         bus.open("test")
         assert bus.read(1, 0x1000, 1) == [0x2222]
         bus.release("test")
@@ -271,7 +272,7 @@ def test_an_echo_never_confirms_a_stop() -> None:
 
 def test_an_adapter_that_echoes_is_named() -> None:
     with echoing_port() as port:
-        bus = ModbusBus(f"modbus+rtu://{port}?baud=115200", timeout_s=0.02)
+        bus = ModbusBus(f"modbus+rtu://{port}?baud=115200", timeout_s=0.3)
         bus.open("test")
         with pytest.raises(GarbledReply, match=r"\(echo\): switch the echo .* or add echo=1 to its address"):
             bus.read(1, 0x1000, 1)
@@ -290,7 +291,7 @@ def test_an_adapter_that_echoes_is_used_as_its_address_says() -> None:
 
 def test_an_adapter_that_does_not_echo_although_its_address_says_so() -> None:
     with PtyEnd([(READ_1000, rtu("01 03 02 1111"))]) as end:
-        bus = ModbusBus(f"modbus+rtu://{end.port}?baud=115200&echo=1", timeout_s=0.02)
+        bus = ModbusBus(f"modbus+rtu://{end.port}?baud=115200&echo=1", timeout_s=0.3)
         bus.open("test")
         with pytest.raises(GarbledReply, match="does not echo what it is sent, although its address says"):
             bus._ask(read_request(1, 0x1000, 1))
@@ -326,13 +327,14 @@ def test_stops_go_out_one_after_the_other_before_any_is_repeated() -> None:
 def test_a_stop_does_not_wait_for_a_reply_that_is_overdue() -> None:
     silent = (READ_1000, SILENCE)
     answered = (READ_1000, rtu("01 03 02 1111"))
-    with rtu_bus(silent, *STOPPED, answered, timeout_s=0.6) as bus:
-        started_s = time.monotonic()
+    with rtu_bus(silent, *STOPPED, answered, timeout_s=1.0) as bus:
+        sent_at_s = asked_at_s(bus)
         reader = Queue(bus, 0x1000)
-        time.sleep(0.03)
+        soon(lambda: sent_at_s)
         bus.stop(1, 0x6002, 0x0040, look_at=0x0B05)
-        assert time.monotonic() - started_s < 0.6  # before the reader's own time-out
         reader.join()
+    asked, stopped, *_ = sent_at_s
+    assert stopped < asked + 1.0, "sent before the reader's own time-out"
 
 
 def test_a_stop_on_a_line_that_nobody_opened() -> None:
@@ -342,7 +344,7 @@ def test_a_stop_on_a_line_that_nobody_opened() -> None:
 
 def test_rtu_frames_over_tcp() -> None:
     with TcpEnd([(READ_1000, SILENCE), NEW_CONNECTION, (READ_1000, rtu("01 03 02 1111"))]) as end:
-        bus = ModbusBus(f"modbus+rtuovertcp://127.0.0.1:{end.port}", timeout_s=0.1)
+        bus = ModbusBus(f"modbus+rtuovertcp://127.0.0.1:{end.port}", timeout_s=0.3)
         bus.open("test")
         assert bus.read(1, 0x1000, 1) == [0x1111]
         bus.release("test")
@@ -413,6 +415,13 @@ def test_the_flight_recorder_sees_both_directions() -> None:
     assert b"".join(data for way, data in seen if way == "rx") == reply
 
 
+def asked_at_s(bus: ModbusBus) -> list[float]:
+    """When each frame from now on was sent."""
+    times: list[float] = []
+    bus.line.recorder = lambda what, _: times.append(time.monotonic()) if what == "tx" else None
+    return times
+
+
 class Queue:
     """A reader that holds the line, and others that wait behind it."""
 
@@ -427,12 +436,12 @@ class Queue:
 
 def test_a_stop_passes_all_that_wait() -> None:
     """Ten readers queue behind a slow one; the stop's frame is the very next on the wire."""
-    slow = (READ_1000, Say(rtu("01 03 02 1111"), after_s=0.12))
+    slow = (READ_1000, Say(rtu("01 03 02 1111"), after_s=0.6))
     waiting = [(READ_1000, rtu("01 03 02 1111"))] * 11
-    with rtu_bus(slow, *STOPPED, *waiting, timeout_s=0.6) as bus:
-        readers = [Queue(bus, 0x1000)]
-        readers += [Queue(bus, 0x1000) for _ in range(10)]
-        time.sleep(0.05)
+    with rtu_bus(slow, *STOPPED, *waiting, timeout_s=1.2) as bus:
+        sent_at_s = asked_at_s(bus)
+        readers = [Queue(bus, 0x1000) for _ in range(11)]
+        soon(lambda: sent_at_s)
         bus.stop(1, 0x6002, 0x0040, look_at=0x0B05)
         for reader in readers:
             reader.join()

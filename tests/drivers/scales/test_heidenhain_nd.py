@@ -184,7 +184,7 @@ def test_a_late_line_is_never_taken_for_the_next_one() -> None:
 
 def test_a_refused_command_is_named() -> None:
     with PtyEnd([OPENED, IDENTITY, INDICATORS, VALUE, (b"\x1bA0200\r", b"\x15")]) as end:
-        scale = HeidenhainND(f"serial://{end.port}?override=8N1", timeout_s=0.1)
+        scale = HeidenhainND(f"serial://{end.port}?override=8N1", timeout_s=0.3)
         with pytest.raises(DeviceFault, match="refuses A0200; is it an ND 280, 281B or 287"):
             scale.connect()
 
@@ -197,14 +197,14 @@ def test_a_model_without_indicators() -> None:
 def test_connect_refuses_values_that_disagree() -> None:
     odd = (b"\x1bA0200\r", b"\x02+012197500\r\n")
     with PtyEnd([OPENED, IDENTITY, INDICATORS, VALUE, odd]) as end:
-        scale = HeidenhainND(f"serial://{end.port}?override=8N1", timeout_s=0.1, budget_s=0.0)
+        scale = HeidenhainND(f"serial://{end.port}?override=8N1", timeout_s=0.3, budget_s=0.0)
         with pytest.raises(GarbledReply, match=r"printed 121\.9750 mm but shows 1219\.7500 mm"):
             scale.connect()
 
 
 def test_connect_refuses_inches() -> None:
     with PtyEnd([OPENED, IDENTITY, (b"\x1bA0900\r", b"\x021100001000\r\n")]) as end:
-        scale = HeidenhainND(f"serial://{end.port}?override=8N1", timeout_s=0.1)
+        scale = HeidenhainND(f"serial://{end.port}?override=8N1", timeout_s=0.3)
         with pytest.raises(DeviceFault, match="inches"):
             scale.connect()
 
@@ -251,7 +251,7 @@ def test_reading_before_connect_and_closing_twice() -> None:
 
 def test_pulling_the_cable_is_a_lost_link() -> None:
     with PtyEnd(CONNECT) as end:
-        scale = HeidenhainND(f"serial://{end.port}?override=8N1", timeout_s=0.1)
+        scale = HeidenhainND(f"serial://{end.port}?override=8N1", timeout_s=0.3)
         scale.connect()
     with pytest.raises(LinkLost):
         scale.read_mm()

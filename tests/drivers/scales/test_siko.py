@@ -34,7 +34,7 @@ def connected(*exchanges: Exchange, budget_s: float | None = None, **options: fl
     """A head with address 7 that has connected and has `exchanges` before it."""
     with PtyEnd([*CONNECT, *exchanges]) as end:
         settings = SikoSettings.model_validate(
-            {"url": f"serial://{end.port}", "address": 7, "timeout_s": 0.1, **options}
+            {"url": f"serial://{end.port}", "address": 7, "timeout_s": 0.3, **options}
         )
         head = SikoHead(settings, budget_s=budget_s)
         head.connect()

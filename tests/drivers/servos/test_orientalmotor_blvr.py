@@ -154,7 +154,7 @@ def test_a_stop_is_held_until_the_next_move() -> None:
 def test_a_stop_that_is_never_confirmed() -> None:
     with PtyEnd([RESOLUTION, *NO_WATCHDOG]) as end:
         settings = OrientalMotorSettings(
-            url=f"modbus+rtu://{end.port}?format=8N1", timeout_s=0.03, watchdog_ms=0
+            url=f"modbus+rtu://{end.port}?format=8N1", timeout_s=0.3, watchdog_ms=0
         )
         (drive,) = SERVOS["orientalmotor"].make(settings, [DRIVE])
         drive.connect()
