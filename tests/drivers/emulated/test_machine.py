@@ -217,10 +217,10 @@ def test_left_machine_is_found_where_it_was() -> None:
     assert again.machine.axes[0].feedback_pulses() == 0
 
 
-def test_a_walk_in_virtual_time_does_not_wait() -> None:
-    started = time.monotonic()
+def test_a_sequence_in_virtual_time_does_not_wait(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.delattr(time, "sleep")
     sequence = read(MachineSpec(), *[(10.0 * (k % 3), 180.0 - 7.0 * (k % 5)) for k in range(120)])
-    assert sequence[-1].t_s > 60.0 > time.monotonic() - started
+    assert sequence[-1].t_s > 60.0
 
 
 # -- effects, each where it acts -----------------------------------------------------------------

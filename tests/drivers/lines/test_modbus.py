@@ -436,9 +436,9 @@ class Queue:
 
 def test_a_stop_passes_all_that_wait() -> None:
     """Ten readers queue behind a slow one; the stop's frame is the very next on the wire."""
-    slow = (READ_1000, Say(rtu("01 03 02 1111"), after_s=0.6))
+    slow = (READ_1000, Say(rtu("01 03 02 1111"), after_s=0.12))
     waiting = [(READ_1000, rtu("01 03 02 1111"))] * 11
-    with rtu_bus(slow, *STOPPED, *waiting, timeout_s=1.2) as bus:
+    with rtu_bus(slow, *STOPPED, *waiting, timeout_s=0.9) as bus:
         sent_at_s = asked_at_s(bus)
         readers = [Queue(bus, 0x1000) for _ in range(11)]
         soon(lambda: sent_at_s)

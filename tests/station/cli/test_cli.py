@@ -10,7 +10,6 @@ import signal
 import socket
 import subprocess
 import sys
-import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
@@ -236,8 +235,6 @@ def test_serve_says_where_it_listens_and_ends_cleanly(tmp_path: Path) -> None:
         with socket.create_connection(("127.0.0.1", int(port)), timeout=5) as connection:
             connection.sendall(b"GET /healthz HTTP/1.0\r\n\r\n")
             assert connection.recv(100).startswith(b"HTTP/1.1 200")
-        began = time.monotonic()
         child.send_signal(signal.SIGTERM)
         child.communicate(timeout=20)
         assert child.returncode == 0
-        assert time.monotonic() - began < 5
