@@ -49,14 +49,20 @@ export function watchArmed(): () => void {
   document.addEventListener("keydown", escaped, { capture: true });
   document.addEventListener("visibilitychange", away);
   addEventListener("pagehide", away);
-  const who = computed(() => session.value?.name);
+  let last = session.peek();
   const run = computed(() => station.value?.run?.id);
   const online = computed(() => connected.value);
   const effects = [
     effect(() => {
       if (armed.value && now.value >= armed.value.until) disarm();
     }),
-    ...[path, who, run, online, links].map((changed) =>
+    effect(() => {
+      const before = last;
+      last = session.value;
+      // the first answer to who is there is no change of who is there
+      if (before !== undefined && before?.name !== last?.name) disarm();
+    }),
+    ...[path, run, online, links].map((changed) =>
       effect(() => {
         changed.value;
         disarm();

@@ -1,5 +1,5 @@
 /** What each scan does, wherever the page is. */
-import { effect, signal } from "@preact/signals";
+import { effect, signal, untracked } from "@preact/signals";
 import * as api from "./api";
 import { confirm, disarm } from "./armed";
 import { connected, station } from "./live";
@@ -12,6 +12,8 @@ import type { RefusedScan, ScanCodes } from "./types";
 import { scans, takeSerial } from "./views/station/start";
 
 const RETRY_MS = 2000;
+/** A scan that came before the page knew what to do with it waits so long. */
+const EARLY_MS = 3000;
 const LONGEST = 64;
 /** So many refused scans wait for a station that does not respond. */
 const MOST_UNSENT = 50;
@@ -19,6 +21,7 @@ const MOST_UNSENT = 50;
 /** What the last scan led to, in words. */
 export const notice = signal<{ text: string; refused: boolean } | null>(null);
 const codes = signal<ScanCodes | null>(null);
+const early = signal<Scan | null>(null);
 let unsent: RefusedScan[] = [];
 
 /** The patterns come from the station, however long it takes; refused scans go to it. */
@@ -36,20 +39,41 @@ export function watchScans(): void {
   effect(() => {
     if (connected.value) void send();
   });
+  effect(() => {
+    const scan = early.value;
+    const known = codes.value;
+    if (!scan || !known || session.value === undefined) return;
+    early.value = null;
+    untracked(() => take(scan, known));
+  });
 }
 
-export function scanned({ text, readable, secret }: Scan): void {
+export function scanned(scan: Scan): void {
   const known = codes.peek();
   notice.value = null;
-  if (readable && known && text === known.confirm) {
-    if (!confirm()) refuse(text, "nothing_to_confirm", t.scan.nothingToConfirm);
-    return;
-  }
+  if (known && scan.readable && scan.text === known.confirm && confirm()) return;
+  disarm();
+  if (known && session.peek() !== undefined) take(scan, known);
+  else wait(scan);
+}
+
+/** The last scan before the station has said what its codes look like and who is signed in. */
+function wait(scan: Scan): void {
+  early.value = scan;
+  setTimeout(() => {
+    if (early.peek() !== scan) return;
+    early.value = null;
+    notice.value = { text: t.scan.noCodes, refused: true };
+  }, EARLY_MS);
+}
+
+/** Anything but a confirmation: a scan that has waited confirms nothing, for it was made before the question. */
+function take({ text, readable, secret }: Scan, known: ScanCodes): void {
   disarm();
   const field = fieldForBadges();
-  const badgeOf = readable && known ? matching(known.badge, text) : null;
-  if (!known) notice.value = { text: t.scan.noCodes, refused: true };
-  else if (!readable) refuse(secret ? "" : text, "unreadable", t.scan.unreadable);
+  const badgeOf = readable ? matching(known.badge, text) : null;
+  if (!readable) refuse(secret ? "" : text, "unreadable", t.scan.unreadable);
+  else if (text === known.confirm) refuse(text, "nothing_to_confirm", t.scan.nothingToConfirm);
   else if (badgeOf && field) fill(field, text);
   else if (badgeOf) signOn(text, badgeOf[1] ?? text);
   else if (!secret && matching(known.serial, text)) toStation(text);

@@ -3,6 +3,7 @@ import { arm, armed, confirm, disarm, secondsLeft, watchArmed } from "../src/arm
 import { links, now, station } from "../src/live";
 import { navigate } from "../src/router";
 import { session } from "../src/session";
+import type { SignedIn } from "../src/types";
 import { run, stationNow, stopClock } from "./samples";
 
 const confirmed = vi.fn();
@@ -13,10 +14,19 @@ beforeEach(() => {
   navigate("/");
   stopClock();
   station.value = stationNow();
+  session.value = signedIn("ada");
   stop = watchArmed();
   arm({}, confirmed);
 });
 afterEach(() => stop());
+
+const signedIn = (name: string): SignedIn => ({
+  name,
+  role: "operator",
+  via: "user",
+  signs_off_after_s: null,
+  sign_out_at: null,
+});
 
 describe("what waits for a confirmation", () => {
   it("is done once", () => {
@@ -46,6 +56,15 @@ describe("what waits for a confirmation", () => {
     expect(confirmed).not.toHaveBeenCalled();
   });
 
+  it("outlives the first answer to who is there", () => {
+    stop();
+    session.value = undefined;
+    stop = watchArmed();
+    arm({}, confirmed);
+    session.value = signedIn("ada");
+    expect(armed.value).not.toBeNull();
+  });
+
   it("is withdrawn by its owner only", () => {
     disarm({});
     expect(armed.value).not.toBeNull();
@@ -56,7 +75,8 @@ describe("what waits for a confirmation", () => {
     ["hiding the tab", () => document.dispatchEvent(new Event("visibilitychange"))],
     ["leaving the page", () => dispatchEvent(new Event("pagehide"))],
     ["another view", () => navigate("/history")],
-    ["another person", () => Object.assign(session, { value: { name: "bo", via: "user" } })],
+    ["another person", () => Object.assign(session, { value: signedIn("bo") })],
+    ["signing off", () => Object.assign(session, { value: null })],
     ["a run that starts", () => Object.assign(station, { value: stationNow({ run: run() }) })],
     ["a feed that ends or begins", () => Object.assign(links, { value: links.value + 1 })],
     ["a lost connection", () => Object.assign(now, { value: now.value + 5_000 })],

@@ -118,6 +118,42 @@ describe("a scan", () => {
     expect(notice.value?.refused).toBe(true);
   });
 
+  it("waits for the station to say who is signed in, and confirms nothing then", () => {
+    const known = session.value;
+    session.value = undefined;
+    scan("FB-7");
+    expect([serial.value, notice.value]).toEqual(["", null]);
+    session.value = known;
+    expect(serial.value).toBe("FB-7");
+  });
+
+  it("of the code that came before the question does not answer it", async () => {
+    vi.resetModules();
+    const fresh = await import("../src/scanned");
+    const { arm: ask, armed: question } = await import("../src/armed");
+    const { session: who } = await import("../src/session");
+    fresh.scanned({ text: "CONFIRM", readable: true, secret: false });
+    ask({}, confirmed);
+    who.value = session.value;
+    fresh.watchScans();
+    await vi.waitFor(() => expect(fresh.notice.value?.refused).toBe(true));
+    expect([question.value, confirmed.mock.calls]).toEqual([null, []]);
+  });
+
+  it("is refused when the station says nothing for three seconds", () => {
+    vi.useFakeTimers();
+    const known = session.value;
+    session.value = undefined;
+    scan("FB-7");
+    vi.advanceTimersByTime(2999);
+    expect(notice.value).toBeNull();
+    vi.advanceTimersByTime(1);
+    expect(notice.value).toMatchObject({ refused: true });
+    session.value = known;
+    expect(serial.value).toBe("");
+    vi.useRealTimers();
+  });
+
   it("that was refused while the station did not respond is told later, others are not repeated", async () => {
     refused.mockRejectedValueOnce(new Refused("No answer."));
     scan("a b");
