@@ -2,8 +2,7 @@
 
 Every family alone; beside each of the most probable ones every other; beside the most probable pairs every
 third.  Then what is best is revisited: each of its errors is exchanged for every other until nothing better
-is
-found.  The evidence of a set is that of its best members, times the price paid for each search.
+is found.  The evidence of a set is that of its best members, times the price paid for each search.
 """
 
 from __future__ import annotations
@@ -61,6 +60,8 @@ class Candidate:
     log_evidence: float
     """Averaged over members and sizes, over the base model's."""
     log_prior: float
+    prices: tuple[float, ...] = ()
+    """Log of the price paid for the search of each error's member and size, where the set is settled."""
 
     @cached_property
     def key(self) -> Key:
@@ -82,7 +83,8 @@ class Search:
         self._log_weight: Real = np.log(weight / weight.sum())
         self.found: dict[Key, Candidate] = {(): Candidate((), 0.0, float(np.log(BY_COUNT[0])))}
         self._searched = [k for k, f in enumerate(bank.families) if f.neighbours is not None]
-        self._looked: set[Key] = set()
+        self._looked: set[frozenset[Choice]] = set()
+        """Sets at these members and sizes: what is missing beside them depends on those."""
         self._polished_keys: set[Key] = set()
 
     def first(self) -> Candidate:
@@ -136,10 +138,10 @@ class Search:
 
     def _look(self, beside: Candidate) -> None:
         """Every family beside a set."""
-        key = beside.key
-        if key in self._looked or len(key) >= len(BY_COUNT) - 1:
+        key, at = beside.key, frozenset(beside.choices)
+        if at in self._looked or len(key) >= len(BY_COUNT) - 1:
             return
-        self._looked.add(key)
+        self._looked.add(at)
         known = self.bank.known(beside.choices)
         price = beside.log_evidence - self.bank.log_evidence(known)
         scan = self._refined(self.bank.scan(known), known, key, price)
@@ -186,6 +188,7 @@ class Search:
         before = self.found.get(key)
         if before is None or value > before.log_evidence:
             self.found[key] = Candidate(choices, value, self.log_prior(key))
+            self._polished_keys.discard(key)
 
     def _fits(self, key: Key, family: int) -> bool:
         """The same effect twice only where the machine can have it more than once."""
@@ -221,14 +224,19 @@ class Search:
             best = max(self.found.values(), key=lambda c: c.log_posterior)
             looked = len(self._looked)
             best = self._settled(best)
-            for left_out in range(len(best.choices)):
-                others = tuple(c for k, c in enumerate(best.choices) if k != left_out)
-                known = self.found.get(tuple(sorted(c.family for c in others)))
-                if known is not None:
-                    self._look(replace(known, choices=others) if len(others) == 1 else known)
+            for left_out in range(len(best.prices)):
+                self._look(self._without(best, left_out))
             self._look(best)
             if len(self._looked) == looked:
                 return
+
+    def _without(self, settled: Candidate, left_out: int) -> Candidate:
+        """The other errors as they are beside the one that is left out."""
+        kept = [k for k in range(len(settled.choices)) if k != left_out]
+        choices = tuple(settled.choices[k] for k in kept)
+        prices = tuple(settled.prices[k] for k in kept)
+        value = self.bank.log_evidence(self.bank.known(choices)) + sum(prices)
+        return Candidate(choices, value, self.log_prior(tuple(c.family for c in choices)), prices)
 
     def _polish(self) -> None:
         """Settle the best sets."""
@@ -253,9 +261,9 @@ class Search:
 
     def _polished(self, candidate: Candidate, sweeps: int = SWEEPS) -> Candidate:
         choices = list(candidate.choices)
-        value, prices = -np.inf, 0.0
+        value, prices = -np.inf, [0.0] * len(choices)
         for _ in range(sweeps):
-            prices, moved = 0.0, False
+            moved = False
             for k, old in enumerate(choices):
                 others = [c for j, c in enumerate(choices) if j != k]
                 known = self.bank.known(others)
@@ -269,11 +277,13 @@ class Search:
                     scan = self.bank.scan(known, only=old.family)
                     new = scan.best[old.family] or new
                 choices[k] = new
-                prices += float(scan.total[old.family] - scan.at_best[old.family])
+                prices[k] = float(scan.total[old.family] - scan.at_best[old.family])
             before, value = value, self.bank.log_evidence(self.bank.known(choices))
             if not moved and value < before + SETTLED:
                 break
-        return replace(candidate, choices=tuple(choices), log_evidence=value + prices)
+        return replace(
+            candidate, choices=tuple(choices), log_evidence=value + sum(prices), prices=tuple(prices)
+        )
 
 
 def compete(a: Family, b: Family) -> bool:

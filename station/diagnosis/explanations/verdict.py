@@ -131,9 +131,11 @@ def findings(statements: Statements) -> tuple[Finding, ...]:
     ):
         if not family.named:
             continue
-        own_keys = family.keys
         alike = tuple(
-            k for k in statements.aliases(settled.choices, index) if not own_keys <= weighing.families[k].keys
+            k
+            for k in statements.aliases(settled.choices, index)
+            # one of a natural pair is no other name of both
+            if not _nested(family.keys, weighing.families[k].keys)
         )
         alias_keys = tuple(sorted(set().union(*(weighing.families[k].keys for k in alike)), key=str))
         covariance = settled.covariance[where, where]
@@ -150,3 +152,7 @@ def findings(statements: Statements) -> tuple[Finding, ...]:
                 )
             )
     return tuple(out)
+
+
+def _nested(a: frozenset[PartKey], b: frozenset[PartKey]) -> bool:
+    return a <= b or b <= a
