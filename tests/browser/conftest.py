@@ -86,10 +86,17 @@ class Station:
     def get(self, path: str) -> Any:
         return self.api.get(path).json()
 
+    def bring_back(self) -> None:
+        """A run-up that was stopped may end outside the workspace."""
+        if self.get("/station")["retract"]["needed"]:
+            self._ended("/retract", {})
+
     def complete(self, **body: object) -> dict[str, Any]:
         """A run, started as a MES does; as it is once it has ended."""
-        asked = {"operator": "mes", **body}
-        run = self.api.post("/calibrations", json=asked).raise_for_status().json()["id"]
+        return self._ended("/calibrations", body)
+
+    def _ended(self, path: str, body: dict[str, object]) -> dict[str, Any]:
+        run = self.api.post(path, json={"operator": "mes", **body}).raise_for_status().json()["id"]
 
         def ended() -> dict[str, Any] | None:
             found: dict[str, Any] = self.get(f"/calibrations/{run}")
@@ -149,12 +156,18 @@ def station(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Station]:
 
 
 @pytest.fixture(scope="package")
-def slow_station(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Station]:
-    """The same, with a machine slow enough to be stopped in the middle of a run."""
+def stoppable_station(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Station]:
     needed(*BUILT_PAGE)
     station = Station(tmp_path_factory.mktemp("slow-station"), speed=5.0)
     yield station
     station.close()
+
+
+@pytest.fixture
+def slow_station(stoppable_station: Station) -> Station:
+    """The same, in its workspace, with a machine slow enough to be stopped in the middle of a run."""
+    stoppable_station.bring_back()
+    return stoppable_station
 
 
 @pytest.fixture(scope="package")

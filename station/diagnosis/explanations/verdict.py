@@ -22,7 +22,7 @@ from station.records import Quantity
 Verdict = Literal["adequate", "explained", "ambiguous", "partly_explained", "unexplained"]
 SURE = 0.95
 """Probability that each named effect with its aliases needs,"""
-UNNAMED = 0.05
+UNNAMED = 0.03
 """and that an error without a name must stay below."""
 MISFIT_P = 1e-5
 LOUD = 2.0
