@@ -1,7 +1,7 @@
-"""Twenty mistakes that somebody could make in the production code, and what lets the simulation find each.
+"""Mistakes that somebody could make in the production code, and the jobs and troubles that reveal them.
 
-`python -m tests.station.simulation.planted` plants one after the other and says how many days it took to
-notice it, and which sentence did not hold.
+`python -m tests.station.simulation.planted` plants one after the other and prints how many simulated days it
+took to notice each, and which rule was violated.
 """
 
 from __future__ import annotations
@@ -197,21 +197,23 @@ PLANTED = (
     Planted("a reading is not stored", _replace(Store, "add_reading", lambda _: _nothing)),
     Planted("readings are stored ten at a time", _replace(Store, "add_reading", _kept_ten_at_a_time)),
     Planted("readings are stored rounded", _replace(Store, "add_reading", _kept_rounded)),
-    Planted("a key is forgotten", _replace(Store, "find_key", _known_until_restart)),
+    Planted("an idempotency key is forgotten", _replace(Store, "find_key", _known_until_restart)),
     Planted(
-        "a second run is let in",
+        "a second run is admitted",
         _replace(Orchestrator, "submit", _without_a_holder),
         troubles={"second start": 1.0},
     ),
     Planted(
-        "stop asks one axis after the other",
+        "a stop commands one axis after the other",
         _replace(Machine, "quick_stop", _one_after_the_other),
         troubles=STOPS,
     ),
     Planted(
-        "stop is confirmed unasked", _replace(Machine, "quick_stop", lambda _: _says_stopped), troubles=STOPS
+        "a stop is confirmed without asking the drives",
+        _replace(Machine, "quick_stop", lambda _: _says_stopped),
+        troubles=STOPS,
     ),
-    Planted("nothing is made safe", _replace(Machine, "make_safe", lambda _: _nothing)),
+    Planted("the devices are not made safe", _replace(Machine, "make_safe", lambda _: _nothing)),
     Planted("abort does nothing", _replace(Orchestrator, "abort", lambda _: _nothing), troubles=STOPS),
     Planted(
         "the journal is written after the drive",
@@ -220,19 +222,23 @@ PLANTED = (
         troubles=KILLS,
     ),
     Planted(
-        "a zero in doubt counts as taken",
+        "an uncertain zero counts as accepted",
         _replace(Zeroing, "settle", _always_taken),
         deeds=ZEROS,
         troubles=KILLS,
     ),
     Planted(
-        "an interrupted run stays under way",
+        "an interrupted run remains active",
         _replace(Store, "interrupt_unfinished", lambda _: lambda store: []),
         troubles=KILLS,
     ),
-    Planted("an end is not repeated", _replace(Store, "repeat_ends", lambda _: _nothing), troubles=BAD_DISK),
     Planted(
-        "an end is forgotten at a kill",
+        "storing the end of a run is not repeated",
+        _replace(Store, "repeat_ends", lambda _: _nothing),
+        troubles=BAD_DISK,
+    ),
+    Planted(
+        "the end of a run is lost in a kill",
         _replace(UnstoredEnds, "_write", lambda _: _nothing),
         troubles=BAD_DISK,
     ),
@@ -242,14 +248,14 @@ PLANTED = (
     Planted("starts are not in the audit", _replace(AuditTrail, "record", lambda _: _nothing)),
     Planted("starts are in the audit twice", _replace(AuditTrail, "record", _recorded_twice)),
     Planted(
-        "times go by the clock on the wall",
+        "the times of a run follow the wall clock",
         _replace(RunTimes, "now_ms", _by_the_wall_clock),
         troubles={"clock": 1.0},
     ),
-    Planted("what the fresh readings say is ignored", _plant_no_jump, troubles={"device": 1.0}),
-    Planted("an arm outside is not noticed", _replace(Machine, "retract", _never_outside)),
+    Planted("the fresh readings are ignored", _plant_no_jump, troubles={"device": 1.0}),
+    Planted("an arm outside its workspace is not noticed", _replace(Machine, "retract", _never_outside)),
     Planted(
-        "the worker dies of a disk that fails twice",
+        "the worker ends if the disk fails twice",
         _replace(UnstoredEnds, "repeat", _not_caught),
         troubles=BAD_DISK,
     ),
