@@ -1,4 +1,4 @@
-"""The `station` command.  Exit status: 0 done, 1 the run or verdict failed, 2 the input was refused."""
+"""The `station` command.  Exit status: 0 success, 1 the run or verdict failed, 2 the input was refused."""
 
 from __future__ import annotations
 
@@ -13,46 +13,49 @@ from station.errors import InputRefused, NotApplicable, NotFound, StoreUnavailab
 from station.home import station_home
 
 _COMMANDS = {
-    "audit": ("people", "Who did what; checks that the record is whole."),
+    "audit": ("people", "Show the audit, newest entry first, and check its chain."),
     "apply": ("apply", "Write the zero offsets of a passed run to the drives and verify them."),
-    "backup": ("archive", "A copy of the whole history in one new file, made while the station works."),
-    "bench": ("bench", "Figures of speed and size, beside those of others where they are installed."),
-    "calibrate": ("calibrate", "One calibration run, with live progress."),
-    "certificate": ("certificate", "The certificate of a run, as HTML, PDF or JSON."),
-    "columns": ("columns", "Propose a column map for a file of measurements made elsewhere."),
-    "confusion": ("confusion", "The diagnosis judged on random emulated machines."),
-    "diagnose": ("diagnosis", "Trace what the model leaves over to its cause."),
-    "doctor": ("doctor", "Look at every device and its line, and say what to do; nothing moves."),
-    "export": ("archive", "The readings of one run as a measurement file."),
-    "gauge-study": ("gauge_study", "How much of the scatter of measured parts is the gauge."),
-    "identify": ("identify", "Zero offsets with uncertainty from a measurement file."),
-    "import": ("importing", "Keep a measurement file as a finished run, with its diagnosis."),
-    "key": ("people", "API keys of programs, such as a MES."),
-    "memory": ("history", "What a robot's next run knows of its geometry and mechanism."),
-    "plan": ("plan", "The positions of a plan, their order and the accuracy they predict."),
-    "quality": ("quality", "Capability, run rules and a Pareto of outcomes over finished runs."),
-    "real-robot": ("real_robot", "The closed loop on logs of a real arm, as figures and drawings."),
-    "refit": ("refit", "What today's software says of stored runs; nothing stored is changed."),
-    "reproduce": ("reproduce", "The paper's tables and figures, computed again beside ours."),
+    "backup": ("archive", "Copy the whole history to a new file, also while the service runs."),
+    "bench": ("bench", "Measure speed and size, and compare them with other programs."),
+    "calibrate": ("calibrate", "Carry out one calibration run, with live progress."),
+    "certificate": ("certificate", "Write the certificate of a run as HTML, PDF or JSON."),
+    "columns": ("columns", "Propose a column map for a measurement file from other software."),
+    "confusion": ("confusion", "Test the diagnosis on random emulated machines."),
+    "diagnose": ("diagnosis", "Find the causes of the residual of a measurement file."),
+    "doctor": ("doctor", "Examine every device and its line without motion, and list remedies."),
+    "export": (
+        "archive",
+        "Write the readings of a run as a measurement file, or the history as Parquet files.",
+    ),
+    "gauge-study": ("gauge_study", "Compute how much of the scatter is caused by the gauge."),
+    "identify": ("identify", "Compute zero offsets with uncertainty from a measurement file."),
+    "import": ("importing", "Store a measurement file as a finished run and diagnose it."),
+    "key": ("people", "Manage API keys of programs, and print the public key of the certificates."),
+    "memory": ("history", "Show or clear what the next run of a robot knows from earlier runs."),
+    "plan": ("plan", "Show the positions of a plan, their order and the predicted accuracy."),
+    "quality": ("quality", "Show capability, run rules and a Pareto chart of outcomes of finished runs."),
+    "real-robot": ("real_robot", "Diagnose logs of a real arm and write figures and drawings."),
+    "refit": ("refit", "Fit stored runs again with the present software and show the differences."),
+    "reproduce": ("reproduce", "Compute the tables and figures of the paper again."),
     "replay": ("wire", "Carry out a run again from its wire log, without a machine, and compare."),
-    "restore": ("restoring", "Put a backup in the place of the history; what was there is kept."),
+    "restore": ("restoring", "Replace the history by a backup; the previous history is kept."),
     "retract": ("apply", "Bring the arm back into its workspace, slowly."),
-    "robot": ("robot", "Write an arm's robot file from its URDF description."),
-    "rollback": ("apply", "Put the zeros back that the drives had before a run was applied."),
-    "runs": ("history", "The runs, newest first."),
-    "serve": ("serve", "The service with the operator's page."),
-    "show": ("history", "One run."),
-    "simulate": ("simulate", "Years of a station in virtual time, with everything that can go wrong."),
-    "solve": ("diagnosis", "Joint commands for target positions under the identified model."),
-    "user": ("people", "People who sign in at the page."),
-    "verify-certificate": ("certificate", "Whether a certificate says what was certified."),
-    "verify": ("archive", "Whether every finished run is as it ended."),
-    "wire": ("wire", "Every request and answer of one run, with its time, in plain words."),
-    "study": ("study", "Many random machines, calibrated or diagnosed, and what came of it."),
-    "translate": ("translate", "Taught joint positions under the zeros that the drives have now."),
+    "robot": ("robot", "Write the robot file of an arm from its URDF description."),
+    "rollback": ("apply", "Restore the zeros that the drives had before a run was applied."),
+    "runs": ("history", "List the runs, newest first."),
+    "serve": ("serve", "Start the service with the operator's page."),
+    "show": ("history", "Show one run."),
+    "simulate": ("simulate", "Simulate years of a station in virtual time, with faults."),
+    "solve": ("diagnosis", "Compute joint commands for target positions with an identified model."),
+    "user": ("people", "Manage the users who sign in on the page."),
+    "verify-certificate": ("certificate", "Check whether a certificate was changed."),
+    "verify": ("archive", "Check that no finished run was changed."),
+    "wire": ("wire", "Show every request and answer of one run, with its time, in words."),
+    "study": ("study", "Calibrate or diagnose many random machines and summarise the results."),
+    "translate": ("translate", "Convert taught joint positions to the present zeros."),
     "transfer": ("diagnosis", "Apply the effects learned on one log, unchanged, to another log."),
 }
-"""Module and purpose of each command; imported when it is asked for, since the numerics take long to load."""
+"""Module and purpose of each command; the module is imported when it is needed: the numerics load slowly."""
 
 
 class Refusal(click.ClickException):
@@ -65,7 +68,7 @@ class Refusal(click.ClickException):
 
 
 class StationGroup(click.Group):
-    """Whatever refuses the input, the person at the terminal reads one sentence."""
+    """Any refusal of the input is shown as one sentence on the terminal."""
 
     def list_commands(self, ctx: click.Context) -> list[str]:
         return sorted(_COMMANDS)
@@ -105,7 +108,7 @@ def _home(**how: Any) -> click.Option:
     return click.Option(
         ["--home"],
         type=click.Path(file_okay=False, path_type=Path),
-        help="Folder of database and logs; else STATION_HOME, else the platform's data folder.",
+        help="Folder of database and logs.  [default: STATION_HOME, else the data folder of the platform]",
         **how,
     )
 

@@ -27,7 +27,7 @@ def apply_command(home: Path, calibration_id: int, operator: str, machine: Machi
 @machine_options
 @click.pass_obj
 def rollback_command(home: Path, calibration_id: int, operator: str, machine: Machine) -> None:
-    """Put the zeros back that the drives had before a run was applied."""
+    """Restore the zeros that the drives had before a run was applied."""
     one_run(home, machine, lambda runtime: runtime.orchestrator.follow("rollback", calibration_id, operator))
 
 

@@ -1,4 +1,4 @@
-"""`station export`, `backup` and `verify`: what was measured, taken elsewhere, and whether it is whole."""
+"""`station export`, `backup` and `verify`: copies of the history, and the check of its chain."""
 
 from __future__ import annotations
 
@@ -17,14 +17,17 @@ from station.store import Store
 @click.command("export")
 @click.argument("calibration_id", metavar="[ID]", required=False, type=click.IntRange(1, LARGEST_ID))
 @click.option(
-    "--parquet", "folder", type=click.Path(file_okay=False, path_type=Path), help="The whole history."
+    "--parquet",
+    "folder",
+    type=click.Path(file_okay=False, path_type=Path),
+    help="Folder to which the whole history is exported.",
 )
 @config_option
 @click.pass_obj
 def export_command(home: Path, calibration_id: int | None, folder: Path | None, config: Path | None) -> None:
-    """One run's readings as a measurement file on standard output, or the history as Parquet files.
+    """Write the readings of a run as a measurement file to standard output, or the history as Parquet files.
 
-    With --parquet every finished run that the folder does not hold yet is added to it.
+    With --parquet, every finished run that is not yet in the folder is added to it.
     """
     if (calibration_id is None) == (folder is None):
         raise click.UsageError("Give the number of a run, or --parquet and a folder.")
@@ -49,11 +52,11 @@ def _export(store: Store, folder: Path, station: str) -> None:
 
 
 @click.command("verify")
-@click.option("--head", help="Hash that an earlier verify printed; it must be in the chain.")
+@click.option("--head", help="Hash printed by an earlier verify; it must be in the chain.")
 @config_option
 @click.pass_obj
 def verify_command(home: Path, head: str | None, config: Path | None) -> None:
-    """Whether every finished run is as it ended; names the first that is not."""
+    """Check that no finished run was changed; the first changed run is named."""
     with kept(home, config) as store:
         found = store.verify()
         known = head is None or store.in_chain(head)
@@ -73,7 +76,7 @@ def verify_command(home: Path, head: str | None, config: Path | None) -> None:
 @config_option
 @click.pass_obj
 def backup_command(home: Path, file: Path, config: Path | None) -> None:
-    """Copy the database to a new FILE, also while the service runs."""
+    """Copy the whole history to a new FILE, also while the service runs."""
     with kept(home, config) as store:
         store.backup(file)
     click.echo(f"Backed up to {file}.")

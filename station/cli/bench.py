@@ -1,4 +1,4 @@
-"""`station bench`: how fast and how small the station is, beside others."""
+"""`station bench`: speed and size of the station, compared with other programs."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ from station.studies.bench import bench
 
 @click.command("bench")
 @json_option("every figure")
-@click.option("--quick", is_flag=True, help="Short histories and few repeats, to see that it works.")
+@click.option("--quick", is_flag=True, help="Short histories and few repeats, for a test of the command.")
 def bench_command(json_file: Path | None, quick: bool) -> None:
-    """How fast and how small, peers beside ours."""
+    """Measure speed and size, and compare them with other programs."""
     check_folders(json_file)
     console = Console()
     content = bench(console, quick=quick)

@@ -43,28 +43,30 @@ class Study(click.ParamType[StudyDesign]):
 
 
 @click.command("calibrate")
-@click.option("--plan", type=click.Choice(tuple(PLANS)), default="paper", show_default=True)
-@click.option("--serial", help="Of the robot; else the robot file's.")
-@click.option("--robot", "robot_file", type=file_path, help="Robot file, kept from then on.")
+@click.option(
+    "--plan", type=click.Choice(tuple(PLANS)), default="paper", show_default=True, help="Plan to measure."
+)
+@click.option("--serial", help="Serial number of the robot.  [default: that of the robot file]")
+@click.option("--robot", "robot_file", type=file_path, help="Robot file; it is stored for later runs.")
 @operator_option
-@click.option("--work-order", help="Kept with the run.")
+@click.option("--work-order", help="Work order, stored with the run.")
 @references_option
 @click.option(
     "--until",
     "until_mm",
     type=LENGTH,
-    help="Largest position error that is wanted, 0.2mm; plan adaptive ends when it is reached.",
+    help="Wanted accuracy (largest position error), for example 0.2mm, at which plan adaptive ends.",
 )
 @click.option(
     "--study",
     type=Study(),
-    help="Of plan gauge_study: operators x mountings of each x calibrations of each. [default: 3x2x2]",
+    help="Operators x mountings x calibrations, for plan gauge_study.  [default: 3x2x2]",
 )
 @click.option(
     "--resume",
     type=click.IntRange(1, LARGEST_ID),
     metavar="RUN",
-    help="Go on with this gauge study, which was interrupted.",
+    help="Number of an interrupted gauge study to be continued.",
 )
 @machine_options
 @click.pass_obj
@@ -81,7 +83,7 @@ def calibrate_command(
     resume: int | None,
     machine: Machine,
 ) -> None:
-    """One calibration run, with live progress."""
+    """Carry out one calibration run, with live progress."""
     robot = Robot.from_toml(robot_file) if robot_file else Robot.default()
     if robot_file and serial not in (None, robot.serial):
         raise click.UsageError(
@@ -89,7 +91,7 @@ def calibrate_command(
         )
 
     if study is not None and (plan != "gauge_study" or resume is not None):
-        raise click.UsageError("--study belongs to a new run of --plan gauge_study.")
+        raise click.UsageError("--study can only be used with a new run of --plan gauge_study.")
     named, who = checked_serial(serial or robot.serial), checked_name(operator)
     if work_order is not None:
         checked_name(work_order)

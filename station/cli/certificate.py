@@ -18,16 +18,22 @@ from station.settings import database_path, load_settings
 @click.command("certificate")
 @run_argument
 @click.argument("file", type=click.Path(dir_okay=False, path_type=Path))
-@click.option("--language", type=click.Choice(LANGUAGES), default="en", show_default=True)
+@click.option(
+    "--language",
+    type=click.Choice(LANGUAGES),
+    default="en",
+    show_default=True,
+    help="Language of the certificate.",
+)
 @config_option
 @click.pass_obj
 def certificate_command(
     home: Path, calibration_id: int, file: Path, language: Language, config: Path | None
 ) -> None:
-    """Write the certificate of a run; the name ends in .html, .pdf or .json."""
+    """Write the certificate of a run as FILE, whose name ends in .html, .pdf or .json."""
     form = file.suffix.lower().removeprefix(".")
     if form not in FORMATS:
-        raise InputRefused(f"{file}: a certificate's name ends in .{', .'.join(FORMATS)}.")
+        raise InputRefused(f"{file}: the name of a certificate must end in .{', .'.join(FORMATS)}.")
     settings = load_settings(config)
     with kept(home, config) as store:
         try:
@@ -54,16 +60,16 @@ def certificate_command(
     "--key",
     "key_file",
     type=click.Path(dir_okay=False, path_type=Path),
-    help="Public key of the station, as `station key public` prints it, where its history is not here.",
+    help="Public key of the station from `station key public`, if its history is not on this computer.",
 )
 @config_option
 @click.pass_context
 def verify_certificate_command(
     context: click.Context, file: Path, key_file: Path | None, config: Path | None
 ) -> None:
-    """Whether a certificate says what was certified: checked against the history, or with --key.
+    """Check whether a certificate was changed, with the history or with --key.
 
-    Exit status 1: something was changed; each change is named by its field.
+    Exit status 1: the certificate was changed; each changed field is named.
     """
     home: Path = context.obj
     there = database_path(load_settings(config), home).exists()

@@ -1,4 +1,4 @@
-"""`station columns`: how a file made elsewhere is understood, as a map to check and keep."""
+"""`station columns`: how a file from other software is understood, as a map to check and store."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ FIRST_ROWS = 3
 
 @click.command("columns")
 @click.argument("data", type=file_path)
-@click.option("--no-header", is_flag=True, help="No row names the columns.")
-@click.option("--sheet", default="", help="Of a spreadsheet; by default the one with most numbers.")
+@click.option("--no-header", is_flag=True, help="The file has no row with the names of the columns.")
+@click.option("--sheet", default="", help="Sheet of a spreadsheet.  [default: the one with most numbers]")
 def columns_command(data: Path, no_header: bool, sheet: str) -> None:
-    """Propose a column map for a file of measurements made elsewhere.
+    """Propose a column map for a measurement file from other software.
 
-    The map is printed to be kept: `station columns DATA > map.toml`, then `--columns map.toml`.
+    The map is printed: `station columns DATA > map.toml` stores it for `--columns map.toml`.
     """
     table = read_foreign(content_of(data), data.name, header=False if no_header else None, sheet=sheet)
     click.echo((f"sheet = {json.dumps(sheet)}\n" if sheet else "") + proposed_map(table), nl=False)

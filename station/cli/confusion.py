@@ -15,19 +15,25 @@ from station.studies.options import resume_option, seed_option, workers_option
 
 
 @click.command("confusion")
-@click.option("--machines", default=300, show_default=True, type=click.IntRange(1), help="Of each kind.")
+@click.option(
+    "--machines",
+    default=300,
+    show_default=True,
+    type=click.IntRange(1),
+    help="Number of machines of each kind.",
+)
 @seed_option
 @click.option(
     "--kind",
     "kinds",
     multiple=True,
     type=click.Choice([label(kind) for kind in KINDS]),
-    help="Only machines of this kind; may be given again.",
+    help="Kind of machine; can be given several times.  [default: all]",
 )
 @workers_option
 @resume_option
 @json_option("every figure")
-@click.option("--markdown", "out", type=file_path, help="Write the page here.")
+@click.option("--markdown", "out", type=file_path, help="File for the page, in Markdown.")
 def confusion_command(
     machines: int,
     seed: int,
@@ -37,7 +43,7 @@ def confusion_command(
     json_file: Path | None,
     out: Path | None,
 ) -> None:
-    """How often the diagnosis names the right cause, on random emulated machines."""
+    """Test how often the diagnosis names the right cause, on random emulated machines."""
     check_folders(json_file, out)
     began = time.perf_counter()
     some = [kind for kind in KINDS if not kinds or label(kind) in kinds]

@@ -1,4 +1,4 @@
-"""`station diagnose` and `station solve`: the closed loop from a file, and its use."""
+"""`station diagnose`, `solve` and `transfer`: the diagnosis of a file, and the use of its model."""
 
 from __future__ import annotations
 
@@ -51,17 +51,28 @@ from station.records import (
 
 @click.command("diagnose")
 @click.argument("data", type=file_path)
-@click.option("--confirm", "fresh_file", type=file_path, help="Fresh readings to confirm the cause with.")
+@click.option(
+    "--confirm",
+    "fresh_file",
+    type=file_path,
+    help="Measurement file with fresh readings that test the causes.",
+)
 @robot_option
 @click.option(
-    "--hold-out", is_flag=True, help="Judge by a quarter of the readings that nothing is learned from."
+    "--hold-out",
+    is_flag=True,
+    help="Hold a quarter of the readings out of the fit and test the causes with them.",
 )
 @measured_option
 @columns_option
 @json_option("the whole diagnosis")
-@click.option("--html", "html_file", type=file_path, help="Write the report page here.")
+@click.option("--html", "html_file", type=file_path, help="File for the report page.")
 @click.option(
-    "--language", type=click.Choice(LANGUAGES), default="en", show_default=True, help="Of the report page."
+    "--language",
+    type=click.Choice(LANGUAGES),
+    default="en",
+    show_default=True,
+    help="Language of the report page.",
 )
 @click.pass_context
 def diagnose_command(
@@ -76,7 +87,7 @@ def diagnose_command(
     html_file: Path | None,
     language: Language,
 ) -> None:
-    """Trace what the model leaves over to its cause.
+    """Find the causes of the residual of a measurement file.
 
     Exit status 0: the model fits, as it is or with the effects found; 1: it does not.
     """
@@ -110,10 +121,12 @@ def diagnose_command(
 
 @click.command("solve")
 @click.argument("targets", type=file_path)
-@click.option("--model", "model_file", type=file_path, required=True, help="What `diagnose --json` wrote.")
-@click.option("--csv", "csv_file", type=file_path, help="Write the commands here instead of to the terminal.")
+@click.option(
+    "--model", "model_file", type=file_path, required=True, help="Model file, written by `diagnose --json`."
+)
+@click.option("--csv", "csv_file", type=file_path, help="File for the commands.  [default: standard output]")
 def solve_command(targets: Path, model_file: Path, csv_file: Path | None) -> None:
-    """Joint commands for target positions x_mm, y_mm under the identified model."""
+    """Compute joint commands for target positions x_mm, y_mm with an identified model."""
     check_folders(csv_file)
     model = read_model(model_file)
     table, wanted = read_targets(targets)
@@ -124,12 +137,14 @@ def solve_command(targets: Path, model_file: Path, csv_file: Path | None) -> Non
         click.echo(text, nl=False)
     click.echo(range_text(model), err=True)
     if model.confirmed is False:
-        click.echo("Fresh readings refuted this model: expect larger errors than it states.", err=True)
+        click.echo("Fresh readings contradict this model: expect larger errors than it states.", err=True)
 
 
 @click.command("transfer")
 @click.argument("data", type=file_path)
-@click.option("--model", "model_file", type=file_path, required=True, help="What `diagnose --json` wrote.")
+@click.option(
+    "--model", "model_file", type=file_path, required=True, help="Model file, written by `diagnose --json`."
+)
 @measured_option
 @columns_option
 @json_option("the figures")

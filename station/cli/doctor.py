@@ -1,4 +1,4 @@
-"""`station doctor`: what is wrong with ports, lines and devices, and what to do about it."""
+"""`station doctor`: faults of ports, lines and devices, with their remedies."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ _MARKS: dict[Condition, tuple[str, str]] = {
 @machine_options
 @click.pass_obj
 def doctor_command(home: Path, machine: Machine) -> None:
-    """Look at every device and its line, and say what to do; nothing moves.
+    """Examine every device and its line without motion, and list remedies.
 
-    Exit status 1: something does not work.
+    Exit status 1: at least one device does not work.
     """
     settings = machine.settings
     robot = _robot_measured_last(database_path(settings, home))

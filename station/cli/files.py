@@ -18,14 +18,14 @@ file_path = click.Path(path_type=Path)
 """Looked at when it is opened: what is wrong with it is said in this program's words."""
 new_file = click.Path(dir_okay=False, path_type=Path)
 robot_option = click.option(
-    "--robot", "robot_file", type=file_path, help="Robot file; without it the paper's Table 1."
+    "--robot", "robot_file", type=file_path, help="Robot file.  [default: Table 1 of the paper]"
 )
 measured_option = click.option(
     "--measured",
     type=click.Choice(get_args(Measured)),
     default="position",
     show_default=True,
-    help="What counts of an arm's log that has both.",
+    help="Which measurement to use if the log of an arm contains both.",
 )
 
 
@@ -38,13 +38,13 @@ columns_option = click.option(
     "mapping",
     type=file_path,
     callback=_column_map,
-    help="Column map of a file made elsewhere; `station columns` proposes one.",
+    help="Column map of a file from other software; `station columns` proposes one.",
 )
 
 
 def json_option(content: str) -> Callable[[_Command], _Command]:
     """--json, under which a command writes `content`."""
-    return click.option("--json", "json_file", type=new_file, help=f"Write {content} here.")
+    return click.option("--json", "json_file", type=new_file, help=f"File for {content}, as JSON.")
 
 
 def describe(path: Path, readings: int, guessed: Iterable[str] = ()) -> DataSource:

@@ -1,4 +1,4 @@
-"""`station gauge-study`: how much of the scatter is the gauge, from a file or from runs of the station."""
+"""`station gauge-study`: the part of the scatter that the gauge causes, from a file or from runs."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ NAMES = {
 @click.command("gauge-study")
 @click.argument("data", nargs=-1, required=True, metavar="DATA.csv | RUN...")
 @json_option("every figure")
-@click.option("--html", "html_file", type=file_path, help="Write the report of runs here.")
-@click.option("--pdf", "pdf_file", type=file_path, help="Write the report of runs here, without its charts.")
+@click.option("--html", "html_file", type=file_path, help="File for the report on runs.")
+@click.option("--pdf", "pdf_file", type=file_path, help="File for the report on runs, without charts.")
 @config_option
 @click.pass_obj
 def gauge_study_command(
@@ -48,8 +48,11 @@ def gauge_study_command(
     pdf_file: Path | None,
     config: Path | None,
 ) -> None:
-    """Crossed gauge study of a CSV file with the columns part, operator, trial and value, or of the finished
-    runs of plan gauge_study, one of each robot."""
+    """Compute how much of the scatter is caused by the gauge (crossed gauge study).
+
+    The data are a CSV file with the columns part, operator, trial and value, or finished runs of plan
+    gauge_study, one of each robot.
+    """
     check_folders(json_file, html_file, pdf_file)
     if all(text.isdecimal() for text in data):
         limit_deg = load_settings(config).quality.zero_offset_deg
@@ -67,7 +70,7 @@ def gauge_study_command(
     if len(data) > 1:
         raise InputRefused("Give one file, or the numbers of runs.")
     if html_file or pdf_file:
-        raise click.UsageError("--html and --pdf write the report of runs; a file has none.")
+        raise click.UsageError("--html and --pdf write the report on runs; there is none for a file.")
     study = _of_file(Path(data[0]))
     if json_file:
         write_json(json_file, study)

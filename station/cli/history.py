@@ -1,4 +1,4 @@
-"""`station runs`, `show` and `memory`: the history from the terminal, while the service runs or not."""
+"""`station runs`, `show` and `memory`: the history on the terminal, with or without the service running."""
 
 from __future__ import annotations
 
@@ -50,11 +50,13 @@ _SHOWN = ("id", "created_at", "robot_serial", "plan", "state", "verdict", "dthet
 
 
 @click.command("runs")
-@click.option("--csv", "as_csv", is_flag=True, help="All columns, comma separated, on standard output.")
-@click.option("--limit", type=click.IntRange(1), help="Newest so many; 20 on the screen, all as CSV.")
-@click.option("--serial", help="Of this robot only.")
-@click.option("--state", type=click.Choice([str(state) for state in State]))
-@click.option("--verdict", type=click.Choice(["pass", "fail"]))
+@click.option("--csv", "as_csv", is_flag=True, help="Write all columns as CSV to standard output.")
+@click.option(
+    "--limit", type=click.IntRange(1), help="Number of rows.  [default: 20 on the screen, all as CSV]"
+)
+@click.option("--serial", help="Only runs of this robot.")
+@click.option("--state", type=click.Choice([str(state) for state in State]), help="Only runs in this state.")
+@click.option("--verdict", type=click.Choice(["pass", "fail"]), help="Only runs with this verdict.")
 @config_option
 @click.pass_obj
 def runs_command(
@@ -66,7 +68,7 @@ def runs_command(
     verdict: str | None,
     config: Path | None,
 ) -> None:
-    """The runs, newest first."""
+    """List the runs, newest first."""
     with kept(home, config) as store:
         rows = _every(store, robot_serial=serial, state=state, verdict=verdict)
         if as_csv:
@@ -118,11 +120,11 @@ def _shown_reading(reading: Reading) -> dict[str, object]:
 
 @click.command("show")
 @run_argument
-@click.option("--json", "as_json", is_flag=True, help="Everything, readings and events included, as JSON.")
+@click.option("--json", "as_json", is_flag=True, help="Print everything as JSON, with readings and events.")
 @config_option
 @click.pass_obj
 def show_command(home: Path, calibration_id: int, as_json: bool, config: Path | None) -> None:
-    """One run."""
+    """Show one run."""
     with kept(home, config) as store:
         calibration = store.calibration(calibration_id)
         readings = store.readings(calibration_id)
@@ -161,11 +163,11 @@ def _described(
 
 @click.command("memory")
 @click.argument("serial")
-@click.option("--clear", is_flag=True, help="The next run starts without it.")
+@click.option("--clear", is_flag=True, help="Clear the memory; the next run starts without it.")
 @config_option
 @click.pass_obj
 def memory_command(home: Path, serial: str, clear: bool, config: Path | None) -> None:
-    """What a robot's next run knows of its geometry and mechanism."""
+    """Show or clear what the next run of a robot knows from earlier runs."""
     console = Console(highlight=False)
     with kept(home, config, writing=clear) as store:
         store.robot(serial)

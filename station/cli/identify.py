@@ -40,11 +40,13 @@ def identify_command(
     references: tuple[AnyReference, ...],
     json_file: Path | None,
 ) -> None:
-    """Zero offsets with uncertainty from a measurement file."""
+    """Compute zero offsets with uncertainty from a measurement file."""
     robot = read_robot(robot_file)
     if references:
         if not isinstance(robot, Robot):
-            raise click.UsageError("--reference is for the five-bar; this robot file is of another machine.")
+            raise click.UsageError(
+                "--reference is only for five-bars; this robot file describes another machine."
+            )
         robot = robot.informed(references)
     readings = read_readings(robot, data, measured, mapping=mapping)
     found = identify(robot, readings)
@@ -84,7 +86,7 @@ def _print(found: Identification[AnyMechanism], document: IdentificationDocument
     if document.jump:
         console.print(
             f"Warning: {document.jump.text} The zero offsets are not those of the machine as it is now; "
-            "`station diagnose` tells more."
+            "`station diagnose` examines the cause."
         )
     if not found.solution.complete:
         console.print(f"Warning: the fit {found.solution.message}; each uncertainty includes that step.")

@@ -1,4 +1,4 @@
-"""`station import`: a measurement file into the history, diagnosed, while the service runs or not."""
+"""`station import`: a measurement file stored in the history and diagnosed."""
 
 from __future__ import annotations
 
@@ -34,13 +34,26 @@ from station.store import Store
 
 @click.command("import")
 @click.argument("data", type=file_path)
-@click.option("--confirm", "fresh_file", type=file_path, help="Fresh readings to confirm the cause with.")
-@click.option("--robot", "robot_file", type=file_path, help="Robot file; by default the one kept.")
-@click.option("--serial", help="Robot that was measured; by default that of the robot file.")
-@click.option("--hold-out", is_flag=True, help="Judge an arm's log by a quarter of it, held out.")
+@click.option(
+    "--confirm",
+    "fresh_file",
+    type=file_path,
+    help="Measurement file with fresh readings that test the causes.",
+)
+@click.option("--robot", "robot_file", type=file_path, help="Robot file.  [default: the stored one]")
+@click.option("--serial", help="Serial number of the robot.  [default: that of the robot file]")
+@click.option(
+    "--hold-out",
+    is_flag=True,
+    help="Hold a quarter of an arm's log out of the fit and test the causes with it.",
+)
 @measured_option
 @columns_option
-@click.option("--operator", default=getpass.getuser, help="Who imports; default: who is logged in.")
+@click.option(
+    "--operator",
+    default=getpass.getuser,
+    help="Name of the person who imports.  [default: the user of the terminal]",
+)
 @config_option
 @click.pass_context
 def import_command(
@@ -55,7 +68,7 @@ def import_command(
     operator: str,
     config: Path | None,
 ) -> None:
-    """Keep a measurement file as a finished run and trace what the model leaves over to its cause.
+    """Store a measurement file as a finished run and diagnose it.
 
     Exit status 0: fresh readings confirm the model; 1: they do not, or there are none.
     """

@@ -15,7 +15,9 @@ from station.records import LARGEST_ID, Actor
 from station.settings import database_path, load_settings
 from station.store import Store
 
-config_option = click.option("--config", type=file_path, help="Station file that names the database.")
+config_option = click.option(
+    "--config", type=file_path, help="Station file; it states the location of the database."
+)
 
 run_argument = click.argument("calibration_id", metavar="ID", type=click.IntRange(1, LARGEST_ID))
 

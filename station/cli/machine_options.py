@@ -41,10 +41,12 @@ def machine_options(command: Callable[..., Any]) -> Callable[..., Any]:
 
     for option in (
         click.option(
-            "--speed", type=click.FloatRange(0, 1000, min_open=True), help="Of the emulated machine."
+            "--speed",
+            type=click.FloatRange(0, 1000, min_open=True),
+            help="Speed factor of the emulated machine.",
         ),
         click.option("--emulate", type=file_path, help="Rig file of the emulated machine."),
-        click.option("--config", type=file_path, help="Station file; without it, emulated."),
+        click.option("--config", type=file_path, help="Station file.  [default: the emulated machine]"),
     ):
         on_machine = option(on_machine)
     return on_machine

@@ -31,7 +31,7 @@ def _who(_context: click.Context, _option: click.Parameter, name: str | None) ->
 
 
 operator_option = click.option(
-    "--operator", callback=_who, help="Who is responsible; else the user of this terminal."
+    "--operator", callback=_who, help="Name of the operator.  [default: the user of the terminal]"
 )
 
 

@@ -1,4 +1,4 @@
-"""`station user`, `key` and `audit`: who may use the station, and who did what, while it runs or not."""
+"""`station user`, `key` and `audit`: users, keys and the audit, with or without the service running."""
 
 from __future__ import annotations
 
@@ -18,25 +18,27 @@ from station.records import AuditEntry, PersonName, Role, csv_text
 _NAME: TypeAdapter[str] = TypeAdapter(PersonName)
 _ALL = 1_000_000
 _SHOWN = ("n", "at", "who", "via", "role", "action", "subject")
-role_option = click.option("--role", type=click.Choice(ROLES), required=True, help="What they may do.")
+role_option = click.option(
+    "--role", type=click.Choice(ROLES), required=True, help="Role, which determines the permissions."
+)
 
 
 @click.group("user")
 def user_command() -> None:
-    """People who sign in at the page."""
+    """Manage the users who sign in on the page."""
 
 
 @user_command.command("add")
 @click.argument("name")
 @role_option
 @click.option("--password-stdin", is_flag=True, help="Read the password from standard input.")
-@click.option("--badge", help="Text of the badge; its PIN is asked for too.")
+@click.option("--badge", help="Text of the badge; the command asks for its PIN, too.")
 @config_option
 @click.pass_obj
 def add_user(
     home: Path, name: str, role: Role, password_stdin: bool, badge: str | None, config: Path | None
 ) -> None:
-    """Add somebody; the password is asked for."""
+    """Add a user; the command asks for the password."""
     name = _checked(name)
     password = _secret("Password", password_stdin)
     pin = _secret("PIN", password_stdin) if badge else None
@@ -53,7 +55,7 @@ def add_user(
 @config_option
 @click.pass_obj
 def change_password(home: Path, name: str, password_stdin: bool, config: Path | None) -> None:
-    """Give somebody a new password; whoever is signed in with the old one is signed off."""
+    """Set a new password and end the sessions of the user."""
     with kept(home, config, writing=True) as store:
         store.user(name)
         store.set_password(at_terminal(), name, hashed_password(_secret("Password", password_stdin)))
@@ -61,16 +63,18 @@ def change_password(home: Path, name: str, password_stdin: bool, config: Path | 
 
 @user_command.command("badge")
 @click.argument("name")
-@click.option("--badge", help="Text of the badge; without it the badge stays.")
-@click.option("--remove", is_flag=True, help="Badge and PIN open nothing any more.")
+@click.option("--badge", help="Text of the new badge.  [default: the badge does not change]")
+@click.option("--remove", is_flag=True, help="Remove badge and PIN.")
 @click.option("--pin-stdin", is_flag=True, help="Read the PIN from standard input.")
 @config_option
 @click.pass_obj
 def change_badge(
     home: Path, name: str, badge: str | None, remove: bool, pin_stdin: bool, config: Path | None
 ) -> None:
-    """Give somebody a badge and a PIN, or another PIN alone, which is asked for; whoever is signed in under
-    this name is signed off."""
+    """Set a badge and a PIN, or only a new PIN, and end the sessions of the user.
+
+    The command asks for the PIN.
+    """
     if remove and (badge is not None or pin_stdin):
         raise click.UsageError("Give another badge or PIN, or --remove; not both.")
     with kept(home, config, writing=True) as store:
@@ -81,18 +85,18 @@ def change_badge(
             else UserChange(badge=badge or None, pin=_secret("PIN", pin_stdin))
         )
         Administration(store).change_user(at_terminal(), user.id, change)
-    said = "has no badge any more" if remove else "signs in with the badge and the new PIN"
+    said = "no longer has a badge" if remove else "signs in with the badge and the new PIN"
     click.echo(f"User {user.name} {said}.", err=True)
 
 
 @user_command.command("change")
 @click.argument("name")
-@click.option("--role", type=click.Choice(ROLES), help="What they may do from now on.")
-@click.option("--disable/--enable", default=None, help="Keep the user, but let nobody in under this name.")
+@click.option("--role", type=click.Choice(ROLES), help="New role.")
+@click.option("--disable/--enable", default=None, help="Forbid or permit the user to sign in.")
 @config_option
 @click.pass_obj
 def change_user(home: Path, name: str, role: Role | None, disable: bool | None, config: Path | None) -> None:
-    """Give somebody another role, or end and renew their right to sign in."""
+    """Change the role of a user, or forbid or permit the user to sign in."""
     with kept(home, config, writing=True) as store:
         user = store.change_user(at_terminal(), store.user(name), role=role, disabled=disable)
     may = "may not sign in" if user.disabled else "may sign in"
@@ -101,11 +105,11 @@ def change_user(home: Path, name: str, role: Role | None, disable: bool | None, 
 
 @user_command.command("remove")
 @click.argument("name")
-@click.option("--erase", is_flag=True, help="Forget the name in the audit too; its chain stays whole.")
+@click.option("--erase", is_flag=True, help="Erase the name in the audit, too; its chain remains valid.")
 @config_option
 @click.pass_obj
 def remove_user(home: Path, name: str, erase: bool, config: Path | None) -> None:
-    """Remove somebody and sign them off."""
+    """Remove a user and end the user's sessions."""
     with kept(home, config, writing=True) as store:
         known = any(user.name.casefold() == name.casefold() for user in store.users())
         if known or not erase:
@@ -118,7 +122,7 @@ def remove_user(home: Path, name: str, erase: bool, config: Path | None) -> None
 @config_option
 @click.pass_obj
 def list_users(home: Path, config: Path | None) -> None:
-    """Who can sign in."""
+    """List the users."""
     with kept(home, config) as store:
         rows = [
             (
@@ -132,17 +136,19 @@ def list_users(home: Path, config: Path | None) -> None:
 
 @click.group("key")
 def key_command() -> None:
-    """API keys of programs, such as a MES, and the public key of the certificates."""
+    """Manage API keys of programs, such as a MES, and print the public key of the certificates."""
 
 
 @key_command.command("add")
 @click.argument("name")
 @role_option
-@click.option("--days", type=click.FloatRange(0, 36500, min_open=True), help="Expires after so many days.")
+@click.option(
+    "--days", type=click.FloatRange(0, 36500, min_open=True), help="Validity in days.  [default: unlimited]"
+)
 @config_option
 @click.pass_obj
 def add_key(home: Path, name: str, role: Role, days: float | None, config: Path | None) -> None:
-    """Print a new key, once: the station keeps only its hash."""
+    """Print a new key.  It cannot be shown again: the station stores only its hash."""
     name = _checked(name)
     with open_or_begin(home, config) as store:
         _, key = Administration(store).add_key(at_terminal(), name, role, days)
@@ -152,7 +158,7 @@ def add_key(home: Path, name: str, role: Role, days: float | None, config: Path 
 @key_command.command("public")
 @click.pass_obj
 def public_key(home: Path) -> None:
-    """Print the public key that the certificates of this station are checked with."""
+    """Print the public key with which the certificates of this station are checked."""
     from station.certificate import public_key_pem  # here, because it takes seconds to load
 
     click.echo(public_key_pem(home), nl=False)
@@ -162,7 +168,7 @@ def public_key(home: Path) -> None:
 @config_option
 @click.pass_obj
 def list_keys(home: Path, config: Path | None) -> None:
-    """Every key that was made; none is shown again."""
+    """List all keys, without their text."""
     with kept(home, config) as store:
         rows = [
             (str(k.id), k.name, k.role, *map(_date, (k.created_at, k.expires_at, k.revoked_at, k.used_at)))
@@ -176,19 +182,21 @@ def list_keys(home: Path, config: Path | None) -> None:
 @config_option
 @click.pass_obj
 def revoke_key(home: Path, key: str, config: Path | None) -> None:
-    """From this moment on the key opens nothing."""
+    """Revoke a key at once."""
     with kept(home, config, writing=True) as store:
         revoked = store.revoke_key(at_terminal(), key)
     click.echo(f"Key {revoked.id}, {revoked.name}, is revoked.", err=True)
 
 
 @click.command("audit")
-@click.option("--csv", "as_csv", is_flag=True, help="All columns, comma separated, on standard output.")
-@click.option("--limit", type=click.IntRange(1), help="Newest so many; 20 on the screen, all as CSV.")
+@click.option("--csv", "as_csv", is_flag=True, help="Write all columns as CSV to standard output.")
+@click.option(
+    "--limit", type=click.IntRange(1), help="Number of rows.  [default: 20 on the screen, all as CSV]"
+)
 @config_option
 @click.pass_obj
 def audit_command(home: Path, as_csv: bool, limit: int | None, config: Path | None) -> None:
-    """Who did what, the newest first.  Exit status 1: an entry is not as it was written."""
+    """Show the audit, newest entry first, and check its chain.  Exit status 1: an entry was changed."""
     with kept(home, config) as store:
         checked = store.check_audit()
         entries = store.audit(limit=limit or (_ALL if as_csv else 20))
@@ -200,7 +208,7 @@ def audit_command(home: Path, as_csv: bool, limit: int | None, config: Path | No
         shown = [tuple("" if row[c] is None else str(row[c])[:19] for c in _SHOWN) for row in rows]
         print_list(_SHOWN, shown, "Nothing yet.")
     if checked.broken is not None:
-        click.echo(f"Entry {checked.broken} of the audit is not as it was written.", err=True)
+        click.echo(f"Entry {checked.broken} of the audit was changed.", err=True)
         raise SystemExit(1)
 
 

@@ -15,14 +15,21 @@ from station.records import PlanName
 
 
 @click.command("plan")
-@click.option("--plan", "name", type=click.Choice(tuple(PLANS)), default="paper")
+@click.option(
+    "--plan",
+    "name",
+    type=click.Choice(tuple(PLANS)),
+    default="paper",
+    show_default=True,
+    help="Plan to show.",
+)
 @robot_option
 @json_option("the plan")
-@click.option("--html", "html_file", type=file_path, help="Write the plan as a page with drawings here.")
+@click.option("--html", "html_file", type=file_path, help="File for a page with drawings.")
 def plan_command(
     name: PlanName, robot_file: Path | None, json_file: Path | None, html_file: Path | None
 ) -> None:
-    """The positions of a plan, their order and the accuracy they predict."""
+    """Show the positions of a plan, their order and the predicted accuracy."""
     robot = Robot.from_toml(robot_file) if robot_file else Robot.default()
     plan = make_plan(name, robot)
     if json_file:

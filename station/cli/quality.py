@@ -22,10 +22,12 @@ NAMES = {
 
 
 @click.command("quality")
-@click.option("--robot", "serial", help="Of this robot only.")
-@click.option("--type", "robot_type", help="Of robots of this type only: `type` of the robot file.")
+@click.option("--robot", "serial", help="Only runs of this robot.")
+@click.option("--type", "robot_type", help="Only runs of robots of this type (`type` in the robot file).")
 @click.option(
-    "--since", type=click.DateTime(["%Y-%m-%d", "%Y-%m-%dT%H:%M:%S"]), help="Ended then or later, UTC."
+    "--since",
+    type=click.DateTime(["%Y-%m-%d", "%Y-%m-%dT%H:%M:%S"]),
+    help="Only runs that ended at this time or later, UTC.",
 )
 @json_option("every figure")
 @config_option
@@ -38,7 +40,7 @@ def quality_command(
     json_file: Path | None,
     config: Path | None,
 ) -> None:
-    """Capability, run rules and a Pareto of outcomes over the newest finished calibrations."""
+    """Show capability, run rules and a Pareto chart of outcomes of the newest finished calibrations."""
     check_folders(json_file)
     limits = load_settings(config).quality
     with kept(home, config) as store:

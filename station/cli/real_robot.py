@@ -1,4 +1,4 @@
-"""`station real-robot`: the figures of docs/real-robot.md from the logs of a real arm."""
+"""`station real-robot`: the figures of docs/real-robot.md, from the logs of a real arm."""
 
 from __future__ import annotations
 
@@ -16,13 +16,18 @@ from station.studies.real_robot import study, write
 @click.argument("logs", type=file_path, nargs=-1, required=True)
 @click.option("--robot", "robot_file", type=file_path, required=True, help="Robot file of the arm.")
 @click.option(
-    "--folder", type=click.Path(path_type=Path, file_okay=False, exists=True), required=True, help="Where to."
+    "--folder",
+    type=click.Path(path_type=Path, file_okay=False, exists=True),
+    required=True,
+    help="Folder for the results.",
 )
 def real_robot_command(logs: tuple[Path, ...], robot_file: Path, folder: Path) -> None:
-    """The loop on logs of a real arm; effects of the first are applied to the others."""
+    """Diagnose logs of a real arm, apply the effects of the first log to the others, and write figures."""
     robot = read_robot(robot_file)
     if not isinstance(robot, Arm):
-        raise click.UsageError(f'{robot_file} is not of a serial arm; give one with model = "serial-dh".')
+        raise click.UsageError(
+            f'{robot_file} does not describe a serial arm; give a robot file with model = "serial-dh".'
+        )
     result = study(robot, logs)
     try:
         page = write(result, folder)

@@ -48,7 +48,7 @@ references_option = click.option(
     "references",
     multiple=True,
     callback=_references,
-    help=f"What another instrument measured, degrees and mm: {FORMS}.  May be given several times.",
+    help=f"Measurement of another instrument, in degrees and mm: {FORMS}.  Can be given several times.",
 )
 
 
@@ -74,7 +74,7 @@ LENGTH = _Length()
 def reference_line(use: ReferenceUse) -> str:
     """A reference that took part, and how well it agrees, in a sentence."""
     if use.residual is None or use.p_value is None:
-        return f"{use.reference.words}: nothing else says anything of it."
+        return f"{use.reference.words}: no other measurement supports it."
     return (
         f"{use.reference.words}: {use.residual:+.4f} {use.unit} from what everything else says,"
         f" standard uncertainty {use.sd or 0.0:.4f} (p = {use.p_value:.2g})."

@@ -1,4 +1,4 @@
-"""`station refit`: what today's identification and diagnosis say of stored readings."""
+"""`station refit`: stored readings, fitted again by the present identification and diagnosis."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ MOST_SHOWN = 50
 
 @click.command("refit")
 @click.argument("ids", metavar="[ID]...", nargs=-1, type=click.IntRange(1, LARGEST_ID))
-@click.option("--all", "everything", is_flag=True, help="Every finished calibration and diagnosis.")
+@click.option("--all", "everything", is_flag=True, help="Fit every finished calibration and diagnosis.")
 @workers_option
 @resume_option
 @json_option("every change")
@@ -36,7 +36,7 @@ def refit_command(
     json_file: Path | None,
     config: Path | None,
 ) -> None:
-    """Fit stored runs again with today's software and show what would change.  Nothing stored is changed."""
+    """Fit stored runs again with the present software and show the differences; nothing stored is changed."""
     check_folders(json_file)
     if bool(ids) == everything:
         raise click.UsageError("Name the runs, or give --all.")

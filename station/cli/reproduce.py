@@ -18,10 +18,16 @@ SEEDS = 200
 
 @click.command("reproduce")
 @json_option("every figure")
-@click.option("--html", "html_file", type=new_file, help="Write tables and plots as one page here.")
+@click.option("--html", "html_file", type=new_file, help="File for a page with tables and plots.")
 @workers_option
 @resume_option
-@click.option("--seeds", type=click.IntRange(2), default=SEEDS, show_default=True, help="Machines a row.")
+@click.option(
+    "--seeds",
+    type=click.IntRange(2),
+    default=SEEDS,
+    show_default=True,
+    help="Number of machines for each row.",
+)
 def reproduce_command(
     json_file: Path | None,
     html_file: Path | None,
@@ -29,7 +35,7 @@ def reproduce_command(
     workers: int | None,
     resume: Path | None,
 ) -> None:
-    """The paper's tables and figures beside ours."""
+    """Compute the tables and figures of the paper again."""
     check_folders(json_file, html_file)
     console = Console()
     content = run_study(seeds, Engine(console, workers, resume))

@@ -1,4 +1,4 @@
-"""`station restore`: a backup put in the place of the history."""
+"""`station restore`: the history replaced by a backup."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from station.store import Store, restore
 @config_option
 @click.pass_obj
 def restore_command(home: Path, file: Path, config: Path | None) -> None:
-    """Put the backup FILE in the place of the history; the service must not run."""
+    """Replace the history by the backup FILE; the service must not run, and the previous history is kept."""
     path = database_path(load_settings(config), home)
     with holding(home):
         aside = restore(file, path)
@@ -26,7 +26,7 @@ def restore_command(home: Path, file: Path, config: Path | None) -> None:
             interrupted = store.interrupt_unfinished()
             newest = store.last_on_rig()
     if aside is not None:
-        click.echo(f"The history until now is kept at {aside}.")
+        click.echo(f"The previous history is kept at {aside}.")
     for run in interrupted:
-        click.echo(f"Run {run} was under way at the backup: interrupted.")
+        click.echo(f"Run {run} was active at the time of the backup; it is now interrupted.")
     click.echo(f"Restored {path}; " + (f"its newest run is {newest.id}." if newest else "it has no runs."))

@@ -1,4 +1,4 @@
-"""`station robot`: a robot file from the description that other software has of an arm."""
+"""`station robot`: the robot file of an arm from the description that other software uses."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ from station.serial_arm import arm_from_urdf
 
 
 @click.command("robot")
-@click.option("--urdf", required=True, type=file_path, help="The robot description.")
-@click.option("--base", required=True, help="Link that stands still.")
-@click.option("--tool", required=True, help="Link whose origin is measured.")
-@click.option("--serial", help="Serial number of the robot; the name of the file without it.")
+@click.option("--urdf", required=True, type=file_path, help="URDF file of the arm.")
+@click.option("--base", required=True, help="Name of the fixed link.")
+@click.option("--tool", required=True, help="Name of the link whose origin is measured.")
+@click.option("--serial", help="Serial number of the robot.  [default: the name of the file]")
 def robot_command(urdf: Path, base: str, tool: str, serial: str | None) -> None:
     """Write the robot file of an arm from its URDF description: `station robot ... > robot.toml`."""
     arm = arm_from_urdf(content_of(urdf), str(urdf), base, tool, serial or urdf.stem)

@@ -1,4 +1,4 @@
-"""`station serve`: the page and the REST interface, until told to end."""
+"""`station serve`: the page and the REST interface, until the process is told to end."""
 
 from __future__ import annotations
 
@@ -23,9 +23,11 @@ _GRACE_S = 3
 
 
 @click.command("serve")
-@click.option("--host", help="Address to listen on; else the station file's, 127.0.0.1.")
+@click.option("--host", help="Address to listen on.  [default: that of the station file, else 127.0.0.1]")
 @click.option(
-    "--port", type=click.IntRange(0, 65535), help="Else the station file's, 8000; 0 takes a free one."
+    "--port",
+    type=click.IntRange(0, 65535),
+    help="Port to listen on; 0: any free port.  [default: that of the station file, else 8000]",
 )
 @machine_options
 @click.pass_obj
@@ -35,7 +37,7 @@ def serve_command(
     port: int | None,
     machine: Machine,
 ) -> None:
-    """The service with the operator's page."""
+    """Start the service with the operator's page."""
     settings = machine.settings
     new = new_history(database_path(settings, home))
     logs = logging_to(home, terminal=logging.WARNING)

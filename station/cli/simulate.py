@@ -1,4 +1,4 @@
-"""`station simulate`: years of a station in virtual time, with everything that can go wrong."""
+"""`station simulate`: years of a station in virtual time, with faults."""
 
 from __future__ import annotations
 
@@ -36,19 +36,29 @@ from station.studies.options import resume_option, workers_option
     type=click.FloatRange(0, 1000, min_open=True),
     default=1.0,
     show_default=True,
-    help="Station-years; a twelfth is a month of one station.",
+    help="Number of station-years; 1/12 is one month of one station.",
 )
-@click.option("--seed", type=click.IntRange(0), default=1, show_default=True, help="Of the years.")
+@click.option(
+    "--seed", type=click.IntRange(0), default=1, show_default=True, help="Seed of the random numbers."
+)
 @click.option(
     "--orders",
     type=click.IntRange(1, 6),
-    help="Instead: every order of so many of eight events, 8^N stations.",
+    help="Simulate every order of N of eight events instead of years: 8^N cases.",
 )
-@click.option("--writes", is_flag=True, help="Instead: a failure and a kill at every write of two runs.")
-@click.option("--shrink", type=click.IntRange(0), help="Instead: a month that broke a sentence, made short.")
+@click.option(
+    "--writes",
+    is_flag=True,
+    help="Simulate a failure and a kill at every write of two runs instead of years.",
+)
+@click.option(
+    "--shrink",
+    type=click.IntRange(0),
+    help="Number of a month with a violation, to be reduced to the jobs that reproduce it.",
+)
 @workers_option
 @resume_option
-@json_option("what is printed")
+@json_option("the printed result")
 def simulate_command(
     years: float,
     seed: int,
@@ -59,10 +69,10 @@ def simulate_command(
     resume: Path | None,
     json_file: Path | None,
 ) -> None:
-    """Let stations live for years, in virtual time, and look whether what must hold holds.
+    """Simulate years of a station in virtual time, with faults, and check that no rule is violated.
 
-    The station is the one that `station serve` runs; simulated are its clock, its wires, its disk and the
-    people.  Exit status 1: something did not hold, and the same seed shows it again.
+    The code is that of `station serve`; its clock, wires, disk and users are simulated.  Exit status 1: a
+    rule was violated; the same seed reproduces it.
     """
     check_folders(json_file)
     engine = Engine(Console(stderr=True), workers, resume)
@@ -82,7 +92,7 @@ def simulate_command(
 
 
 def made_short(found: Shrunk) -> dict[str, object]:
-    """The jobs that a violation takes."""
+    """The jobs that reproduce a violation."""
     return {
         "month": found.seed,
         "lives": found.lives,
@@ -92,7 +102,7 @@ def made_short(found: Shrunk) -> dict[str, object]:
 
 
 def exhausted(outcomes: Sequence[Outcome]) -> dict[str, object]:
-    """How many cases there were, and those in which something did not hold."""
+    """The number of cases, and the violations."""
     return {
         "cases": sum(outcome.reached for outcome in outcomes),
         "violations": [
@@ -104,7 +114,7 @@ def exhausted(outcomes: Sequence[Outcome]) -> dict[str, object]:
 
 
 def summary(years: float, seed: int, lives: list[Life]) -> dict[str, object]:
-    """As the contract has it, and how often each deed and trouble came."""
+    """Totals, violations, and the number of each deed and trouble."""
     digest = hashlib.sha256("".join(life.digest for life in lives).encode())
     return {
         "years": years,

@@ -20,7 +20,7 @@ from station.studies.population import FIGURES, population
 
 _KINDS = (*FIGURES, "confusion", "arms")
 _PLANS = ("full", "rapid")
-"""Those that measure once and are fitted once."""
+"""Plans with one measurement and one fit."""
 
 
 @click.command("study")
@@ -29,11 +29,15 @@ _PLANS = ("full", "rapid")
     "--machines",
     type=click.IntRange(1),
     required=True,
-    help="How many; of each kind for confusion; logs for arms.",
+    help="Number of machines; of each kind for confusion, of logs for arms.",
 )
 @seed_option
 @click.option(
-    "--plan", type=click.Choice(_PLANS), default="full", show_default=True, help="Not for confusion and arms."
+    "--plan",
+    type=click.Choice(_PLANS),
+    default="full",
+    show_default=True,
+    help="Plan to measure; not for confusion and arms.",
 )
 @click.option(
     "--tolerance",
@@ -43,7 +47,7 @@ _PLANS = ("full", "rapid")
     help="Standard deviation of lengths and base joints, mm; not for confusion and arms.",
 )
 @workers_option
-@click.option("--scheduler", metavar="tcp://HOST:PORT", help="A Dask cluster that does it instead.")
+@click.option("--scheduler", metavar="tcp://HOST:PORT", help="Dask cluster that does the computing.")
 @resume_option
 @json_option("every figure")
 def study_command(
@@ -57,11 +61,11 @@ def study_command(
     resume: Path | None,
     json_file: Path | None,
 ) -> None:
-    """Calibrate many random machines, and say what came of it.
+    """Calibrate or diagnose many random machines and summarise the results.
 
-    STUDY is accuracy, coverage or capability (a calibration each, no diagnosis), confusion (a diagnosis
-    each), or arms (logs of serial arms, a diagnosis each).  The digest is the same on one core, on many
-    and on a cluster.
+    STUDY is accuracy, coverage or capability (one calibration for each machine), confusion (one diagnosis
+    for each machine), or arms (one diagnosis for each log of a serial arm).  The digest is the same on one
+    core, on several cores and on a cluster.
     """
     check_folders(json_file)
     engine = Engine(Console(stderr=True), workers, resume, scheduler)

@@ -16,10 +16,16 @@ from station.settings import load_settings
 
 @click.command("translate")
 @click.argument("taught", type=file_path)
-@click.option("--from", "run", type=click.IntRange(1), required=True, help="The run that was applied.")
-@click.option("--taught-under", type=click.IntRange(1), help="The run under whose zeros they were taught.")
-@click.option("--back", is_flag=True, help="Take translated positions back to what they were.")
-@click.option("--csv", "csv_file", type=file_path, help="Write the positions here instead of printing them.")
+@click.option(
+    "--from", "run", type=click.IntRange(1), required=True, help="Number of the run that was applied."
+)
+@click.option(
+    "--taught-under",
+    type=click.IntRange(1),
+    help="Run under whose zeros the positions were taught.  [default: the zeros before --from]",
+)
+@click.option("--back", is_flag=True, help="Convert translated positions back.")
+@click.option("--csv", "csv_file", type=file_path, help="File for the positions.  [default: standard output]")
 @config_option
 @click.pass_obj
 def translate_command(
@@ -31,7 +37,7 @@ def translate_command(
     csv_file: Path | None,
     config: Path | None,
 ) -> None:
-    """Taught joint positions as the same physical positions under the present zeros."""
+    """Convert taught joint positions to the present zeros: the same physical positions, new joint angles."""
     try:
         positions = read_taught(taught.read_text(encoding="utf-8"), taught.name)
     except (OSError, UnicodeDecodeError) as error:

@@ -1,4 +1,4 @@
-"""`station wire` and `station replay`: what crossed the wires in a run, and the run made again from it."""
+"""`station wire` and `station replay`: the traffic of a run, and the run carried out again from it."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from station.service import replay
 @config_option
 @click.pass_obj
 def wire_command(home: Path, calibration_id: int, config: Path | None) -> None:
-    """Every request and answer of one run, with its time, in plain words."""
+    """Show every request and answer of one run, with its time, in words."""
     with kept(home, config) as store:
         header, *lines = store.wire_log(calibration_id)
         size = store.wire_bytes(calibration_id)
@@ -32,7 +32,7 @@ def wire_command(home: Path, calibration_id: int, config: Path | None) -> None:
 def replay_command(home: Path, calibration_id: int, config: Path | None) -> None:
     """Carry out a run again from its wire log, without a machine, and compare.
 
-    The drivers get the recorded answers, the run its own clock and the memory that the robot had then.
+    The drivers get the recorded answers; the run gets its original clock and the memory of that time.
     Exit status 1: readings or result differ.
     """
     with kept(home, config) as store:

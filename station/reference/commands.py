@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from inspect import cleandoc
+
 import click
 
 from station.cli import main
 from station.reference.markdown import code, page, section, table
 
 INTRODUCTION = """
-`station COMMAND`, also `python -m station COMMAND`. Exit status: 0 done; 1 the run or the verdict failed; 2 the input was refused,
-with one line on standard error.
+`station COMMAND`, also `python -m station COMMAND`. Exit status: 0 success; 1 the run or the verdict failed; 2 the input was
+refused, with one line on standard error.
 """
 
 
@@ -19,9 +21,9 @@ def commands_page() -> str:
     names = main.list_commands(context)
     found = [(name, command) for name in names if (command := main.get_command(context, name)) is not None]
     overview = table(
-        ("command", "does"),
+        ("command", "effect"),
         (
-            (f"[`station {name}`](#station-{name})", (command.help or "").strip().split("\n\n")[0])
+            (f"[`station {name}`](#station-{name})", _help(command).split("\n\n")[0])
             for name, command in found
         ),
     )
@@ -34,11 +36,26 @@ def _command(name: str, command: click.Command, parent: click.Context) -> str:
     usage = " ".join(command.collect_usage_pieces(context))
     return section(
         f"station {name}",
-        (command.help or "").strip(),
+        _help(command),
         "",
         code(f"station {name} {usage}"),
+        *([_parts(command, context)] if isinstance(command, click.Group) else []),
         _options(command, context),
     )
+
+
+def _help(command: click.Command) -> str:
+    return cleandoc(command.help or "")
+
+
+def _parts(group: click.Group, context: click.Context) -> str:
+    """The commands of a group; `--help` of each lists its options."""
+    rows = []
+    for name in group.list_commands(context):
+        part = group.commands[name]
+        own = click.Context(part, info_name=name, parent=context)
+        rows.append((code(f"{own.command_path} {' '.join(part.collect_usage_pieces(own))}"), _help(part)))
+    return table(("command", "effect"), rows)
 
 
 def _options(command: click.Command, context: click.Context) -> str:

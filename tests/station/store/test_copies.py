@@ -53,8 +53,8 @@ def test_a_restore_is_one_command(tmp_path: Path) -> None:
     code, output = station(home, "restore", str(backup))
     assert code == 0, output
     aside, interrupted, restored = output.splitlines()
-    assert aside.startswith(f"The history until now is kept at {home / 'station-replaced-'}")
-    assert interrupted == f"Run {under_way} was under way at the backup: interrupted."
+    assert aside.startswith(f"The previous history is kept at {home / 'station-replaced-'}")
+    assert interrupted == f"Run {under_way} was active at the time of the backup; it is now interrupted."
     assert restored == f"Restored {home / 'station.db'}; its newest run is {under_way}."
     with closing(Store(home / "station.db")) as store:
         assert [run.state for run in store.calibrations().items] == ["interrupted", "aborted"]
