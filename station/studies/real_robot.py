@@ -1,4 +1,4 @@
-"""What the loop finds on logs of a real arm: errors before and after, causes, curves, what holds on."""
+"""The diagnosis of logs of a real arm: errors before and after, causes, curves, validity for other logs."""
 
 from __future__ import annotations
 
@@ -106,7 +106,7 @@ def _found(robot: Arm, path: Path, measured: Measured) -> Found:
         sentence=findings.sentence,
         stages=stages,
         effects=tuple(
-            f"**{e.label}**, {100.0 * e.share:.0f} % of the residual's square: "
+            f"**{e.label}**, {100.0 * e.share:.0f} % of the squared residual: "
             + ", ".join(f"{q.name} {shown(q)}" for q in e.parameters)
             for e in findings.effects
         ),
@@ -138,11 +138,15 @@ def _page(result: Study) -> Iterator[str]:
     yield "# Figures"
     yield ""
     yield (
-        "Made by `station real-robot`. Every error is of readings that nothing was learned from: a quarter "
-        "of the log, in blocks of forty neighbours. Of positions it is the length in space, RMS in mm."
+        "`station real-robot` makes this page. All errors are RMS in mm at readings that took no part in the "
+        "fit: a quarter of each log, in blocks of forty neighbours. For positions, the error is the distance "
+        "in space."
     )
     yield ""
-    yield "| log | measured | readings | nominal | six errors a link | with the effects found | verdict | s |"
+    yield (
+        "| log | measured | readings | nominal links | six errors per link | with the effects found "
+        "| verdict | time, s |"
+    )
     yield "|---|---|---|---|---|---|---|---|"
     for f in result.found:
         nominal, base, *_, last = f.stages
@@ -161,15 +165,15 @@ def _page(result: Study) -> Iterator[str]:
 def _comparison(found: Sequence[Found]) -> Iterator[str]:
     names = next(f.plain for f in found if f.plain)
     yield ""
-    yield "## Beside plain pipelines"
+    yield "## Compared with general methods"
     yield ""
     yield (
-        "The same readings to learn from, the same to be judged by, in one run. Each pipeline predicts what "
-        "the fit of six errors a link leaves. The last column is the position error that the loop predicts "
-        "for the poses, without having seen the readings that judge it."
+        "All methods use the same readings for the fit and the same held-out readings, in one run. Each "
+        "general method predicts the residual of the fit of six errors per link (DH fit). The last column is "
+        "the position error that the station predicts for the held-out poses without their readings."
     )
     yield ""
-    yield f"| log | measured | {' | '.join(names)} | the loop | predicted by the loop |"
+    yield f"| log | measured | {' | '.join(names)} | the station | predicted by the station |"
     yield f"|---|---|{'---|' * (len(names) + 2)}"
     for f in found:
         best = min((*f.plain.values(), f.stages[-1].confirm_rms_mm or math.inf))
@@ -185,24 +189,24 @@ def _bold(value: float | None, best: float) -> str:
 
 def _transfers(transfers: Sequence[tuple[str, str, Transfer]]) -> Iterator[str]:
     yield ""
-    yield "## Learned on one log, applied unchanged to another"
+    yield "## Effects of one log applied to another log"
     yield ""
     yield (
-        "The mechanism (base, tool, links) is fitted to three quarters of the new log, the effects stay as "
-        "they were learned; errors are of the fourth quarter."
+        "Base, tool and links are fitted to three quarters of the new log; the effects are used unchanged. "
+        "Errors are RMS in mm on the fourth quarter."
     )
     yield ""
-    yield "| learned on | applied to | readings | mechanism alone | with the effects | left out by name |"
+    yield "| learned on | applied to | readings | without effects | with effects | left out |"
     yield "|---|---|---|---|---|---|"
     for learned, applied, t in transfers:
         names = ", ".join(str(o.reading) for o in t.outliers) or "none"
         yield (
-            f"| {learned} | {applied}, where its joints have been | {t.inside} of {t.readings} "
+            f"| {learned} | {applied}, in joint ranges that {learned} visited | {t.inside} of {t.readings} "
             f"| {t.alone.rms_mm:.4f} | {t.applied.rms_mm:.4f} | {names} |"
         )
         if t.beyond:
             yield (
-                f"| | {applied}, the gaps between too | | {t.beyond[0].rms_mm:.4f} "
+                f"| | {applied}, including gaps between these ranges | | {t.beyond[0].rms_mm:.4f} "
                 f"| {t.beyond[1].rms_mm:.4f} | the same |"
             )
 
@@ -213,7 +217,7 @@ def _causes(f: Found) -> Iterator[str]:
     yield ""
     yield f.sentence
     yield ""
-    yield "| model | unknowns | fit | others' blocks | held out | largest |"
+    yield "| model | unknowns | fit | cross-validation | held out | largest |"
     yield "|---|---|---|---|---|---|"
     for s in f.stages:
         yield (
@@ -226,9 +230,9 @@ def _causes(f: Found) -> Iterator[str]:
         yield ""
         yield " ".join(f"![{c.label}]({_drawing(f, c)})" for c in f.curves)
     for what, items in (
-        ("What it could not tell: ", "; ".join(f.tied)),
-        ("What the rest depends on: ", " ".join(f.hints)),
-        ("Left out as gross, reading ", ", ".join(map(str, f.left_out))),
+        ("Cannot be determined: ", "; ".join(f.tied)),
+        ("Dependence of the remaining residual: ", " ".join(f.hints)),
+        ("Outliers, left out: reading ", ", ".join(map(str, f.left_out))),
     ):
         if items:
             yield ""
