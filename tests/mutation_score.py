@@ -1,8 +1,8 @@
-"""What `make mutate` comes to: killed mutants by module, and those that no test notices.
+"""The result of `make mutate`: killed mutants by module, and those that no test notices.
 
-A mutant of the store that only changes upper and lower case of SQL or of a column's name is the same program
-to SQLite; such mutants are counted apart.  Exit status 1 where a module's share of killed mutants is below
-the limit.
+A mutant of the store that only changes the case of SQL or of a column name is the same program for SQLite;
+such mutants are counted separately.  Exit status 1: the share of killed mutants of a module is below the
+limit.
 """
 
 from __future__ import annotations

@@ -1,12 +1,12 @@
 """Every fault at every step of a run, for every family of drives, readout and line, as one table.
 
 `python -m tests.drivers.fault_matrix [--every N] [--rig SERVO,SCALE,LINE] [--workers N] [--own-times]
-[--out FILE]`: the whole station on the emulated rig.  A cell says how the run ended and after how long; the
-fault stays until then.  In each, the drives must stand, the readings be kept, no wrong result pass, and the
-next run succeed without a restart.
+[--out FILE]`: the whole station on the emulated rig.  A cell states how the run ended and after how long; the
+fault remains until then.  In each cell the drives must be at standstill, the readings must be stored, no
+wrong result may pass, and the next run must succeed without a restart.
 
-Most of a cell is waiting for replies that do not come, so that all cells are tried with shorter time-outs;
-a sample with `--own-times` shows how long an end takes at a station.
+Most of the time of a cell is waiting for replies that do not come, so all cells are tried with shorter
+time-outs; a sample with `--own-times` shows how long it takes on a real station.
 """
 
 from __future__ import annotations
@@ -58,7 +58,7 @@ class Cell:
     verdict: str | None
     reason: str
     wrong: str
-    """What must not be; empty where all is as it should."""
+    """The violation; empty if there is none."""
 
     @property
     def text(self) -> str:
@@ -151,22 +151,22 @@ class Bench:
         return TRUTH_DEG[0] + first, TRUTH_DEG[1] + second
 
     def _wrong(self, run: int, truth_deg: tuple[float, float]) -> str:
-        """What must not be after the end of a run; empty where nothing is wrong."""
+        """The violation after the end of a run; empty if there is none."""
         store = self.runtime.store
         ended = store.calibration(run)
         if not ended.state.ended:
-            return f"hangs for {LIMIT_S:.0f} s"
+            return f"does not end within {LIMIT_S:.0f} s"
         if ended.state is not State.SUCCEEDED and not ended.reason:
             return "ended without a reason"
         if "Unexpected" in (ended.reason or ""):
-            return f"a mistake of the program: {ended.reason}"
+            return f"an error in the program: {ended.reason}"
         if len(store.readings(run)) != ended.step:
             return f"{ended.step} steps, {len(store.readings(run))} readings"
         for zero, truth in zip(ended.zero_offsets, truth_deg, strict=False):
             if ended.verdict == "pass" and ended.kind == "calibrate":
                 off = abs((zero.value_deg or 0.0) - truth)
                 if off > 4.0 * (zero.sd_deg or 0.0) + 0.05:
-                    return f"a pass that is {off:.3f} deg off"
+                    return f"a pass with an error of {off:.3f} deg"
         return ""
 
     def _next(self, *, applied: bool) -> str:
@@ -306,13 +306,13 @@ def part(number: int, rig: Sequence[str], every: int, own_times: bool) -> Part:
 
 
 def main() -> int:
-    """0, or 1 where something is that must not be."""
+    """0, or 1 if there is a violation."""
     parser = argparse.ArgumentParser(prog="python -m tests.drivers.fault_matrix")
-    parser.add_argument("--every", type=int, default=1, help="only every N-th cell")
-    parser.add_argument("--rig", help="only this one, as SERVO,SCALE,LINE")
-    parser.add_argument("--out", type=Path, help="where the table is written; else on standard output")
-    parser.add_argument("--workers", type=int, default=1, help="rigs that are tried at the same time")
-    parser.add_argument("--own-times", action="store_true", help="the time-outs of a station")
+    parser.add_argument("--every", type=int, default=1, help="try only every N-th cell")
+    parser.add_argument("--rig", help="try only this rig: SERVO,SCALE,LINE")
+    parser.add_argument("--out", type=Path, help="file for the table; default: standard output")
+    parser.add_argument("--workers", type=int, default=1, help="number of rigs tried at the same time")
+    parser.add_argument("--own-times", action="store_true", help="use the time-outs of a real station")
     arguments = parser.parse_args()
     rigs = [tuple(arguments.rig.split(","))] if arguments.rig else list(product(SERVOS, SCALES, LINES))
     every = arguments.every
@@ -321,7 +321,7 @@ def main() -> int:
         parts = [one.result() for one in tried]
     wrong, longest_s = sum(part.wrong for part in parts), max(part.longest_s for part in parts)
     count = sum(part.cells for part in parts)
-    lines = [f"{count} cells; longest end {longest_s:.1f} s; {wrong} cells are not as they should."]
+    lines = [f"{count} cells; longest time to the end {longest_s:.1f} s; {wrong} cells with a violation."]
     text = "\n".join(lines + [line for part in parts for line in part.lines]) + "\n"
     if arguments.out:
         arguments.out.write_text(text, encoding="utf-8")

@@ -14,23 +14,24 @@ from station.studies.confusion.matrix import Row, reliability
 
 PAGE = """# The diagnosis against random machines
 
-`station confusion --markdown FILE` makes this page: {machines} machines of each kind, seed {seed}.
-Every machine is measured as a run of plan `diagnostic` measures it: 120 readings with their run-ups, then
-40 fresh ones with the zero offsets taken off the commands, one sample a reading.  It has random
-zero offsets, geometric errors, joints, phases, moments and sizes (1 to 30 um of projected RMS, evenly in
-the logarithm, but no more than four times the usual size); the emulator's physics share nothing with the
-catalogue.
+`station confusion --markdown FILE` makes this page: {machines} machines of each kind, seed {seed}. Each
+machine is measured as in a run of plan `diagnostic`, with one sample per reading: 120 readings with their
+run-ups, then 40 fresh readings with the identified zero offsets subtracted from the commands. Zero offsets,
+geometric errors, joints, phases, moments and sizes are random. The sizes are 1 to 30 um of projected RMS,
+uniform in the logarithm, and at most four times the usual size. The physics of the emulator share no code
+with the catalogue.
 
-- *clear*: every cause more than three times the noise of 1.1 um.
-- *right*: explained and confirmed on 40 fresh readings, every cause within the alias set of a finding and
-  nothing else blamed; for clean machines, adequate with no finding.
-- *first*: the most probable explanation holds just the causes; for errors without a name, it has none.
-- *wrong*: confirmed, and something is blamed that is not there and can be distinguished from what is.
-  All sizes.
-- *3 sd*, *95 %*: machines with a zero offset beyond three standard uncertainties, and the share of zero
-  offsets that the 95 % interval holds.  All sizes.
-- *worse*: the true position is more than 1.2 times worse than with the base model, and beyond the stated
-  bound.
+- *clear*: every cause is larger than three times the noise of 1.1 um.
+- *right*: explained and confirmed with 40 fresh readings; every cause is in the alias set of a finding, and
+  nothing else is named. For clean machines: adequate, without a finding.
+- *with no alias*: *right*, and no finding has an alias.
+- *first*: the most probable explanation contains exactly the causes. For errors without a name: it contains
+  no named effect.
+- *wrong*: a cause is confirmed that is not present and can be distinguished from those that are. All sizes.
+- *3 sd*, *95 %*: the number of machines with a zero offset beyond three standard uncertainties, and the share
+  of zero offsets inside their 95 % interval. All sizes.
+- *worse*: the true position error is more than 1.2 times that of the base model and exceeds the stated bound.
+- *most*: the most frequent results.
 
 | | share | lower and upper 95 % limit |
 |---|---|---|
@@ -41,18 +42,19 @@ catalogue.
 {machine_lines}
 
 ## Probabilities
-Every statement on an effect, in ten bins of equal count.
+All statements on effects, in ten bins of equal count.
 
-| stated | true | statements |
+| stated probability | true share | statements |
 |---|---|---|
 {reliability_lines}
 
 ## Before and after
-RMS over all clear machines of a kind.  Before is the base model, after the set of explanations.
+RMS over all clear machines of a kind, before the diagnosis (base model) and after it (set of explanations).
 
-- *reading*: 40 fresh readings less predicted, um; those left out by name excepted.
-- *position*: where the emulated machine truly stands less where it was sent, um, over a grid of 7 x 5 places
-  with random approaches.  What clean machines keep is what one distance and the tolerances leave open.
+- *reading*: the difference between 40 fresh readings and their prediction, um, without named outliers.
+- *position*: the difference between the true position of the emulated machine and the commanded one, um,
+  over a grid of 7 x 5 positions with random approaches. The error of clean machines is the part that one
+  distance and the tolerances do not determine.
 
 | in the machine | machines | reading before | after | after over noise | position before | after |
 |---|---|---|---|---|---|---|
@@ -81,7 +83,7 @@ def _share_lines(rows: list[Row]) -> list[str]:
         if not some:
             continue
         if group == "clean":
-            lines.append(_share("clean: nothing blamed", some, lambda o: o.said == "adequate"))
+            lines.append(_share("clean: no cause named", some, lambda o: o.said == "adequate"))
         elif some[0].kind not in OUTSIDE:
             lines.append(_share(f"{group}, clear: right", some, lambda o: o.right, clear=True))
             lines.append(_share(f"{group}, clear: first", some, lambda o: o.first, clear=True))
@@ -89,10 +91,10 @@ def _share_lines(rows: list[Row]) -> list[str]:
             lines.append(_share(f"{group}: a cause confirmed", some, lambda o: o.confirmed))
     lines.append(_share("all: a wrong cause confirmed", rows, lambda o: o.wrong))
     offs = [off for row in rows for off in row.off_sd]
-    lines.append(_counted("all: zero offsets beyond 3 sd", sum(off > 3.0 for off in offs), len(offs)))
+    lines.append(_counted("all: a zero offset beyond 3 sd", sum(off > 3.0 for off in offs), len(offs)))
     inside = [o.zeros.inside_95 for row in rows for o in row.outcomes if o.zeros is not None]
-    lines.append(_counted("all: zero offsets inside 95 %", sum(inside), 2 * len(inside)))
-    lines.append(_share("all: position worse, and worse than said", rows, _worse))
+    lines.append(_counted("all: zero offsets inside their 95 % interval", sum(inside), 2 * len(inside)))
+    lines.append(_share("all: position worse, and beyond the stated bound", rows, _worse))
     return lines
 
 

@@ -1,4 +1,4 @@
-"""`python -m station.studies.plans`: the page of what the plans promise and reach."""
+"""`python -m station.studies.plans`: the page of the accuracy that the plans state and reach."""
 
 from __future__ import annotations
 
@@ -32,15 +32,37 @@ from station.studies.plans.retaught import retaught
 
 TOLERANCES_MM = (0.03, 0.003)
 FLEET_MM = 0.1
-"""Geometry that is made much better than this shows too little in readings to be taught."""
+"""Better geometry than this has too little effect on the readings to be learned from other robots."""
 
 
 @click.command()
-@click.option("--machines", default=200, show_default=True, type=click.IntRange(2), help="A row.")
-@click.option("--many", default=2000, show_default=True, type=click.IntRange(2), help="For shares.")
-@click.option("--promises", default=1000, show_default=True, type=click.IntRange(2), help="Of `adaptive`.")
-@click.option("--fleets", default=50, show_default=True, type=click.IntRange(1), help="Of 20 robots each.")
-@click.option("--tolerance", "tolerances", multiple=True, default=TOLERANCES_MM, help="mm; may be repeated.")
+@click.option(
+    "--machines",
+    default=200,
+    show_default=True,
+    type=click.IntRange(2),
+    help="Number of machines for each row.",
+)
+@click.option(
+    "--many", default=2000, show_default=True, type=click.IntRange(2), help="Number of machines for shares."
+)
+@click.option(
+    "--promises",
+    default=1000,
+    show_default=True,
+    type=click.IntRange(2),
+    help="Number of machines for plan `adaptive`.",
+)
+@click.option(
+    "--fleets", default=50, show_default=True, type=click.IntRange(1), help="Number of fleets of 20 robots."
+)
+@click.option(
+    "--tolerance",
+    "tolerances",
+    multiple=True,
+    default=TOLERANCES_MM,
+    help="Tolerance in mm; can be given several times.",
+)
 @seed_option
 @workers_option
 @resume_option
@@ -56,7 +78,7 @@ def main(
     resume: Path | None,
     out: Path | None,
 ) -> None:
-    """What the plans promise, and what comes of it, on emulated machines."""
+    """Compare the stated and the true accuracy of the plans on emulated machines."""
     engine = Engine(Console(stderr=True), workers, resume)
     parts = [ABOUT, time_table()]
 

@@ -1,4 +1,4 @@
-"""What the study found, as parts of docs/accuracy.md."""
+"""The results of the study, as parts of docs/accuracy.md."""
 
 from __future__ import annotations
 
@@ -23,35 +23,44 @@ from station.studies.plans.retaught import Retaught
 PLANS: tuple[PlanName, ...] = ("full", "diagnostic", "rapid", "check", "two_mounts")
 ALARMS = (0.001, 0.005, 0.01, 0.05)
 ABOUT = """# What the plans reach
-Machines drawn from the tolerances of the robot file (zero offsets uniform within 3 degrees, geometry and
-mounting normal), five samples a reading, servos with the scatter of eq. 35 on whole pulses, scale with the
-noise of eq. 34.  Positions are those of the emulated machine's own geometry, over a grid of 13 x 9.
+The machines are drawn from the tolerances of the robot file: zero offsets uniform within 3 degrees, geometry
+and mounting error normal. Each reading has five samples. The servos have the scatter of eq. 35, rounded to
+whole pulses, and the scale has the noise of eq. 34. Position errors are those of the true geometry of the
+emulated machine, on a grid of 13 x 9 positions.
 
-`python -m station.studies.plans --out docs/accuracy.md` makes this page again; `--resume FOLDER` goes on from
-what was done.  Each part says how many machines it is made of.
+`python -m station.studies.plans --out docs/accuracy.md` makes this page; `--resume FOLDER` continues an
+earlier calculation. Each part states its sample size.
 
-- *largest*: the largest position error over the workspace with the zeros in the drives only, a median with
-  its standard error.
-- *allowed*: the same of an estimator at the Cramer-Rao bound with prior, drawn from the linear model.
+- *largest*: the largest position error over the workspace with only the zero offsets in the drives; the
+  median with its standard error.
+- *allowed*: the same for an estimator at the Cramer-Rao bound with prior, drawn from the linear model.
 - *bound*: the median of the 95 % bound that a run states.
-- *kept*: the share of machines below their bound, with the zeros only and with commands of the model."""
+- *kept*: the share of machines whose error is below their bound, with the zero offsets only and with the
+  commands of the model."""
 _KEPT = "| case | largest, mm | allowed, mm | ratio | bound, mm | kept, zeros only | kept, model |"
 
 
 def time_table() -> str:
-    """What each plan is predicted to take."""
+    """The predicted duration of each plan."""
     robot = robot_of(0.03)
-    lines = ["## Time", "", "| plan | readings | travel, degrees | predicted, s |", "|---|---|---|---|"]
+    lines = [
+        "## Time",
+        "",
+        "| plan | readings | travel, degrees | predicted duration, s |",
+        "|---|---|---|---|",
+    ]
     for name in PLANS:
         plan = make_plan(name, robot)
         told = plan.predicted
         lines.append(f"| {name} | {len(plan.stops)} | {told.travel_deg:.0f} | {told.duration_s:.1f} |")
-    return "\n".join(lines) + "\n\nAt 30 degrees a second; of `two_mounts` one mounting point of two."
+    return (
+        "\n".join(lines) + "\n\nAt 30 degrees per second. For `two_mounts`: one of the two mounting points."
+    )
 
 
 def counted(text: str, found: Sequence[object]) -> str:
-    """A part with the number of machines or fleets that it is made of."""
-    return f"*Of {len(found)}:*\n\n{text}"
+    """A part with its number of machines or fleets."""
+    return f"*Sample size: {len(found)}*\n\n{text}"
 
 
 def cases_table(found: Sequence[dict[str, Kept]]) -> str:
@@ -66,14 +75,14 @@ def cases_table(found: Sequence[dict[str, Kept]]) -> str:
 
 
 def collision_text(found: Sequence[Struck]) -> str:
-    """Plan `adaptive` with a right memory."""
+    """Plan `adaptive` with a correct memory."""
     readings, seconds = [one.readings for one in found], [one.machine_s for one in found]
     kept = [one.kept for one in found]
     return (
-        f"**Plan `adaptive`** after a collision, to {WISH} of the bound of the full run before:"
+        f"**Plan `adaptive`** after a collision, wanted accuracy {WISH} of the bound of the full run before:"
         f" {np.median(readings):.0f} readings (90 %: {np.quantile(readings, 0.9):.0f}),"
-        f" {np.median(seconds):.1f} s (90 %: {np.quantile(seconds, 0.9):.1f}); memory used in"
-        f" {share([one.memory_used for one in found])}, wish reached in"
+        f" {np.median(seconds):.1f} s (90 %: {np.quantile(seconds, 0.9):.1f}); the memory was used in"
+        f" {share([one.memory_used for one in found])}, the wanted accuracy was reached in"
         f" {share([one.reached for one in found])}.\n\n"
         "| largest, mm | bound, mm | kept, zeros only | kept, model |\n|---|---|---|---|\n"
         f"| {_largest(kept)} | {_promise(kept)} |"
@@ -89,10 +98,10 @@ def misled_text(found: Sequence[Misled]) -> str:
         f"{one.change} ({one.seen_sds:.1f})" for one in sorted(through, key=lambda o: o.change)
     )
     return (
-        "Wrong memory (mounted anew by 1 mm in a random direction, or a link changed by 0.3 mm) let through:"
-        f" {sum(one.let_through for one in clear)} of the {len(clear)} that a full run of one sample a"
-        f" reading would see at {CLEAR_SDS:.0f} standard deviations or more; {len(through)} of the other"
-        f" {dim}"
+        "A wrong memory (mechanism remounted 1 mm off in a random direction, or a link changed by 0.3 mm)"
+        f" was used in {sum(one.let_through for one in clear)} of the {len(clear)} cases that a full run with"
+        f" one sample per reading would see at {CLEAR_SDS:.0f} standard deviations or more, and in"
+        f" {len(through)} of the other {dim} (in brackets: standard deviations)"
         f"{': ' + listed if through else ''}."
     )
 
@@ -100,10 +109,10 @@ def misled_text(found: Sequence[Misled]) -> str:
 def checks_table(found: Sequence[Checked]) -> str:
     """Plan `check`: its own limits, and the receiver operating curve."""
     own = np.mean([one.found for one in found], axis=0)
-    heads = " | ".join(f"{size:g} of it found" for size in SIZES)
+    heads = " | ".join(f"{size:g} of it detected" for size in SIZES)
     smallest_deg = np.median([one.smallest_deg for one in found])
     lines = [
-        f"**Plan `check`**: smallest shift stated {smallest_deg:.4f} degrees.",
+        f"**Plan `check`**: the stated smallest shift is {smallest_deg:.4f} degrees.",
         "",
         f"| false alarms | {heads} |",
         "|---" * (1 + len(SIZES)) + "|",
@@ -119,12 +128,12 @@ def checks_table(found: Sequence[Checked]) -> str:
 
 
 def advice_table(found: Sequence[Sequence[Followed]]) -> str:
-    """Predicted gains and those that came."""
+    """Predicted and actual gains."""
     every = list(chain.from_iterable(found))
     lines = [
-        "**Advice**, followed: gain of the bound, mean over machines.",
+        "**Advice** that was followed: decrease of the bound, mean over machines.",
         "",
-        "| advice | given | predicted, mm | happened, mm | ratio | largest before, mm | after, mm |",
+        "| advice | given | predicted, mm | measured, mm | ratio | largest before, mm | after, mm |",
         "|---|---|---|---|---|---|---|",
     ]
     for kind in dict.fromkeys(one.kind for one in every):
@@ -148,20 +157,22 @@ def retaught_text(found: Sequence[Sequence[Retaught]]) -> str:
     held = [one.off_mm <= one.u95_mm for one in every]
     off_mm, u95_mm = (np.median(sizes) for sizes in zip(*((e.off_mm, e.u95_mm) for e in every), strict=True))
     return (
-        f"**`translate`** after a collision and a second full run: of {len(every)} taught positions"
-        f" {share(held)} within their stated 95 %; off by {off_mm:.4f} mm, stated {u95_mm:.4f} mm (medians)."
+        f"**`translate`** after a collision and a second full run: {share(held)} of {len(every)} taught"
+        f" positions are within their stated 95 % uncertainty; deviation {off_mm:.4f} mm,"
+        f" stated {u95_mm:.4f} mm (medians)."
     )
 
 
 def fleet_table(found: Sequence[Sequence[NextOne]]) -> str:
-    """Robots that were never measured, after so many of their type."""
+    """Robots without earlier runs, after a number of robots of their type."""
     every = list(chain.from_iterable(found))
     lines = [
-        f"Robots of a type have {100.0 * (1.0 - OWN**2):.0f} % of the variance of their tolerance in common."
-        f"  Plan `adaptive`, to {FLEET_WISH} of the bound of the robot's own full run without the others.",
+        f"Robots of one type share {100.0 * (1.0 - OWN**2):.0f} % of the variance of their tolerance. Plan"
+        f" `adaptive`, wanted accuracy {FLEET_WISH} of the bound of a full run of the same robot without the"
+        " others.",
         "",
-        "| robots before | next ones | readings (90 %) | wish reached | largest, mm | bound, mm |"
-        " kept, zeros only | kept, model | another type refused |",
+        "| earlier robots | next robots | readings (90 %) | wanted accuracy reached | largest, mm |"
+        " bound, mm | kept, zeros only | kept, model | another type refused |",
         "|---|---|---|---|---|---|---|---|---|",
     ]
     for count in FLEETS:

@@ -25,15 +25,15 @@ class Case:
 
     plan: PlanName
     level: bool = False
-    """Whether the angle of joint 1 is seen."""
+    """Whether the angle of joint 1 is measured with a level."""
     mounting: bool = False
     """Whether the sideways mounting error is measured."""
 
 
 CASES = {
     "full": Case("full"),
-    "full, joint 1 seen to 0.005 degrees": Case("full", level=True),
-    "six readings, joint 1 seen": Case("rapid", level=True),
+    "full, joint 1 measured to 0.005 degrees": Case("full", level=True),
+    "six readings, joint 1 measured": Case("rapid", level=True),
     "full, rMx measured to 0.02 mm": Case("full", mounting=True),
     "full, both": Case("full", level=True, mounting=True),
     "two mounts": Case("two_mounts"),

@@ -1,4 +1,4 @@
-"""`python -m station.studies.training`: what the station said of errors that it was not told."""
+"""`python -m station.studies.training`: the reports of the station on secret errors."""
 
 from __future__ import annotations
 
@@ -21,29 +21,48 @@ SERIAL = "TRAINING"
 RUN_LIMIT_S = 900.0
 ABOUT = """# The training desk, worked through
 
-Each of the first {exercises} exercises is drawn by the station and not told: an effect that the diagnosis
-knows, or an error that it does not know. It is worked through as a trainee would: a run of plan `diagnostic`;
-where explanations are left that further motion can distinguish, that motion; then a look at what was drawn.
-The faults of devices and lines follow, each once. The machine is the emulated one behind its wires, {speed:g}
-times faster than real time.
+Each of the first {exercises} exercises is drawn by the station in secret: an effect of the catalogue, or an
+error outside the catalogue. Each exercise is worked through as a trainee would do it: a run of plan
+`diagnostic`, then, if further motion can distinguish the remaining explanations, that motion, then the
+disclosure. After these, each fault of devices and lines follows once. The machine is the emulated one behind
+its wires, {speed:g} times faster than real time.
 
-*Score*: `found`, the cause is named, alone or together with what cannot be distinguished from it; an error
-without a name is found when the residual is not accounted for and no cause is confirmed; a fault, when the
-run failed and names the device. `partly`, something else is named beside it, or it is a possible explanation
-only. `noticed`, no pass, without the cause. `wrong`, another cause is named. `missed`, passed as good.
-`withstood`, a fault that the run got over.
+The scores:
 
-`python -m station.studies.training --exercises {exercises} --seed {seed}` makes this page again; the noise of
-the emulated machine is drawn anew, so single lines may differ."""
+- `found`: the cause is named, alone or together with causes that cannot be distinguished from it. For an
+  error without a name: the residual is not explained, and no cause is confirmed. For a fault: the run failed
+  and names the device.
+- `partly`: something else is named beside the cause, or the cause is only a possible explanation.
+- `noticed`: the run does not pass, but the cause is not named.
+- `wrong`: another cause is named.
+- `missed`: the run passes as good.
+- `withstood`: the run succeeds in spite of the fault.
+
+`python -m station.studies.training --exercises {exercises} --seed {seed}` makes this page. The noise of the
+emulated machine is drawn anew each time, so single lines may differ."""
 
 
 @click.command()
-@click.option("--exercises", default=20, show_default=True, type=click.IntRange(1))
-@click.option("--seed", default=1, show_default=True, type=click.IntRange(0), help="Of what is drawn.")
-@click.option("--speed", default=50.0, show_default=True, type=click.FloatRange(1, 1000))
+@click.option(
+    "--exercises",
+    default=20,
+    show_default=True,
+    type=click.IntRange(1),
+    help="Number of drawn exercises.",
+)
+@click.option(
+    "--seed", default=1, show_default=True, type=click.IntRange(0), help="Seed of the random numbers."
+)
+@click.option(
+    "--speed",
+    default=50.0,
+    show_default=True,
+    type=click.FloatRange(1, 1000),
+    help="Speed factor of the emulated machine.",
+)
 @page_option
 def main(exercises: int, seed: int, speed: float, out: Path | None) -> None:
-    """What was drawn beside what the station said."""
+    """Compare secret errors with the reports of the station."""
     settings = Settings(emulated=EmulatedSettings(speed=speed))
     console = Console(stderr=True)
     done: list[Exercise] = []
@@ -53,7 +72,7 @@ def main(exercises: int, seed: int, speed: float, out: Path | None) -> None:
             console.print(_row(exercise), highlight=False, soft_wrap=True)
     about = ABOUT.format(speed=speed, exercises=exercises, seed=seed)
     effects, faults = done[:exercises], done[exercises:]
-    head = "| no. | drawn | joint | size | the station said | score |\n|---|---|---|---|---|---|"
+    head = "| no. | drawn | joint | size | report of the station | score |\n|---|---|---|---|---|---|"
     rows = "\n".join(_row(exercise) for exercise in done)
     counts = f"{_counts('errors of the machine', effects)}\n{_counts('faults', faults)}"
     text = f"{about}\n\n{counts}\n\n{head}\n{rows}\n"
@@ -81,7 +100,7 @@ def _worked_through(runtime: Runtime, exercises: int, rng: Random) -> Iterator[E
 
 
 def _distinguish(runtime: Runtime, run: int) -> None:
-    """The further motion, where there is one."""
+    """The further motion, if there is one."""
     try:
         further = runtime.orchestrator.follow("separate", run, "trainee").id
     except (NotApplicable, NotFound):  # nothing to distinguish, or the run failed

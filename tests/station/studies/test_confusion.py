@@ -45,7 +45,7 @@ def test_machines_of_several_kinds_make_a_page(tmp_path: Path) -> None:
     page = file.read_text(encoding="utf-8")
     assert page.count("| backlash+drift |") == 2
     assert "1 machines of each kind, seed 1" in page
-    assert "| clean: nothing blamed | 1 of 1, 100.0 % |" in page
+    assert "| clean: no cause named | 1 of 1, 100.0 % |" in page
 
 
 def test_no_machine_is_drawn_with_more_than_four_times_the_usual_size() -> None:
