@@ -26,7 +26,7 @@ class DriverSettings(StrictNumbers):
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     url: str
-    """Of the line that the device is connected to."""
+    """Address of the line to which the device is connected."""
 
 
 S = TypeVar("S", bound=DriverSettings)

@@ -1,4 +1,4 @@
-"""`[interlocks]` of the station file: what must hold before and during motion, as data."""
+"""`[interlocks]` of the station file: conditions that must hold before and during motion, as data."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ Text = Annotated[str, Field(min_length=1, max_length=120)]
 
 
 class InterlockSection(StrictNumbers):
-    """What every interlock has."""
+    """The options of every interlock."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     text: Text | None = None
-    """What must hold, as people read it; without it, the station's own words in the language of the page."""
+    """Text of the condition for users; by default, the text of the station in the language of the page."""
 
 
 class AllDevicesAnswer(InterlockSection):
@@ -25,59 +25,60 @@ class AllDevicesAnswer(InterlockSection):
 
 
 class DrivesAreReady(InterlockSection):
-    """`[interlocks.drives]`: no drive shows an alarm, and none loses its power in motion."""
+    """`[interlocks.drives]`: no drive has an alarm, and no drive loses its power during motion."""
 
 
 class ArmIsInside(InterlockSection):
-    """`[interlocks.workspace]`: the arm stands within its workspace when a run starts."""
+    """`[interlocks.workspace]`: the arm is inside its workspace when a run starts."""
 
     outside_mm: Annotated[float, Field(ge=0, le=200)] | None = None
-    """How far outside it may stand; without it `[limits] swing_mm`."""
+    """Permitted distance outside the workspace; by default `[limits] swing_mm`."""
 
 
 class ScaleReads(InterlockSection):
-    """`[interlocks.scale]`: the scale gives a number."""
+    """`[interlocks.scale]`: the scale gives a valid value."""
 
 
 class ScaleTravels(InterlockSection):
-    """`[interlocks.travel]`: the scale moves as far as the joints say, on the way and at each reading."""
+    """`[interlocks.travel]`: the travel of the scale agrees with the joints, during motion and at each
+    reading."""
 
     error_mm: Annotated[float, Field(gt=0, le=500)] | None = None
-    """How far the two may differ; without it `[limits] travel_error_mm`."""
+    """Permitted difference; by default `[limits] travel_error_mm`."""
 
 
 class JointsFollow(InterlockSection):
-    """`[interlocks.following_error]`: each joint keeps to its way, and arrives."""
+    """`[interlocks.following_error]`: each joint follows its path and reaches its target."""
 
     error_deg: Annotated[float, Field(gt=0, le=10)] | None = None
-    """How far a moving joint may leave its way; without it `[limits] corridor_deg`."""
+    """Permitted deviation of a moving joint from its path; by default `[limits] corridor_deg`."""
 
 
 class OnLineOfDrives(InterlockSection):
-    """A value in a register of something on the Modbus line of the drives: a drive or an input module."""
+    """A value in a register of a device on the Modbus line of the drives: a drive or an input module."""
 
     unit: Annotated[int, Field(ge=1, le=247)]
     """Address of the drive or module on the line."""
     address: Annotated[int, Field(ge=0, le=0xFFFF)]
-    """Of the holding register, as on the wire."""
+    """Address of the holding register, as on the wire."""
 
 
 class GuardDoor(OnLineOfDrives):
-    """`[interlocks.guard_door]`: a digital input says that the guard door is closed.  Without this section
-    there is no such input."""
+    """`[interlocks.guard_door]`: a digital input shows that the guard door is closed.  Without this
+    section there is no such input."""
 
     bit: Annotated[int, Field(ge=0, le=15)]
-    """Which bit of the register is the input; 0 is the lowest."""
+    """Bit of the register that is the input; 0 is the lowest."""
     closed: Annotated[int, Field(ge=0, le=1)] = 1
-    """What the bit is while the door is closed."""
+    """Value of the bit while the door is closed."""
 
 
 class TemperatureWindow(OnLineOfDrives):
-    """`[interlocks.temperature]`: a thermometer shows a temperature at which the machine may be measured.
-    Without this section there is no thermometer."""
+    """`[interlocks.temperature]`: a thermometer shows a temperature inside the permitted range.  Without this
+    section there is no thermometer."""
 
     factor_c: Annotated[float, Field(gt=0, le=100)] = 0.1
-    """Degrees Celsius for each count of the register, which is signed."""
+    """Degrees Celsius per count of the register, which is signed."""
     low_c: Annotated[float, Field(ge=-100, le=300)]
     """Lowest temperature, degrees Celsius."""
     high_c: Annotated[float, Field(ge=-100, le=300)]
@@ -92,7 +93,7 @@ class TemperatureWindow(OnLineOfDrives):
 
 class ReferenceCheck(InterlockSection):
     """`[interlocks.reference_check]`: the last check of a reference robot has passed and is still valid
-    (`[limits] check_valid_h`) when a run of another robot starts.  Without this section nobody asks."""
+    (`[limits] check_valid_h`) when a run of another robot starts.  Without this section it is not checked."""
 
     robot: Annotated[str, Field(min_length=1, max_length=64)]
     """Serial number of the reference robot."""

@@ -49,7 +49,7 @@ class HeidenhainSettings(DriverSettings):
     """Options of `protocol = "heidenhain-nd"`."""
 
     timeout_s: Seconds = 1.0
-    """How long a reply may take."""
+    """Longest time that a reply may take."""
 
 
 class HeidenhainND(Readout):

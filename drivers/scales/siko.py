@@ -49,9 +49,9 @@ class SikoSettings(DriverSettings):
     address: Annotated[int, Field(ge=1, le=31)] = 1
     """Address of the head on its line."""
     resolution_mm: Annotated[float, Field(gt=0, le=10)] = 0.01
-    """Length of one count, as the head is set: 0.01 or 0.005."""
+    """Length of one count, as set in the head: 0.01 or 0.005."""
     timeout_s: Seconds = 0.2
-    """How long a reply may take."""
+    """Longest time that a reply may take."""
 
 
 class SikoHead(Readout):

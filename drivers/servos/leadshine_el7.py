@@ -62,7 +62,7 @@ class LeadshineSettings(DriverSettings):
     """Options of `profile = "leadshine-el7"`."""
 
     timeout_s: Seconds = 0.3
-    """The longest time that a drive on this line takes to reply."""
+    """Longest time that a drive on this line takes to reply."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -55,9 +55,9 @@ class OrientalMotorSettings(DriverSettings):
     """Options of `profile = "orientalmotor"`."""
 
     timeout_s: Seconds = 0.3
-    """The longest time that a drive on this line takes to reply."""
+    """Longest time that a drive on this line takes to reply."""
     watchdog_ms: Annotated[int, Field(ge=0, le=10_000)] = 250
-    """A drive that hears nothing for so long stops with alarm 85h; 0 switches that off."""
+    """Time without communication after which a drive stops with alarm 85h; 0: off."""
 
 
 class OrientalMotorBLVR(OnBus):

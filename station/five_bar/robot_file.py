@@ -246,11 +246,11 @@ Sign = Literal[-1, 1]
 
 class _ToleranceSection(Section):
     e_mm: Positive = 0.03
-    """Of each coordinate of the base joints."""
+    """Tolerance of each coordinate of the base joints."""
     link_mm: Positive = 0.03
-    """Of each link length."""
+    """Tolerance of each link length."""
     zero_offset_deg: Positive = 3.0
-    """Of each zero offset."""
+    """Tolerance of each zero offset."""
 
 
 class _RobotSection(Section):
@@ -259,16 +259,16 @@ class _RobotSection(Section):
     model: Literal["five-bar"] = "five-bar"
     """Kind of machine."""
     type: Annotated[str, Field(min_length=1, max_length=64)] | None = None
-    """Type designation: the spread of geometry over robots of one type is the prior of the next; quality and
-    trend are shown by type."""
+    """Type designation: the geometry of earlier robots of a type is the prior of the next one; quality and
+    trend can be shown by type."""
     accuracy_mm: Positive | None = None
-    """Largest position error over the workspace that is wanted of a calibration, mm."""
+    """Wanted accuracy of a calibration: largest position error over the workspace, mm."""
     e: tuple[tuple[Finite, Finite], tuple[Finite, Finite]] = Robot.e
     """Base joints 1 and 2, (x, y), mm."""
     L: Positive | tuple[Positive, Positive] = Robot.L
-    """Proximal links, mm; one number is both."""
+    """Lengths of the proximal links, mm; one number applies to both."""
     l: Positive | tuple[Positive, Positive] = Robot.l  # noqa: E741
-    """Distal links, mm; one number is both."""
+    """Lengths of the distal links, mm; one number applies to both."""
     tolerance: _ToleranceSection = _ToleranceSection()
 
 
@@ -276,22 +276,22 @@ class _MechanismSection(Section):
     c: tuple[Finite, Finite] = Robot.c
     """Mounting point of the mechanism, mm."""
     d: tuple[Finite, Finite] = Robot.d
-    """From there to the pivot of the scale, mm."""
+    """Vector from the mounting point to the pivot of the scale, mm."""
     drm_mm: tuple[Finite, Finite] = Robot.drm
     """Expected mounting error, mm."""
     drm_sd_mm: Positive | tuple[Positive, Positive] = Robot.drm_sd
-    """How well it is known, mm."""
+    """Standard uncertainty of the mounting error, mm."""
     reference: tuple[MountingError, ...] = ()
-    """Measured errors of the mounting; they last until the mechanism is mounted anew."""
+    """Measured errors of the mounting; they are valid until the mechanism is remounted."""
     mounts: dict[str, tuple[Finite, Finite]] = Field(default_factory=dict)
-    """Further mounting points c by the `mount` id of the measurement file, mm."""
+    """Further mounting points c, mm, by the `mount` id of the measurement file."""
 
 
 class _WorkspaceSection(Section):
     x: tuple[Finite, Finite] = Robot.workspace_x
-    """From, to, mm."""
+    """Lower and upper limit, mm."""
     y: tuple[Finite, Finite] = Robot.workspace_y
-    """From, to, mm."""
+    """Lower and upper limit, mm."""
 
 
 class _JointsSection(Section):
@@ -302,13 +302,13 @@ class _JointsSection(Section):
     zero_at_deg: tuple[Finite, Finite] = Robot.zero_at_deg
     """Joint angles at the zeros of the drives."""
     sign: Sign | tuple[Sign, Sign] = Robot.sign  # type: ignore[assignment]
-    """1 if a joint angle grows with the pulses of its drive, else -1; one number is both."""
+    """1 if a joint angle increases with the pulses of its drive, else -1; one number applies to both."""
     feedback_sd_deg: Annotated[float, Field(ge=0, allow_inf_nan=False)] | None = None
-    """What the feedback leaves open of the true angle; by default the unresolved part of one pulse."""
+    """Standard uncertainty of the joint angle from the feedback; by default that of one pulse."""
 
 
 class RobotFile(Section):
-    """The sections of contract.md's robot file."""
+    """The sections of the robot file."""
 
     robot: _RobotSection = _RobotSection()
     mechanism: _MechanismSection = _MechanismSection()

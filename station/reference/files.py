@@ -24,17 +24,17 @@ MEANING = {
     "reading": ("", "unique id"),
     "t_s": ("s", "time since the start"),
     "theta": ("deg", "joint angle from the feedback of the drive, in the nominal frame"),
-    "approach": ("-1, 0, 1", "sign of the last motion of the joint before the stop; 0 is unknown"),
+    "approach": ("-1, 0, 1", "sign of the last motion of the joint before the reading; 0: unknown"),
     "scale_mm": ("mm", "reading of the scale, with any constant offset"),
     "range_mm": ("mm", "distance from the fixed point of the instrument to the target"),
     "position": (
         "",
-        "id of the position; rows that share it are repeats, or other approaches of one position",
+        "id of the position; rows with the same id are repeats or other approaches of the same position",
     ),
     "temperature_c": ("°C", "temperature of the machine"),
     "payload_kg": ("kg", "mass at the end of the machine"),
-    "mount": ("", "id of the mounting point of the mechanism; each has an offset of its own"),
-    "setup": ("", "id of the set-up of base and instrument; each has a base frame of its own"),
+    "mount": ("", "id of the mounting point of the mechanism; each has its own offset"),
+    "setup": ("", "id of the set-up of base and instrument; each has its own base frame"),
     "tracker": ("mm", "independent measurement of the position"),
 }
 """Unit and meaning of each column, without the number of a joint or the letter of an axis."""
@@ -48,9 +48,9 @@ def station_file_page() -> str:
     ]
     return page(
         "Station file",
-        "TOML. Every option has a default unless it says *required*; an option that does not exist is refused. "
+        "TOML. Every option has a default unless it is *required*; an unknown option is refused. "
         "Without a file, and without `[scale]` and `[servo]`, the station runs on the emulated rig. "
-        "A relative path counts from the folder of the station file. "
+        "A relative path starts at the folder of the station file. "
         "An example is [station.toml](../examples/station.toml).",
         *_sections(Settings, ""),
         *drivers,
@@ -61,7 +61,7 @@ def robot_file_page() -> str:
     """Sections of the five-bar's file and of the arm's."""
     return page(
         "Robot file",
-        "TOML. `[robot] model` decides which sections there are. Without a file: the five-bar of the paper's Table 1. "
+        "TOML. `[robot] model` determines which sections exist. Without a file, the robot is the five-bar of Table 1 of the paper. "
         "Lengths in mm, angles in degrees; tolerances are standard deviations.",
         section("Five-bar"),
         *_sections(RobotFile, "", level=3),
@@ -84,7 +84,7 @@ def measurement_file_page() -> str:
     return page(
         "Measurement file",
         "CSV, UTF-8, with a header row, commas and decimal points. Unknown columns are ignored with a warning. "
-        "Anything malformed is refused with the row, the column and what to do.",
+        "A malformed file is refused; the message states the row, the column and the remedy.",
         section("Five-bar", "", _columns(FIVE_BAR)),
         section(
             "Serial arm",
@@ -115,13 +115,13 @@ def _driver(place: str, choice: str, name: str, settings: type[DriverSettings]) 
     return section(
         f'[{place}] with {choice} = "{name}"',
         "",
-        f"Options of this driver stand in `[{place}]`, or in `[{place}.{name}]`.",
+        f"The options of this driver are in `[{place}]` or in `[{place}.{name}]`.",
         _options(settings),
     )
 
 
 def _sections(model: type[BaseModel], name: str, level: int = 2) -> Iterator[str]:
-    title = f"[{name}]" if name else "At the top"
+    title = f"[{name}]" if name else "Top level"
     options = _options(model)
     if options:
         yield section(title, "", _summary(model) if name else "", options, level=level)
@@ -134,7 +134,7 @@ def _sections(model: type[BaseModel], name: str, level: int = 2) -> Iterator[str
 def _summary(model: type[BaseModel]) -> str:
     text = (model.__doc__ or "").strip().split("\n\n")[0]
     text = text.partition(": ")[2].strip() if text.startswith("`[") else ""
-    return text[:1].upper() + text[1:].replace("  ", " ")
+    return text[:1].upper() + " ".join(text[1:].split())
 
 
 def _options(model: type[BaseModel]) -> str:
@@ -155,8 +155,9 @@ def _model_of(annotation: Any) -> type[BaseModel] | None:
 
 
 def _kind(field: FieldInfo) -> str:
-    bounds = [text for item in field.metadata if (text := _bound(item))]
-    return ", ".join([_named(field.annotation), *bounds])
+    kind = _named(field.annotation)
+    bounds = [text for item in field.metadata if (text := _bound(item, kind))]
+    return ", ".join([kind, *bounds])
 
 
 def _named(annotation: Any) -> str:
@@ -167,17 +168,17 @@ def _named(annotation: Any) -> str:
     if get_origin(annotation) in (Union, types.UnionType):
         return " or ".join(dict.fromkeys(_named(a) for a in get_args(annotation) if a is not type(None)))
     if get_origin(annotation) in (tuple, list):
-        inner = [a for a in get_args(annotation) if a is not ...]
-        return f"list of {len(inner)}" if get_origin(annotation) is tuple else "list"
+        inner = get_args(annotation)
+        return "list" if get_origin(annotation) is list or ... in inner else f"list of {len(inner)}"
     if get_origin(annotation) is dict:
         return "table"
     bare = get_args(annotation)[0] if get_args(annotation) else annotation
-    return {float: "number", int: "whole number", str: "text"}.get(
+    return {float: "number", int: "whole number", str: "text", bool: "`true` or `false`"}.get(
         bare, getattr(bare, "__name__", "text").lower()
     )
 
 
-def _bound(item: Any) -> str:
+def _bound(item: Any, kind: str) -> str:
     if isinstance(item, Ge):
         return f"at least {item.ge}"
     if isinstance(item, Gt):
@@ -186,7 +187,11 @@ def _bound(item: Any) -> str:
         return f"at most {item.le}"
     if isinstance(item, Lt):
         return f"below {item.lt}"
-    return f"at least {item.min_length} characters" if isinstance(item, MinLen) else ""
+    if not isinstance(item, MinLen):
+        return ""
+    if kind != "text":
+        return f"at least {item.min_length} {'entry' if item.min_length == 1 else 'entries'}"
+    return "not empty" if item.min_length == 1 else f"at least {item.min_length} characters"
 
 
 def _default(field: FieldInfo) -> str:
@@ -195,10 +200,14 @@ def _default(field: FieldInfo) -> str:
     value = field.get_default(call_default_factory=True)
     if value is None or value == {}:
         return ""
-    return code(f'"{value}"' if isinstance(value, str) else _plain(value))
+    return code(_plain(value))
 
 
 def _plain(value: Any) -> str:
     if isinstance(value, tuple | list):
         return f"[{', '.join(_plain(v) for v in value)}]"
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f'"{value}"'
     return f"{value:g}" if isinstance(value, float) else str(value)

@@ -1,4 +1,4 @@
-"""Everything that documents, REST and the database call by an identifier, with its name and its sentence."""
+"""The identifiers in documents, REST and the database, with their names and explanations."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ def names_page() -> str:
     """Plans, kinds of run, states, verdicts, outcomes, effects, reasons."""
     return page(
         "Names",
-        "What documents, REST and the database call by an identifier.",
+        "The identifiers in documents, REST and the database, with their display names.",
         section(
             "Plans", _named("plans", PLANS, ("measured by", {p.name: p.run_kind for p in PLANS.values()}))
         ),
@@ -30,7 +30,7 @@ def names_page() -> str:
         section(
             "Reasons",
             "",
-            "`reason_code` with the sentence that `reason_params` complete.",
+            "`reason_code`, and the sentence into which `reason_params` are inserted.",
             table(("code", "sentence"), ((code(c), code(text)) for c, text in reasons().items())),
         ),
     )

@@ -40,8 +40,8 @@ def roles_page() -> str:
     return page(
         "Roles",
         "Every route declares one permission; a role is a set of permissions. `GET /healthz` and `/readyz`, the files of the "
-        "page and `/docs` need none. Where the station is open (the emulated rig on a loopback address) whoever shows no key may do "
-        "everything; whoever shows one has its role there, too.",
+        "page and `/docs` need no permission. At an open station (the emulated rig on a loopback address), a request without a key "
+        "has all permissions; a request with a key has the role of the key.",
         section(
             "Permissions",
             table(
@@ -49,8 +49,8 @@ def roles_page() -> str:
                 ((code(p), *(_mark(role in ALLOWED[p]) for role in ROLES)) for p in Permission),
             ),
             "",
-            "`enter` is signing in and out: anybody. `stop` from the station's own computer needs no sign-in. With `abort`, the role "
-            "`mes` ends only runs that it started itself.",
+            "`enter` is the permission to sign in and out; everybody has it. `stop` from the computer of the station needs no "
+            "sign-in. With `abort`, the role `mes` can end only the runs that it started itself.",
         ),
         section(
             "Routes",

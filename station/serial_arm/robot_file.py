@@ -42,7 +42,8 @@ class Arm:
     tool_mm: Triple = (0.0, 0.0, 0.0)
     tool_sd_mm: float = 300.0
     reading_sd_mm: float = 0.05
-    """Of one coordinate or distance: instrument and repeatability of the arm together."""
+    """Standard uncertainty of one coordinate or distance: instrument and repeatability of the arm
+    together."""
     joint_kinds: tuple[JointKind, ...] = ()
     """One a joint; by default all turn."""
     gravity: Triple = (0.0, 0.0, -1.0)
@@ -117,11 +118,11 @@ class Arm:
 
 class _ToleranceSection(Section):
     zero_offset_deg: Positive = ArmTolerances.zero_offset_deg
-    """Of each zero offset."""
+    """Tolerance of each zero offset."""
     length_mm: Positive = ArmTolerances.length_mm
-    """Of each length of a link."""
+    """Tolerance of each length of a link."""
     angle_deg: Positive = ArmTolerances.angle_deg
-    """Of each angle between links."""
+    """Tolerance of each angle between links."""
 
 
 class _RobotSection(Section):
@@ -140,7 +141,7 @@ class _RobotSection(Section):
     offset_deg: list[Finite] | None = None
     """Joint angles at the zeros of the drives; by default 0."""
     joints: list[JointKind] | None = None
-    """Whether each joint turns (`revolute`, the default) or slides along z (`prismatic`)."""
+    """Type of each joint: `revolute` (the default) or `prismatic`, which moves along z."""
     gravity: tuple[Finite, Finite, Finite] = Arm.gravity
     """Direction of gravity in the frame of the base."""
     tolerance: _ToleranceSection = _ToleranceSection()
@@ -148,14 +149,15 @@ class _RobotSection(Section):
 
 class _ToolSection(Section):
     position_mm: tuple[Finite, Finite, Finite] = Arm.tool_mm
-    """Of the target, in the frame of the last link."""
+    """Position of the target in the frame of the last link."""
     sd_mm: Positive = Arm.tool_sd_mm
-    """How well that is known."""
+    """Standard uncertainty of this position."""
 
 
 class _InstrumentSection(Section):
     sd_mm: Positive = Arm.reading_sd_mm
-    """Of one coordinate or distance: instrument and repeatability of the arm together."""
+    """Standard uncertainty of one coordinate or distance: instrument and repeatability of the arm
+    together."""
 
 
 class ArmFile(Section):
