@@ -159,20 +159,22 @@ def transfer_command(
     if json_file:
         write_json(json_file, {"data": describe(data, found.readings).model_dump(), **asdict(found)})
     console = Console(highlight=False)
-    console.print(f"{found.inside} of {found.readings} readings stand where the effects were learned.")
+    console.print(
+        f"{found.inside} of {found.readings} readings are in the joint ranges of the learned effects."
+    )
     if found.determined < found.inside:
         console.print(
-            f"{found.inside - found.determined} of them are not judged: without their own block, "
-            "tool and base are not known well enough to say where they are."
+            f"{found.inside - found.determined} of them are not evaluated: without their own block, "
+            "tool and base are not known well enough to predict them."
         )
     for outlier in found.outliers:
         console.print(f"Left out: reading {outlier.reading}, {outlier.reason}.")
     table = Table("readings left out of the fit, mm", "rms", "median", "largest")
-    rows = [("mechanism alone", found.alone), ("with the effects, unchanged", found.applied)]
+    rows = [("without effects", found.alone), ("with effects, unchanged", found.applied)]
     if found.beyond:
         rows += [
-            ("alone, gaps of the learned range too", found.beyond[0]),
-            ("with the effects", found.beyond[1]),
+            ("without effects, also in gaps of the ranges", found.beyond[0]),
+            ("with effects, also in gaps of the ranges", found.beyond[1]),
         ]
     for name, e in rows:
         table.add_row(name, f"{e.rms_mm:.4f}", f"{e.median_mm:.4f}", f"{e.max_mm:.4f}")
@@ -253,4 +255,4 @@ def _print_position_errors(console: Console, findings: Findings) -> None:
                 f"largest {before.max:.4f} and {after.max:.4f} mm."
             )
             if after.bound_95 is not None:
-                console.print(f"With 95 % probability no error is above {after.bound_95:.4f} mm.")
+                console.print(f"With 95 % probability, no error exceeds {after.bound_95:.4f} mm.")

@@ -76,6 +76,6 @@ def reference_line(use: ReferenceUse) -> str:
     if use.residual is None or use.p_value is None:
         return f"{use.reference.words}: no other measurement supports it."
     return (
-        f"{use.reference.words}: {use.residual:+.4f} {use.unit} from what everything else says,"
+        f"{use.reference.words}: {use.residual:+.4f} {use.unit} from the value of all other data,"
         f" standard uncertainty {use.sd or 0.0:.4f} (p = {use.p_value:.2g})."
     )

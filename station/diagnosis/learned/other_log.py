@@ -91,8 +91,8 @@ def transfer(
     needed = FEWEST_AN_UNKNOWN * len(mechanism.parameters)
     if inside.sum() < needed:
         raise InputRefused(
-            f"Only {int(inside.sum())} of {len(readings)} readings stand where the effects were learned; "
-            f"{needed} are needed to judge them."
+            f"Only {int(inside.sum())} of {len(readings)} readings are in the joint ranges of the "
+            f"learned effects; {needed} are needed to evaluate them."
         )
     off = _off(mechanism.of(readings.take(inside)), terms, part)
     named = {o.reading for o in off}

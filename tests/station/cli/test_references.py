@@ -50,7 +50,7 @@ def test_they_take_part(data: Path, tmp_path: Path) -> None:
     found = json.loads(out.read_text())
     assert found["zero_offsets"][0]["sd_deg"] < 0.006 < 0.03 < without["zero_offsets"][0]["sd_deg"]
     assert [use["reference"]["kind"] for use in found["references"]] == ["joint_angle", "drm_x"]
-    assert "from what everything else says" in result.output
+    assert "from the value of all other data" in result.output
 
 
 @pytest.mark.parametrize(

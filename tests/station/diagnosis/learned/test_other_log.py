@@ -69,5 +69,5 @@ def test_in_a_gap_the_curve_is_not_applied(arm: SimulatedArm, part: ModelDocumen
 def test_where_nothing_was_learned_nothing_is_judged(arm: SimulatedArm, part: ModelDocument) -> None:
     theta = random_poses(6, 400, 12)
     theta[:, 1] = np.radians(np.random.default_rng(1).uniform(*GAP_DEG, 400))
-    with pytest.raises(InputRefused, match="readings stand where the effects were learned"):
+    with pytest.raises(InputRefused, match="readings are in the joint ranges of the learned effects"):
         transfer(part, arm.robot, arm.log(theta, 12), "first")
