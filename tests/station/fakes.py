@@ -175,6 +175,11 @@ def stop_at(position: str, x: float, y: float, approach: tuple[int, int] = (0, 0
     return Stop(position, (x, y), (float(theta[0]), float(theta[1])), approach)
 
 
+def stop_with(position: str, theta_deg: tuple[float, float], approach: tuple[int, int] = (0, 0)) -> Stop:
+    P = complex(forward(GEOMETRY, np.radians([theta_deg]))[0])
+    return Stop(position, (P.real, P.imag), theta_deg, approach)
+
+
 STOPS = (
     stop_at("p1", -200.0, -640.0),
     stop_at("p2", 0.0, -640.0, (1, -1)),
