@@ -104,11 +104,13 @@ def readings_before(m: Measurements, reference: Reference | None) -> Real:
 def last_way(m: Measurements, came_from: Real) -> tuple[Real, Flags]:
     """(K, n) by what each joint came to its reading, rad, NaN where unknown; and (K,) where by a run-up.
 
-    That is so where the recorded approach is not that of the way from the reading before.
+    That is so where the recorded approach is not that of the way from the reading before, or the way is
+    shorter than a run-up.
     """
     way = m.theta - came_from[:, :-1]
     way[np.abs(way) < SAME_PLACE_RAD] = 0.0
-    run_up = ((m.approach != 0) & (m.approach != np.sign(way))).any(axis=1)
+    short = np.abs(way) < RUN_UP_RAD
+    run_up = ((m.approach != 0) & (short | (m.approach != np.sign(way)))).any(axis=1)
     return np.where(run_up[:, None], RUN_UP_RAD * m.approach, way), run_up
 
 

@@ -1,7 +1,7 @@
 /** What the station says in English only, in the page's language. */
 import { local } from "../format";
 import { t } from "./index";
-import { language } from "./language";
+import { writing } from "./language";
 
 const BETWEEN = /(?<=[.?!]) (?=[A-Z])/;
 /** Of a sentence: `{}` stands for a number, `{name}` for words, `{name_text}` for whole sentences. */
@@ -63,7 +63,7 @@ function inPieces(text: string): string {
     pieces.push(piece ?? sentences[from]!);
     from = piece === undefined ? from + 1 : to + 1;
   }
-  return pieces.join(language === "zh" ? "" : " ");
+  return pieces.join(writing.between);
 }
 
 function whole(text: string): string | undefined {
