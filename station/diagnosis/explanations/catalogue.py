@@ -15,7 +15,9 @@ from station.diagnosis.explanations.structured_families import structured_famili
 
 
 def catalogue(s: Situation, lengths: Mapping[str, float], *, thermometer: bool) -> tuple[Family, ...]:
-    """For the readings of `s`, nominal lengths by name (mm), and whether a temperature was recorded."""
+    """Families for the readings of `s`, nominal lengths by name (mm), and whether a temperature was
+    recorded.
+    """
     return (
         *rough_families(s, lengths, thermometer=thermometer),
         *smooth_families(s),

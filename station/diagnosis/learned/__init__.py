@@ -1,4 +1,6 @@
-"""What a diagnosis learned, kept and used: the model file, commands under it, its effects on another log."""
+"""The result of a diagnosis, stored and used: the model file, commands with it, its effects on another
+log.
+"""
 
 from __future__ import annotations
 
