@@ -1,4 +1,6 @@
-"""The robot file of a serial arm: Denavit-Hartenberg links, tolerances, what is measured and how well."""
+"""The robot file of a serial arm: Denavit-Hartenberg links, tolerances, the measured quantity and its
+uncertainty.
+"""
 
 from __future__ import annotations
 
@@ -20,7 +22,7 @@ ARM_MODEL = "serial-dh"
 
 @dataclass(frozen=True)
 class ArmTolerances:
-    """Standard deviations of what is not known better."""
+    """Standard deviations of the nominal values."""
 
     zero_offset_deg: float = 1.0
     length_mm: float = 1.0
@@ -42,15 +44,15 @@ class Arm:
     tool_mm: Triple = (0.0, 0.0, 0.0)
     tool_sd_mm: float = 300.0
     reading_sd_mm: float = 0.05
-    """Of one coordinate or distance: instrument and repeatability of the arm together."""
+    """Standard deviation of one coordinate or distance: instrument and repeatability of the arm together."""
     joint_kinds: tuple[JointKind, ...] = ()
-    """One a joint; by default all turn."""
+    """One per joint; by default all rotate."""
     gravity: Triple = (0.0, 0.0, -1.0)
-    """Its direction in the frame of the base."""
+    """Direction of gravity in the frame of the base."""
 
     @classmethod
     def from_dict(cls, data: Sections, *, source: str = "robot") -> Arm:
-        """From the robot file's sections.  :raises InputRefused: with section and key."""
+        """From the robot file's sections.  :raises InputRefused: the error gives section and key."""
         try:
             return ArmFile.model_validate(data).to_arm(source)
         except ValidationError as error:
@@ -86,7 +88,7 @@ class Arm:
 
     @property
     def sliding(self) -> tuple[int, ...]:
-        """Joints that slide, from 1."""
+        """Joints that slide, counted from 1."""
         return tuple(i + 1 for i, kind in enumerate(self.joint_kinds) if kind == "prismatic")
 
     @property
@@ -103,7 +105,7 @@ class Arm:
 
     @property
     def columns(self) -> Columns:
-        """What its measurement file holds."""
+        """The columns of its measurement file."""
         return Columns(
             joints=self.joints,
             distance="range_mm",
@@ -117,11 +119,11 @@ class Arm:
 
 class _ToleranceSection(Section):
     zero_offset_deg: Positive = ArmTolerances.zero_offset_deg
-    """Of each zero offset."""
+    """Standard deviation of each zero offset."""
     length_mm: Positive = ArmTolerances.length_mm
-    """Of each length of a link."""
+    """Standard deviation of each length of a link."""
     angle_deg: Positive = ArmTolerances.angle_deg
-    """Of each angle between links."""
+    """Standard deviation of each angle between links."""
 
 
 class _RobotSection(Section):
@@ -140,7 +142,7 @@ class _RobotSection(Section):
     offset_deg: list[Finite] | None = None
     """Joint angles at the zeros of the drives; by default 0."""
     joints: list[JointKind] | None = None
-    """Whether each joint turns (`revolute`, the default) or slides along z (`prismatic`)."""
+    """Whether each joint rotates (`revolute`, the default) or slides along z (`prismatic`)."""
     gravity: tuple[Finite, Finite, Finite] = Arm.gravity
     """Direction of gravity in the frame of the base."""
     tolerance: _ToleranceSection = _ToleranceSection()
@@ -148,14 +150,14 @@ class _RobotSection(Section):
 
 class _ToolSection(Section):
     position_mm: tuple[Finite, Finite, Finite] = Arm.tool_mm
-    """Of the target, in the frame of the last link."""
+    """Position of the target, in the frame of the last link."""
     sd_mm: Positive = Arm.tool_sd_mm
-    """How well that is known."""
+    """Standard deviation of that position."""
 
 
 class _InstrumentSection(Section):
     sd_mm: Positive = Arm.reading_sd_mm
-    """Of one coordinate or distance: instrument and repeatability of the arm together."""
+    """Standard deviation of one coordinate or distance: instrument and repeatability of the arm together."""
 
 
 class ArmFile(Section):
@@ -166,7 +168,7 @@ class ArmFile(Section):
     instrument: _InstrumentSection = _InstrumentSection()
 
     def to_arm(self, source: str) -> Arm:
-        """:raises InputRefused: lists of different lengths."""
+        """:raises InputRefused: the lists have different lengths."""
         robot = self.robot
         joints = len(robot.a_mm)
         offset = robot.offset_deg if robot.offset_deg is not None else [0.0] * joints
