@@ -11,7 +11,9 @@ from station.settings import JointSettings
 
 
 def check_fits(robot: Robot, joints: Sequence[JointSettings]) -> None:
-    """:raises InputRefused: its joints are scaled otherwise than the drives; names the first that is."""
+    """:raises InputRefused: the scaling of its joints differs from that of the drives; the error names the
+    first such joint.
+    """
     for joint, settings in enumerate(joints, start=1):
         wanted, has = asdict(robot.scaling(joint)), asdict(settings.scaling)
         differing = [f"{key} {wanted[key]} instead of {has[key]}" for key in has if wanted[key] != has[key]]
