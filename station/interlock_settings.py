@@ -1,4 +1,4 @@
-"""`[interlocks]` of the station file: what must hold before and during motion, as data."""
+"""`[interlocks]` of the station file: conditions before and during motion, as data."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ Text = Annotated[str, Field(min_length=1, max_length=120)]
 
 
 class InterlockSection(StrictNumbers):
-    """What every interlock has."""
+    """Common options of all interlocks."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
     text: Text | None = None
-    """What must hold, as people read it; without it, the station's own words in the language of the page."""
+    """The condition, as shown to people; by default, the station's own text in the language of the page."""
 
 
 class AllDevicesAnswer(InterlockSection):
@@ -25,56 +25,58 @@ class AllDevicesAnswer(InterlockSection):
 
 
 class DrivesAreReady(InterlockSection):
-    """`[interlocks.drives]`: no drive shows an alarm, and none loses its power in motion."""
+    """`[interlocks.drives]`: no drive shows an alarm, and none loses its power during motion."""
 
 
 class ArmIsInside(InterlockSection):
-    """`[interlocks.workspace]`: the arm stands within its workspace when a run starts."""
+    """`[interlocks.workspace]`: the arm is within its workspace when a run starts."""
 
     outside_mm: Annotated[float, Field(ge=0, le=200)] | None = None
-    """How far outside it may stand; without it `[limits] swing_mm`."""
+    """How far outside it may be; by default `[limits] swing_mm`."""
 
 
 class ScaleReads(InterlockSection):
-    """`[interlocks.scale]`: the scale gives a number."""
+    """`[interlocks.scale]`: the scale returns a value."""
 
 
 class ScaleTravels(InterlockSection):
-    """`[interlocks.travel]`: the scale moves as far as the joints say, on the way and at each reading."""
+    """`[interlocks.travel]`: the scale's travel agrees with the joints, during motion and at each reading."""
 
     error_mm: Annotated[float, Field(gt=0, le=500)] | None = None
-    """How far the two may differ; without it `[limits] travel_error_mm`."""
+    """Allowed difference between the two; by default `[limits] travel_error_mm`."""
 
 
 class JointsFollow(InterlockSection):
-    """`[interlocks.following_error]`: each joint keeps to its way, and arrives."""
+    """`[interlocks.following_error]`: each joint stays on its path, and arrives."""
 
     error_deg: Annotated[float, Field(gt=0, le=10)] | None = None
-    """How far a moving joint may leave its way; without it `[limits] corridor_deg`."""
+    """Allowed deviation of a moving joint from its path; by default `[limits] corridor_deg`."""
 
 
 class OnLineOfDrives(InterlockSection):
-    """A value in a register of something on the Modbus line of the drives: a drive or an input module."""
+    """A value in a register of a unit on the Modbus line of the drives: a drive or an input module."""
 
     unit: Annotated[int, Field(ge=1, le=247)]
     """Address of the drive or module on the line."""
     address: Annotated[int, Field(ge=0, le=0xFFFF)]
-    """Of the holding register, as on the wire."""
+    """Address of the holding register, as on the wire."""
 
 
 class GuardDoor(OnLineOfDrives):
-    """`[interlocks.guard_door]`: a digital input says that the guard door is closed.  Without this section
-    there is no such input."""
+    """`[interlocks.guard_door]`: a digital input confirms that the guard door is closed. Without this section
+    there is no such input.
+    """
 
     bit: Annotated[int, Field(ge=0, le=15)]
-    """Which bit of the register is the input; 0 is the lowest."""
+    """Bit of the register; 0 is the lowest."""
     closed: Annotated[int, Field(ge=0, le=1)] = 1
-    """What the bit is while the door is closed."""
+    """Value of the bit while the door is closed."""
 
 
 class TemperatureWindow(OnLineOfDrives):
     """`[interlocks.temperature]`: a thermometer shows a temperature at which the machine may be measured.
-    Without this section there is no thermometer."""
+    Without this section there is no thermometer.
+    """
 
     factor_c: Annotated[float, Field(gt=0, le=100)] = 0.1
     """Degrees Celsius for each count of the register, which is signed."""
@@ -92,14 +94,15 @@ class TemperatureWindow(OnLineOfDrives):
 
 class ReferenceCheck(InterlockSection):
     """`[interlocks.reference_check]`: the last check of a reference robot has passed and is still valid
-    (`[limits] check_valid_h`) when a run of another robot starts.  Without this section nobody asks."""
+    (`[limits] check_valid_h`) when a run of another robot starts. Without this section it is not required.
+    """
 
     robot: Annotated[str, Field(min_length=1, max_length=64)]
     """Serial number of the reference robot."""
 
 
 class InterlockSettings(StrictNumbers):
-    """`[interlocks]`: each is a table of its own.  What is left out holds with its default limits."""
+    """`[interlocks]`: each interlock is a separate table. Omitted ones apply with their default limits."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -115,7 +118,7 @@ class InterlockSettings(StrictNumbers):
 
     @property
     def reads_registers(self) -> bool:
-        """Whether something beside the drives has to be asked."""
+        """Whether units other than the drives have to be queried."""
         return self.guard_door is not None or self.temperature is not None
 
     @model_validator(mode="before")

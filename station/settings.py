@@ -32,12 +32,12 @@ Finite = Annotated[float, Field(allow_inf_nan=False)]
 
 
 def _beside_the_station_file(path: Path, info: ValidationInfo) -> Path:
-    folder: Path | None = info.context  # None where the settings are no file's
+    folder: Path | None = info.context  # None if the settings are not from a file
     return path if folder is None else folder / path
 
 
 NamedPath = Annotated[Path, AfterValidator(_beside_the_station_file)]
-"""A relative path counts from the folder of the station file, wherever the station is started."""
+"""A relative path is relative to the folder of the station file, wherever the station is started."""
 
 
 class _Section(StrictNumbers):
@@ -45,32 +45,32 @@ class _Section(StrictNumbers):
 
 
 class ScaleSettings(_Section):
-    """`[scale]`: the readout of the linear scale.  All options but `protocol` belong to its driver."""
+    """`[scale]`: the readout of the linear scale. All options except `protocol` belong to its driver."""
 
     protocol: str
-    """Which driver: see the sections of the drivers below."""
+    """Name of the driver: see the sections of the drivers below."""
     options: SerializeAsAny[DriverSettings]
 
     @model_validator(mode="before")
     @classmethod
     def _options_of_its_driver(cls, data: Any) -> Any:
-        # Here, not above: drivers load serial and Modbus libraries, which only a file with devices needs.
+        # Imported here: drivers load serial and Modbus libraries, which only a file with devices needs.
         from drivers.scales import SCALES
 
         return _with_options(data, "protocol", {name: driver.settings for name, driver in SCALES.items()})
 
     def flat(self) -> dict[str, JsonValue]:
-        """As the station file gives it, with every option."""
+        """The section as in the station file, with every option."""
         return {"protocol": self.protocol, **self.options.model_dump(mode="json")}
 
 
 class JointSettings(_Section):
-    """`[[servo.joint]]`: one drive and how its pulses become a joint angle."""
+    """`[[servo.joint]]`: one drive and the conversion of its pulses to a joint angle."""
 
     unit: Annotated[int, Field(ge=1, le=247)]
     """Address of the drive on its line."""
     sign: Annotated[int, Field(ge=-1, le=1, multiple_of=1)] = 1
-    """1 if the joint angle grows with the pulses of the drive, else -1."""
+    """1 if the joint angle increases with the pulses of the drive, otherwise -1."""
     zero_at_deg: Finite
     """Joint angle at the zero of the drive."""
     counts_per_rev: Annotated[int, Field(gt=0)] = 10_000
@@ -78,7 +78,7 @@ class JointSettings(_Section):
     ratio: Annotated[float, Field(gt=0, allow_inf_nan=False)] = 20.0
     """Revolutions of the motor per revolution of the joint."""
     reach_deg: Annotated[float, Field(gt=0, le=180)] = 60.0
-    """How far from `zero_at_deg` the joint may be sent."""
+    """Range of the joint's commands, to either side of `zero_at_deg`."""
 
     @model_validator(mode="after")
     def _sign_is_a_sign(self) -> Self:
@@ -95,23 +95,25 @@ DEFAULT_JOINTS = (JointSettings(unit=1, zero_at_deg=0.0), JointSettings(unit=2, 
 
 
 class ServoSettings(_Section):
-    """`[servo]`: the line of the two drives.  Options but `profile` and `joint` belong to their driver."""
+    """`[servo]`: the line of the two drives. All options except `profile` and `joint` belong to their
+    driver.
+    """
 
     profile: str
-    """Which driver: see the sections of the drivers below."""
+    """Name of the driver: see the sections of the drivers below."""
     options: SerializeAsAny[DriverSettings]
     joint: tuple[JointSettings, JointSettings] = DEFAULT_JOINTS
 
     @model_validator(mode="before")
     @classmethod
     def _options_of_their_driver(cls, data: Any) -> Any:
-        from drivers.servos import SERVOS  # here, not above: as of the scale
+        from drivers.servos import SERVOS  # imported here, as for the scale
 
         known = {name: driver.settings for name, driver in SERVOS.items()}
         return _with_options(data, "profile", known, own=("joint",))
 
     def flat(self) -> dict[str, JsonValue]:
-        """As the station file gives it, with every option."""
+        """The section as in the station file, with every option."""
         joints = [joint.model_dump(mode="json") for joint in self.joint]
         return {"profile": self.profile, "joint": joints, **self.options.model_dump(mode="json")}
 
@@ -139,94 +141,98 @@ def _with_options(
 
 
 class LimitSettings(_Section):
-    """`[limits]`: how the machine is moved and when a reading is believed."""
+    """`[limits]`: limits of motion and conditions for a valid reading."""
 
     speed_deg_s: Annotated[float, Field(gt=0, le=180)] = 30.0
     """Speed of every motion of a joint."""
     workspace_margin_mm: Annotated[float, Field(ge=0, le=50)] = 5.0
     """How far outside the workspace a stop may lie."""
     swing_mm: Annotated[float, Field(ge=0, le=200)] = 80.0
-    """How far outside it the arm may swing on the way, zero offsets not yet known included."""
+    """How far outside it the arm may swing during motion, unknown zero offsets included."""
     settle_s: Annotated[float, Field(ge=0, le=10)] = 0.3
     """Longest wait after standstill for samples that agree; after it they only have to be within
-    `scale_spread_mm`."""
+    `scale_spread_mm`.
+    """
     settled_mm: Annotated[float, Field(ge=0, le=1)] = 0.006
-    """Samples within this of each other agree: the arm has come to rest."""
+    """Samples within this of each other agree: the arm is at rest."""
     samples: Annotated[int, Field(ge=2, le=100)] = 5
     """Samples of the scale in one reading."""
     scale_spread_mm: Annotated[float, Field(gt=0, le=1)] = 0.05
     """Largest minus smallest sample of one reading."""
     feedback_deg: Annotated[float, Field(gt=0, le=1)] = 0.05
-    """How far the feedback may stand from the command."""
+    """Allowed difference between feedback and command."""
     corridor_deg: Annotated[float, Field(gt=0, le=10)] = 2.0
-    """How far a moving joint may leave the way from its start to its target."""
+    """Allowed deviation of a moving joint from the path between its start and its target."""
     overshoot_deg: Annotated[float, Field(gt=0, le=5)] = 0.5
     """Run-up of a stop that must be approached from a given side."""
     prompt_s: Annotated[float, Field(gt=0, le=86400)] = 300.0
-    """How long a run waits for an answer, in real time; then it is made safe and ends."""
+    """How long a run waits for an answer, in real time; then the machine is made safe and the run ends."""
     level_sd_deg: Annotated[float, Field(gt=0, le=1)] = 0.005
-    """Standard uncertainty of a level on a link, as plan `reference` asks for it."""
+    """Standard uncertainty of a level on a link, for plan `reference`."""
     check_valid_h: Annotated[float, Field(gt=0, le=8760)] = 24.0
-    """How long a passed check holds, hours."""
+    """Validity of a passed check, hours."""
     travel_error_mm: Annotated[float, Field(gt=0, le=500)] = 60.0
-    """How far the scale's travel may differ from what the joints say."""
+    """Allowed difference between the scale's travel and that computed from the joints."""
 
 
 class ServiceSettings(_Section):
-    """`[service]`: where the page and the REST interface listen."""
+    """`[service]`: address and limits of the page and the REST interface."""
 
     host: str = "127.0.0.1"
     """Address to listen at; `0.0.0.0` is every address of this computer."""
     port: Annotated[int, Field(ge=0, le=65535)] = 8000
-    """Port to listen at; 0 takes a free one."""
+    """Port to listen at; 0 selects a free one."""
     database: NamedPath | None = None
     """File of the history; by default `station.db` in the home folder."""
     least_free_mb: Annotated[float, Field(ge=0, le=1e6)] = 4.0
-    """No run starts with less room on the disk of the history, MB."""
+    """Minimum free space on the disk of the history for a run to start, MB."""
     open: bool = True
-    """Whether the emulated rig on a loopback address needs no sign-in; any other station always does."""
+    """Whether the emulated rig on a loopback address needs no sign-in; any other station always needs one."""
     hosts: tuple[Annotated[str, Field(pattern=r"^[A-Za-z0-9.\-:\[\]]+$")], ...] = ()
-    """Names under which browsers reach the station, as `station.plant.example` or with `:port`; the address
-    that it listens at and those of loopback are always among them."""
+    """Names under which browsers reach the station, as `station.plant.example` or with `:port`; its own
+    listening address and the loopback addresses are always included.
+    """
     trusted_proxies: tuple[IPvAnyNetwork, ...] = ()
-    """Addresses or networks of reverse proxies whose `X-Forwarded-` headers count."""
+    """Addresses or networks of reverse proxies whose `X-Forwarded-` headers are accepted."""
     sign_off_min: Annotated[float, Field(gt=0, le=1440)] = 60.0
-    """After so many minutes without activity somebody is signed off, but never while a run is under way."""
+    """Minutes without activity after which a user is signed off, but never while a run is active."""
     body_mb: Annotated[float, Field(gt=0, le=100)] = 4.0
     """Largest file in a request, MB; JSON may have 1 MB."""
 
 
 class BackupSettings(_Section):
-    """`[backup]`: copies of the history that the station makes by itself."""
+    """`[backup]`: automatic copies of the history."""
 
     every_h: Annotated[float, Field(gt=0, le=8760)] | None = None
-    """Hours from one to the next; without it only on request."""
+    """Hours between backups; by default only on request."""
     folder: NamedPath | None = None
-    """Where they are written, best on another disk; by default `backups` in the home folder."""
+    """Folder for backups, preferably on another disk; by default `backups` in the home folder."""
     keep: Annotated[int, Field(ge=1, le=10_000)] = 14
-    """The newest so many stay; older ones are deleted, and an event says so."""
+    """Number of newest backups that are retained; older ones are deleted, with an event."""
 
 
 class RetentionSettings(_Section):
-    """`[retention]`: what is deleted from the history by and by.  Readings and results never are."""
+    """`[retention]`: automatic deletion from the history. Readings and results are never deleted."""
 
     samples_days: Annotated[float, Field(ge=1)] | None = None
-    """Days after the end of a run after which the single samples of its readings are dropped; their mean and
-    number stay.  An event says so.  Without it they are kept."""
+    """Days after the end of a run after which the single samples of its readings are deleted, with an event;
+    their mean and number remain. By default they are kept.
+    """
     wire_days: Annotated[float, Field(ge=1)] | None = None
-    """Days after the end of a run after which what crossed the wires during it is dropped.  An event says so.
-    Without it they are kept."""
+    """Days after the end of a run after which its wire log is deleted, with an event. By default it is
+    kept.
+    """
 
 
 class QualitySettings(_Section):
-    """`[quality]`: what process control compares finished runs with."""
+    """`[quality]`: limits of process control for finished runs."""
 
     zero_offset_deg: Annotated[float, Field(gt=0, le=90)] = 3.0
-    """Largest zero offset, to either side, that counts as within the process limits."""
+    """Largest zero offset, to either side, within the process limits."""
     position_error_mm: Annotated[float, Field(gt=0, le=1000)] = 0.5
-    """Largest position error, 95 % bound over the workspace, that counts as within the process limits."""
+    """Largest position error, 95 % bound over the workspace, within the process limits."""
     runs: Annotated[int, Field(ge=3, le=100_000)] = 1000
-    """The newest so many finished runs are looked at."""
+    """Number of newest finished runs that are evaluated."""
 
 
 def _pattern(text: str) -> str:
@@ -240,20 +246,22 @@ def _pattern(text: str) -> str:
 
 
 Pattern = Annotated[str, Field(min_length=1, max_length=200), AfterValidator(_pattern)]
-"""A regular expression of the whole text that reads alike in Python and in the page."""
+"""A regular expression for the whole text that works identically in Python and in the page."""
 
 
 class ScanSettings(_Section):
-    """`[scan]`: what barcode scanners at the page read.  A code must fit its pattern as a whole; the one that
-    confirms is looked for first, then a badge, then a serial number."""
+    """`[scan]`: codes of barcode scanners at the page. A code must match its pattern as a whole; the
+    confirming code is tested first, then a badge, then a serial number.
+    """
 
     serial: Pattern = r"[A-Za-z0-9][A-Za-z0-9._/-]{0,63}"
     """Regular expression of the serial number of a robot."""
     badge: Pattern = r"BADGE:(.{1,64})"
-    """Regular expression of a badge.  What its first group matches, else the whole text, is the name of the
-    operator where nobody signs in."""
+    """Regular expression of a badge. Its first group, otherwise the whole text, is the name of the operator
+    if nobody signs in.
+    """
     confirm: Annotated[str, Field(pattern=r"^[!-~]{3,64}$")] = "CONFIRM"
-    """The one code that confirms what waits for a confirmation."""
+    """The code that confirms a pending confirmation."""
 
     @model_validator(mode="after")
     def _badge_does_not_confirm(self) -> Self:
@@ -272,7 +280,7 @@ EventTypes = tuple[EventType, ...]
 
 
 class WebhookSettings(_Section):
-    """`[[outbox.webhook]]`: an address that events are posted to, signed as Standard Webhooks describes."""
+    """`[[outbox.webhook]]`: an address that receives events by POST, signed as in Standard Webhooks."""
 
     url: Annotated[str, Field(pattern=r"^https?://[^\s@]+$")]
     """`https://...`; plain `http` to this computer only."""
@@ -293,43 +301,51 @@ class MqttSettings(_Section):
     url: Annotated[str, Field(pattern=r"^mqtts?://\S+$")]
     """`mqtt://host:1883` or `mqtts://name:password@host:8883`."""
     topic: Annotated[str, Field(min_length=1, max_length=200, pattern=r"^[^+#\x00]+$")]
-    """Above all topics of this station: `TOPIC/events/TYPE` and `TOPIC/state`."""
+    """Prefix of all topics of this station: `TOPIC/events/TYPE` and `TOPIC/state`."""
     events: EventTypes = ("run.ended", "alarm")
     """Types of event that are sent."""
 
 
 class FolderSettings(_Section):
-    """`[[outbox.folder]]`: a folder where each event becomes a file."""
+    """`[[outbox.folder]]`: a folder in which each event becomes a file."""
 
     path: NamedPath
-    """It is made where there is none."""
+    """Path of the folder; it is created if missing."""
     format: Literal["json", "csv"] = "json"
-    """Of the files."""
+    """Format of the files."""
     events: EventTypes = ("run.ended", "alarm")
     """Types of event that are written."""
 
 
 class OpenIdSettings(_Section):
-    """`[openid]`: the plant's OpenID Connect provider, which signs in people beside the station's users."""
+    """`[openid]`: the plant's OpenID Connect provider, which signs in people in addition to the station's
+    users.
+    """
 
     label: Annotated[str, Field(min_length=1, max_length=40)] = "OpenID Connect"
     """Name of the provider on the sign-in page."""
     issuer: Annotated[str, Field(pattern=r"^https?://[^\s@?#]+$")]
-    """`https://...` as the provider calls itself; plain `http` to this computer only."""
+    """`https://...` as in the provider's own metadata; plain `http` to this computer only."""
     client_id: Annotated[str, Field(min_length=1, max_length=200)]
-    """Under which the provider knows this station."""
+    """Identifier of this station at the provider."""
     client_secret_file: NamedPath | None = None
-    """File with the secret of the client; without it the client is public, PKCE alone protects the code."""
+    """File with the secret of the client; without it the client is public, and only PKCE protects the
+    code.
+    """
     scope: Annotated[str, Field(pattern=r"^openid( \S+)*$")] = "openid profile"
-    """What is asked for; `openid` is the first."""
+    """Requested scopes; `openid` is the first."""
     name_claim: Annotated[str, Field(min_length=1)] = "preferred_username"
-    """Claim with the name under which the station knows somebody."""
+    """Claim with the name of the user in the station."""
     role_claim: Annotated[str, Field(min_length=1)] = "groups"
-    """Claim, a text or a list, whose values decide the role; `realm_access.roles` is `roles` inside of it."""
+    """Claim, a text or a list, whose values decide the role; `realm_access.roles` is `roles` inside
+    `realm_access`.
+    """
     roles: Annotated[
         dict[str, Literal["viewer", "operator", "engineer", "administrator"]], Field(min_length=1)
     ]
-    """Role by value of that claim.  Of several the one that may do most; without any, nobody is let in."""
+    """Role by value of that claim. Of several roles the one with most rights applies; without any, the
+    sign-in is refused.
+    """
 
     @model_validator(mode="after")
     def _plain_to_loopback_only(self) -> Self:
@@ -338,31 +354,34 @@ class OpenIdSettings(_Section):
 
 
 class ScaleCertificateSettings(StrictNumbers, ScaleCertificate):
-    """`[scale_certificate]`: the calibration of the linear scale.  Outside its dates nothing passes."""
+    """`[scale_certificate]`: the calibration of the linear scale. Outside its period of validity no run
+    passes.
+    """
 
     model_config = ConfigDict(extra="forbid")
 
 
 class OutboxSettings(_Section):
-    """`[outbox]`: who is told of runs and alarms."""
+    """`[outbox]`: receivers of events about runs and alarms."""
 
     keep_days: Annotated[float, Field(gt=0, le=3650)] = 7.0
-    """An event that is older than so many days, while its receiver was tried for as long in vain, is given up
-    and shown as `expired`."""
+    """Age in days after which an event is given up and shown as `expired`, if its receiver was tried in vain
+    for that time.
+    """
     keep: Annotated[int, Field(ge=1, le=10_000_000)] = 100_000
-    """So many events wait for one receiver at most; the oldest are given up first."""
+    """Maximum number of events pending for one receiver; the oldest are given up first."""
     webhook: tuple[WebhookSettings, ...] = ()
     mqtt: tuple[MqttSettings, ...] = ()
     folder: tuple[FolderSettings, ...] = ()
 
 
 class EmulatedSettings(_Section):
-    """`[emulated]`: the machine that stands in when no devices are named."""
+    """`[emulated]`: the machine used when no devices are named."""
 
     rig: NamedPath | None = None
     """Rig file; by default the paper's group 1."""
     speed: Annotated[float, Field(gt=0, le=1000)] = 50.0
-    """How much faster than real time it lives."""
+    """Speed over real time."""
 
 
 class Settings(_Section):
@@ -426,10 +445,12 @@ def _sentence(error: ErrorDetails, inside: tuple[int | str, ...] = ()) -> str:
 
 
 def backup_folder(settings: Settings, home: Path) -> Path:
-    """Where the station's own backups are: the station file's `[backup] folder`, else in the home folder."""
+    """Folder of the station's own backups: the station file's `[backup] folder`, otherwise in the home
+    folder.
+    """
     return settings.backup.folder or home / "backups"
 
 
 def database_path(settings: Settings, home: Path) -> Path:
-    """Where the store is: the station file's `[service] database`, else in the home folder."""
+    """File of the store: the station file's `[service] database`, otherwise in the home folder."""
     return settings.service.database or home / "station.db"

@@ -1,4 +1,4 @@
-"""Everything that documents, REST and the database call by an identifier, with its name and its sentence."""
+"""All identifiers in documents, REST and the database, with name and sentence."""
 
 from __future__ import annotations
 
