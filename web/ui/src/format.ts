@@ -1,4 +1,4 @@
-/** Numbers and times as the operator reads them; a dash stands for what is not a number. */
+/** Numbers and times in the operator's format; a dash in place of a value that is not a number. */
 
 import { language } from "./messages/language";
 
@@ -6,7 +6,7 @@ export const MISSING = "–";
 
 const DECIMAL_COMMA = language === "de";
 
-/** A number that is a text already, with the decimal sign of the language. */
+/** A formatted number, with the decimal sign of the language. */
 export const local = (text: string) => (DECIMAL_COMMA ? text.replace(".", ",") : text);
 
 export function fixed(value: number | null | undefined, digits: number): string {
@@ -21,7 +21,7 @@ export function signed(value: number | null | undefined, digits: number): string
   return value != null && Number(value.toFixed(digits)) > 0 ? `+${text}` : text;
 }
 
-/** To so many significant digits, without zeros at the end. */
+/** With this many significant digits, without zeros at the end. */
 export function significant(value: number | null | undefined, digits: number): string {
   if (value == null || !Number.isFinite(value)) return MISSING;
   return local(String(Number(value.toPrecision(digits))).replace("-", "\u2212"));
@@ -81,7 +81,7 @@ function dateOf(time: Date): string {
   return language === "de" ? `${day}.${month}.${year}` : `${year}-${month}-${day}`;
 }
 
-/** How far this computer's clock is from UTC: all times of the page are those of its place. */
+/** Difference of this computer's clock from UTC: all times of the page are in its zone. */
 export function zone(time: Date): string {
   const minutes = -time.getTimezoneOffset();
   const [hours, rest] = [Math.floor(Math.abs(minutes) / 60), Math.abs(minutes) % 60];
