@@ -7,9 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class JointScaling:
-    """Conversion between a drive's pulses and a joint angle: theta = zero_at_deg + sign * pulses /
-    per_deg.
-    """
+    """Conversion of a drive's pulses to a joint angle: theta = zero_at_deg + sign * pulses / per_deg."""
 
     counts_per_rev: int
     ratio: float

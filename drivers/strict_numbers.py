@@ -1,6 +1,4 @@
-"""Numbers that are not booleans: Python accepts `true` as a number, but `mm = true` is a mistake, not 1
-mm.
-"""
+"""Numbers that are not booleans: Python accepts `true` as a number, but `mm = true` is not 1 mm."""
 
 from __future__ import annotations
 

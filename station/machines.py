@@ -139,9 +139,7 @@ def read_robot(path: Path | None) -> AnyRobot:
 
 
 def robot_of(data: Sections, *, source: str = "robot") -> AnyRobot:
-    """A robot from its file's sections. :raises InputRefused: the model is unknown, or as for its robot
-    file.
-    """
+    """A robot from its file's sections. :raises InputRefused: unknown model, or as for its robot file."""
     section = data.get("robot")
     model = section.get("model") if isinstance(section, dict) else None
     kind = KINDS.get(FIVE_BAR_MODEL if model is None else model) if isinstance(model, str | None) else None

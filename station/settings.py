@@ -95,9 +95,7 @@ DEFAULT_JOINTS = (JointSettings(unit=1, zero_at_deg=0.0), JointSettings(unit=2, 
 
 
 class ServoSettings(_Section):
-    """`[servo]`: the line of the two drives. All options except `profile` and `joint` belong to their
-    driver.
-    """
+    """`[servo]`: the line of the two drives. All options except `profile` and `joint` are the driver's."""
 
     profile: str
     """Name of the driver: see the sections of the drivers below."""
@@ -150,9 +148,7 @@ class LimitSettings(_Section):
     swing_mm: Annotated[float, Field(ge=0, le=200)] = 80.0
     """How far outside it the arm may swing during motion, unknown zero offsets included."""
     settle_s: Annotated[float, Field(ge=0, le=10)] = 0.3
-    """Longest wait after standstill for samples that agree; after it they only have to be within
-    `scale_spread_mm`.
-    """
+    """Longest wait after standstill for samples that agree; then `scale_spread_mm` is sufficient."""
     settled_mm: Annotated[float, Field(ge=0, le=1)] = 0.006
     """Samples within this of each other agree: the arm is at rest."""
     samples: Annotated[int, Field(ge=2, le=100)] = 5
@@ -318,9 +314,7 @@ class FolderSettings(_Section):
 
 
 class OpenIdSettings(_Section):
-    """`[openid]`: the plant's OpenID Connect provider, which signs in people in addition to the station's
-    users.
-    """
+    """`[openid]`: the plant's OpenID Connect provider, for people beside the station's users."""
 
     label: Annotated[str, Field(min_length=1, max_length=40)] = "OpenID Connect"
     """Name of the provider on the sign-in page."""
@@ -329,23 +323,17 @@ class OpenIdSettings(_Section):
     client_id: Annotated[str, Field(min_length=1, max_length=200)]
     """Identifier of this station at the provider."""
     client_secret_file: NamedPath | None = None
-    """File with the secret of the client; without it the client is public, and only PKCE protects the
-    code.
-    """
+    """File with the secret of the client; without it the client is public and protected by PKCE only."""
     scope: Annotated[str, Field(pattern=r"^openid( \S+)*$")] = "openid profile"
     """Requested scopes; `openid` is the first."""
     name_claim: Annotated[str, Field(min_length=1)] = "preferred_username"
     """Claim with the name of the user in the station."""
     role_claim: Annotated[str, Field(min_length=1)] = "groups"
-    """Claim, a text or a list, whose values decide the role; `realm_access.roles` is `roles` inside
-    `realm_access`.
-    """
+    """Claim, a text or a list, whose values decide the role; `a.b` is claim `b` inside `a`."""
     roles: Annotated[
         dict[str, Literal["viewer", "operator", "engineer", "administrator"]], Field(min_length=1)
     ]
-    """Role by value of that claim. Of several roles the one with most rights applies; without any, the
-    sign-in is refused.
-    """
+    """Role by value of that claim. The role with most rights applies; without any, sign-in is refused."""
 
     @model_validator(mode="after")
     def _plain_to_loopback_only(self) -> Self:
@@ -354,9 +342,7 @@ class OpenIdSettings(_Section):
 
 
 class ScaleCertificateSettings(StrictNumbers, ScaleCertificate):
-    """`[scale_certificate]`: the calibration of the linear scale. Outside its period of validity no run
-    passes.
-    """
+    """`[scale_certificate]`: the calibration of the linear scale. Outside its dates no run passes."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -365,9 +351,7 @@ class OutboxSettings(_Section):
     """`[outbox]`: receivers of events about runs and alarms."""
 
     keep_days: Annotated[float, Field(gt=0, le=3650)] = 7.0
-    """Age in days after which an event is given up and shown as `expired`, if its receiver was tried in vain
-    for that time.
-    """
+    """Age in days after which an event is given up as `expired`, if all attempts in that time failed."""
     keep: Annotated[int, Field(ge=1, le=10_000_000)] = 100_000
     """Maximum number of events pending for one receiver; the oldest are given up first."""
     webhook: tuple[WebhookSettings, ...] = ()
@@ -445,9 +429,7 @@ def _sentence(error: ErrorDetails, inside: tuple[int | str, ...] = ()) -> str:
 
 
 def backup_folder(settings: Settings, home: Path) -> Path:
-    """Folder of the station's own backups: the station file's `[backup] folder`, otherwise in the home
-    folder.
-    """
+    """Folder of the station's own backups: `[backup] folder`, otherwise in the home folder."""
     return settings.backup.folder or home / "backups"
 
 

@@ -12,9 +12,7 @@ from web.aside import aside
 LEAST_BYTES = 1000
 """Below this size, the headers would exceed the savings."""
 INLINE_BYTES = 20_000
-"""Up to this size, compressed at once, in less than a millisecond; longer ones on a thread, so that a stop
-never waits.
-"""
+"""Up to this size, compressed at once, in less than a millisecond; otherwise on a thread."""
 LEVEL = 4
 _GZIP_WINDOW = 31
 _TEXT = ("application/json", "application/problem+json", "text/", "image/svg+xml", "application/javascript")

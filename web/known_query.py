@@ -13,9 +13,7 @@ from station.errors import FieldRefused
 
 
 async def known_query(request: Request) -> None:
-    """A dependency of every route.  :raises FieldRefused: neither the route nor its dependencies accept the
-    parameter.
-    """
+    """A dependency of every route. :raises FieldRefused: the route does not accept a parameter."""
     if not request.query_params:
         return
     taken = get_flat_params(request.scope["route"].dependant)

@@ -19,9 +19,7 @@ LARGEST = 1_000_000
 
 
 class StrictRequest(Request):
-    """A request whose JSON contains only values that can be stored and sent again, and whose body has a
-    limit.
-    """
+    """A request whose JSON contains only values that can be stored and sent, with a size limit."""
 
     async def body(self) -> bytes:
         """:raises HTTPException: it is too large; the remainder is not read."""

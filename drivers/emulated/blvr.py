@@ -54,9 +54,7 @@ class BLVRDrive(EmulatedDrive):
         return super().answer(request)
 
     def _watch(self) -> None:
-        """Only silence while this program runs counts: a real drive would receive data that a busy computer
-        delays here.
-        """
+        """Only silence while this program runs counts: a real drive would have received delayed data."""
         looked_s = time.monotonic()
         while not self._closing.wait(_LOOK_S):
             now_s = time.monotonic()

@@ -46,9 +46,7 @@ class RtuLink:
 
     def __init__(self, line: SerialLine, timeout_s: float) -> None:
         self.stop_timeouts_s = (timeout_s / 3, timeout_s * 2 / 3, timeout_s * 4 / 3)
-        """Time-outs of the attempts to stop: noise may have hit the first; a slow drive answers within the
-        last.
-        """
+        """Time-outs of the attempts to stop: noise may hit the first; a slow drive answers in the last."""
         self._line = line
         self._timeout_s = timeout_s
         self._lane = Lane()

@@ -22,9 +22,7 @@ class TcpLink:
 
     def __init__(self, line: SerialLine, timeout_s: float) -> None:
         self.stop_timeouts_s = (timeout_s * 5 / 3, timeout_s * 5 / 3)
-        """Time-outs of the attempts to stop. TCP repeats lost data by itself: a drive that has not answered
-        yet is slow.
-        """
+        """Time-outs of the attempts to stop. TCP repeats lost data: a missing answer means a slow drive."""
         self._line = line
         self._timeout_s = timeout_s
         self._lane = Lane()

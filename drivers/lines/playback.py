@@ -1,6 +1,4 @@
-"""A wire log played back to the drivers that made it: they make the same requests and receive the same
-answers.
-"""
+"""A wire log played back to the drivers that made it: same requests, same answers."""
 
 from __future__ import annotations
 

@@ -160,9 +160,7 @@ class SerialLine:
         )
 
     def _take_echo(self, sent: bytes) -> None:
-        """Read the echo. It also reveals a collision or noise: the adapter receives the signal on the
-        wire.
-        """
+        """Read the echo. It also reveals collisions and noise: the adapter receives what is on the wire."""
         wire_s = 0.0
         if isinstance(self.address, SerialAddress):
             wire_s = len(sent) * self.address.format.bits_per_byte / self.address.baud

@@ -44,9 +44,7 @@ CHINESE_FONTS = (Path("/usr/share/fonts/truetype/wqy/wqy-microhei.ttc"),)
 
 
 def _fonts(language: Language) -> tuple[str, str]:
-    """Fonts for text and heading, embedded; for Chinese without such a font, the reader supplies the
-    glyphs.
-    """
+    """Fonts for text and heading, embedded; for Chinese without such a font, the reader's own are used."""
     if language == "zh":
         found = next((file for file in CHINESE_FONTS if file.is_file()), None)
         font = TTFont("Chinese", found) if found else UnicodeCIDFont("STSong-Light")  # Adobe-GB1

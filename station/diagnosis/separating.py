@@ -20,9 +20,7 @@ from station.five_bar import Robot, inverse
 from station.records import Real, Stop
 
 COUNTS = (40, 80, 160, 240)
-"""Numbers of stops; effects of time need time to differ, so a longer sequence may distinguish what a shorter
-one cannot.
-"""
+"""Numbers of stops; effects of time need time, so a longer sequence may distinguish more."""
 WORTH, ENOUGH = 0.3, 0.9
 """Probability to decide from which a motion is offered, and above which no longer one is planned."""
 LEAST = 0.02

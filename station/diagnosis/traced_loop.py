@@ -68,9 +68,7 @@ class TracedDiagnosis:
 
     @property
     def explained_share(self) -> float:
-        """Share of the square of the base model's error at readings that were not used: fresh ones, otherwise
-        blocks.
-        """
+        """Share of the square of the base model's error at unused readings: fresh ones, otherwise blocks."""
         if self.confirmations:
             before, after = self.confirmations[0].rms_mm, self.confirmations[-1].rms_mm
         else:
@@ -101,7 +99,6 @@ def _figures(stage: Stage, check: Confirmation | None, base: Confirmation | None
         return StageFigures(adequate, fit_ratio)
     fresh_ratio = float(np.mean((check.residual_mm / check.sd_mm) ** 2))
     # effects that predict fresh readings worse than no effect are refuted, whatever their uncertainty
-    # permits
     confirmed = check.confirmed and check.rms_mm <= base.rms_mm
     return StageFigures(adequate, fit_ratio, confirmed, check.rms_mm, fresh_ratio)
 
@@ -151,9 +148,7 @@ def traced(
 
 
 def _confirmed(found: Trace, fresh: Measurements) -> tuple[Trace, tuple[Confirmation, ...]]:
-    """Every stage against the fresh readings; they also decide between causes that the sequence left
-    undecided.
-    """
+    """Every stage against the fresh readings; they also decide between undecided causes."""
     base = found.stages[0].fit
     mechanism = base.model.mechanism
     checks = tuple(_check(base, stage, fresh) for stage in found.stages)
@@ -210,9 +205,7 @@ def _residual(found: Trace, checks: Sequence[Confirmation], stage: int) -> White
 
 
 def _hopeless(found: Trace, checks: Sequence[Confirmation]) -> bool:
-    """Whether the effects found take or predict so little that the residual is better described from the base
-    model.
-    """
+    """Whether the effects take or predict so little that the base model describes the residual better."""
     if checks:
         return checks[-1].rms_mm > USELESS * checks[0].rms_mm
     before = float(np.sum(found.stages[0].fit.residual_mm ** 2))

@@ -49,9 +49,7 @@ class UnnamedError:
 
 
 def unnamed_error(last: Fit) -> UnnamedError | None:
-    """The error in the last fit's residual; None where it does not improve the prediction of excluded
-    blocks.
-    """
+    """The error in the last fit's residual; None if it does not improve predictions of excluded blocks."""
     mechanism = last.model.mechanism
     m = mechanism.measurements
     left = last.residual_mm.reshape(len(m), -1)

@@ -43,9 +43,7 @@ def _examined(
 
 
 def _examine_interlocks(settings: Settings, devices: Devices, robot: Robot, tree: Finding) -> None:
-    """Each interlock with its limits; guard door and thermometer are read if the station file defines
-    them.
-    """
+    """Each interlock with its limits; guard door and thermometer are read if they are configured."""
     branch = tree.add("interlocks")
     locks = Interlocks(settings.interlocks, settings.limits, devices.read_register)
     if settings.interlocks.reads_registers:

@@ -1,6 +1,4 @@
-"""Information on a port without communication: its names, the programs that hold it, whether it can be
-opened.
-"""
+"""Information on a port without communication: its names, its users, whether it can be opened."""
 
 from __future__ import annotations
 

@@ -97,9 +97,7 @@ class Effect(ABC):
         return True
 
     def bands(self, size: int) -> Index:
-        """(q,) band number of the amplitudes: those with the same number have similar sizes; used only with a
-        spread.
-        """
+        """(q,) band number of the amplitudes: equal for similar sizes; used only with a spread."""
         return np.zeros(size, dtype=np.intp)
 
     def refined(self, hidden: Mapping[str, float], c: Conditions) -> Mapping[str, tuple[float, float]]:
@@ -151,9 +149,7 @@ def weight(acts: Acts, at: Observation, names: tuple[str, ...]) -> Real:
 
 
 def signature(acts: Acts, basis: Real, at: Observation, names: tuple[str, ...], rows: Index) -> Real:
-    """(..., R, q) effect of a basis (..., K, q) on the rows of a prediction; `rows` (R,) is the reading of
-    each row.
-    """
+    """(..., R, q) effect of a basis (..., K, q) on the rows of a prediction; `rows` (R,) their reading."""
     return np.asarray(weight(acts, at, names)[:, None] * basis[..., rows, :])
 
 

@@ -50,8 +50,7 @@ class Compliance(JointEffect):
         if len(amplitudes) > 1 and "by_payload" not in hidden:
             # the position of the weight along the arm is hardly visible; the sum of the effects is
             whole, variance = float(amplitudes.sum()), float(covariance.sum())
-            # the load of an arm is gravity's own moment about each axis: sag has the sign of the moment, not
-            # the opposite
+            # the load of an arm is gravity's own moment about each axis: sag has the sign of the moment
             return (scaled("deg_at_full_reach", whole, variance, 180.0 / np.pi, "deg"),)
         return tuple(
             scaled(name, a, covariance[k, k], -180.0 / np.pi, unit)

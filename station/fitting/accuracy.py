@@ -51,9 +51,7 @@ class ErrorFields:
     """(G,) 95 % bound at each position separately."""
 
     def within(self, bound: float) -> Real:
-        """(G,) bounds in proportion to those of each position; the largest equals the bound on all
-        together.
-        """
+        """(G,) bounds in proportion to those of each position; the largest equals the bound on all."""
         return np.asarray(self.after_95 * (bound / np.nanmax(self.after_95)))
 
 
@@ -123,8 +121,7 @@ def _drawn(jacobian: Real, covariance: Real) -> Iterator[tuple[slice, Real]]:
     values, vectors = np.linalg.eigh(covariance[np.ix_(finite, finite)] / np.outer(sd, sd))
     root = sd[:, None] * vectors * np.sqrt(np.maximum(values, 0.0))
     errors = (jacobian[:, :, finite] @ root).reshape(-1, len(sd))
-    # the largest error is nearly a function of one direction: strata along the principal ones are most
-    # effective
+    # the largest error is nearly a function of one direction: strata along the principal ones pay most
     by_draw = (errors @ np.linalg.eigh(errors.T @ errors)[1]).reshape(*jacobian.shape[:2], len(sd))
     standard = _standard_normal(len(sd))
     apart = np.empty((BLOCK, 2, DRAWS))

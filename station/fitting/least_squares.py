@@ -201,7 +201,7 @@ def _solve(residuals: Residuals, start: Real, prior: Prior, most_steps: int) -> 
                 first = step == 1 and math.isinf(radius)
                 radius = SHORTER * trust.size(along)
                 if first:
-                    # a poor first step is repeated, no longer than the distance of the start from the origin
+                    # a poor first step is repeated, no longer than the start's distance from the origin
                     # (More)
                     radius = min(radius, trust.size(x) or math.inf)
                     continue
@@ -332,9 +332,7 @@ def _singular(stacked: Real, scale: Real) -> tuple[Real, Real]:
 
 
 def _stack(residuals: Residuals, x: Real, prior: Prior) -> tuple[Real, Real, Real, Real]:
-    """Rows of data above rows of prior: Jacobian (R + H, P), residual (R + H,), and those of the data
-    alone.
-    """
+    """Rows of data above rows of prior: Jacobian (R + H, P), residual (R + H,), and the data alone."""
     r, J = residuals(x)
     if not len(prior.root):
         return J, r, r, J

@@ -136,9 +136,7 @@ def _scale(t: Real) -> float:
 
 
 def _apart(mechanism: Mechanism, residual: Real, k: int, suspects: Index) -> float:
-    """Deviation of row k from the same coordinate of the others at its position; inf when there are no
-    others.
-    """
+    """Deviation of row k from the same coordinate of the others at its position; inf without others."""
     reading, axis = mechanism.reading_of_row, axis_of_row(mechanism)
     place = mechanism.measurements.position[reading]
     companions = np.flatnonzero((place == place[k]) & (axis == axis[k]))
@@ -150,9 +148,7 @@ def _apart(mechanism: Mechanism, residual: Real, k: int, suspects: Index) -> flo
 
 
 def few_enough(left_out: tuple[Outlier, ...], readings: int) -> bool:
-    """Whether at most a tenth of the readings, or one, is excluded: more indicate an effect that the model
-    lacks.
-    """
+    """Whether at most a tenth of the readings, or one, is excluded: more indicate a missing effect."""
     return len(left_out) <= max(1, int(LARGEST_SHARE * readings))
 
 

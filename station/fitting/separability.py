@@ -18,13 +18,9 @@ from station.mechanism import Mechanism
 from station.records import Real, WeakDirection
 
 TIED = 1.0
-"""Information of the readings on a parameter over that of its tolerance, below which the tolerance
-dominates.
-"""
+"""Information of the readings over that of the tolerance, below which the tolerance dominates."""
 FREE = 1e6
-"""Assumed tolerance of an unknown without one, over the standard deviation that the readings alone give
-it.
-"""
+"""Assumed tolerance of an unknown without one, over its standard deviation from the readings."""
 ALIKE = 0.3
 """Cosine from which a tied parameter is reported as similar to another."""
 MOST_NAMED = 3

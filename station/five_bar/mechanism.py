@@ -39,9 +39,7 @@ SCALE_SD_MM = (3.0 + 0.35) / 3.0 * 1e-3
 UNKNOWN_MOUNT_SD_MM = 300.0
 """Prior of c where the robot file does not state the position of a mount."""
 IMPOSSIBLE_SDS = 20.0
-"""A parameter this many tolerances from nominal indicates a wrong file or a missing effect, not a
-calibration.
-"""
+"""A parameter this many tolerances from nominal indicates a wrong file or a missing effect."""
 GRID = (9, 7)
 """Points of the workspace at which position errors are predicted."""
 
@@ -189,9 +187,7 @@ class FiveBar:
         return self.robot.workspace_grid(*GRID)
 
     def implausible(self, p: Real) -> str:
-        """Why a parameter is implausible, by name: a link 3 mm off is a wrong robot file or column, not a
-        calibration.
-        """
+        """Why a parameter is implausible, by name: a link 3 mm off is a wrong robot file or column."""
         offset = np.array(
             [abs(x - q.prior_mean) / q.prior_sd for x, q in zip(p, self._by_tolerance, strict=True)]
         )

@@ -53,9 +53,7 @@ def fleet_prior(
 
 
 def _kept(values: Real) -> tuple[float, ...]:
-    """The prior with the digits of a stored result, so that the run can be fitted again from it to the
-    bit.
-    """
+    """The prior with the digits of a stored result, so that the run can be refitted to the bit."""
     return tuple(float(f"{value:.6g}") for value in values)
 
 

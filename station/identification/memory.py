@@ -21,13 +21,9 @@ from station.records import FleetPrior, LastingParameters, MountingError, Real
 WIDENED_PER_ROOT_YEAR = 0.3
 """Share of a parameter's tolerance by which it may have drifted in a year (random walk)."""
 GATE_P = 0.02
-"""Probability that a correct memory is dropped; that reduces accuracy, but using a wrong one gives wrong
-results.
-"""
+"""Probability that a correct memory is dropped; that costs accuracy, a wrong one gives wrong results."""
 INFORMATIVE = 0.3
-"""A direction in which the readings have less than this share of the memory's information cannot contradict
-it.
-"""
+"""Directions with less than this share of the memory's information cannot contradict it."""
 
 
 @dataclass(frozen=True)

@@ -115,9 +115,7 @@ class Known:
         return np.asarray(np.linalg.inv(information))
 
     def rows(self, places: Complex) -> Real:
-        """(N, P) whitened derivatives of one reading at each of positions (N,), commanded with the current
-        estimate.
-        """
+        """(N, P) whitened derivatives of one reading at each of positions (N,), at the current estimate."""
         theta = inverse(self.robot.geometry, places) - self.estimate[:2]
         mechanism = self._at(theta)
         at = mechanism.observe(self.estimate, theta)

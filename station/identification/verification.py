@@ -61,9 +61,7 @@ def fresh_stops_of(
 
 @lru_cache(maxsize=64)
 def _spread(seed: int, count: int) -> Real:
-    """(count, 2) points spread evenly over the unit square; cached, since studies request the same ones
-    repeatedly.
-    """
+    """(count, 2) points spread evenly over the unit square; cached, since studies repeat the request."""
     from scipy.stats import qmc  # imported here because it takes a second to load and only a run needs it
 
     return np.asarray(qmc.Sobol(2, rng=seed).random(count))

@@ -42,18 +42,14 @@ class Conditions:
     motion in between is unknown.
     """
     temperature_rise: Real | None
-    """(K,) temperature rise since the first reading, K; None where nothing was recorded or nothing
-    changed.
-    """
+    """(K,) temperature rise since the first reading, K; None if not recorded or constant."""
     payload_kg: Real | None
     lengths: Mapping[str, float]
     """Nominal lengths by parameter name, mm."""
     pull: Real
     """(K, n) sign of the load along each distal link: +1 in tension."""
     load: tuple[Real, ...]
-    """(K, q) per joint: gravity's moment about it, one column for each position of a mass, 1 when
-    horizontal.
-    """
+    """(K, q) per joint: gravity's moment about it, one column for each mass, 1 when horizontal."""
 
     def __len__(self) -> int:
         return len(self.t_s)

@@ -43,9 +43,7 @@ class Mechanism(Protocol):
 
     @property
     def needs_repeats(self) -> bool:
-        """Whether only repeats can be the reference for a residual; otherwise the specification is
-        sufficient.
-        """
+        """Whether only repeats can judge a residual; otherwise the specification is sufficient."""
         ...
 
     @property
@@ -78,9 +76,7 @@ class Mechanism(Protocol):
         ...
 
     def check(self) -> None:
-        """:raises InputRefused: readings are impossible for this machine; the error gives reading and
-        column.
-        """
+        """:raises InputRefused: readings are impossible for this machine, by reading and column."""
         ...
 
     def observe(self, p: Real, theta: Real) -> Observation:

@@ -134,9 +134,7 @@ class IdentifiedMachine:
         return out
 
     def _effects(self, theta: Real, situation: Situation) -> tuple[Real, Complex]:
-        """Contributions of the effects: to the joint angles (K, 2), rad, and through lengths to P (K,),
-        mm.
-        """
+        """Contributions of the effects: to joint angles (K, 2), rad, and through lengths to P (K,), mm."""
         turned, moved = np.zeros_like(theta), np.zeros(len(theta), dtype=complex)
         by_base: Real | None = None
         for term, part, basis in self._parts(theta, situation):

@@ -15,9 +15,7 @@ from station.mechanism import Conditions, Mechanism, Observation, Reference
 from station.records import Index, Real
 
 CONDITION_ROUNDS = 12
-"""The basis depends slightly on the zero offsets: it is fitted, evaluated again, and fitted until it is
-stable.
-"""
+"""The basis depends slightly on the zero offsets: it is fitted and evaluated until it is stable."""
 SETTLED_MM = 2e-5
 SETTLED_SDS = 2e-3
 LONG_ROWS = 1000
@@ -135,9 +133,7 @@ class Fit:
 
     @cached_property
     def at(self) -> Observation:
-        """Observation of the mechanism at the fit, joints turned by the effects; without the terms' own
-        columns.
-        """
+        """Observation of the mechanism at the fit, joints turned by the effects; without terms' columns."""
         bases = self.model.bases(self.conditions) if self.model.terms else []
         return self.model.mechanism.observe(self.x[: self.model.base_size], self.model.turned(self.x, bases))
 
@@ -175,9 +171,7 @@ class Fit:
 
 
 def is_long(mechanism: Mechanism) -> bool:
-    """Whether there are so many rows that candidates differ by more than the curvature of their
-    signatures.
-    """
+    """Whether there are so many rows that candidates differ by more than their signatures' curvature."""
     return len(mechanism.row_sd) > (LONG_ROWS if mechanism.needs_repeats else LONG_WITHOUT_REPEATS)
 
 

@@ -72,9 +72,7 @@ class Listeners:
         return unsubscribe
 
     def publish(self, type: EventType, data: EventData) -> None:
-        """Call all listeners; one that fails is logged and dropped: the page must not disturb the
-        measurement.
-        """
+        """Call all listeners; one that fails is dropped: the page must not disturb the measurement."""
         event = LiveEvent(type, data)
         with self._lock:
             listeners = tuple(self._listeners)

@@ -37,9 +37,7 @@ class Tripped(StepFailed):
 
 
 class Interlocks:
-    """The interlocks of the station file, and their defaults. One thread evaluates them; any thread may read
-    them.
-    """
+    """The interlocks of the station file, and defaults. One thread evaluates them; any may read them."""
 
     def __init__(
         self,

@@ -1,6 +1,4 @@
-"""The devices as one machine: the state of each, the position of the arm, and conditions that forbid
-motion.
-"""
+"""The devices as one machine: state of each, position of the arm, conditions that forbid motion."""
 
 from __future__ import annotations
 
@@ -84,9 +82,7 @@ class Machine:
         self.robot = Robot.default()
         """The robot whose geometry converts joint angles to a position."""
         self.compensation_deg = (0.0, 0.0)
-        """Zero offsets found so far by the run; added where a position is shown, never where one is
-        judged.
-        """
+        """Zero offsets found so far by the run; added to a displayed position, never to a judged one."""
         self._listeners = listeners
         self._all: tuple[Device, ...] = (devices.scale, *devices.axes)
         self._known = {device.name: _Known() for device in self._all}

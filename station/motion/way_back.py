@@ -83,9 +83,7 @@ def _fractions(steps: float) -> Real:
 
 
 def _distances(robot: Robot, theta_deg: Real) -> Real:
-    """(K,) distance from the workspace, mm; if the linkage does not close, its distance from closing, and
-    more.
-    """
+    """(K,) distance from the workspace, mm; if the linkage does not close, that from closing, and more."""
     out = []
     for angles in theta_deg:
         outside = outside_mm(robot, (float(angles[0]), float(angles[1])))

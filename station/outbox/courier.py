@@ -98,9 +98,7 @@ class Courier:
 
     @contextmanager
     def working(self) -> Iterator[None]:
-        """Runs on a separate thread; a delivery in progress at the end is finished or repeated after the
-        start.
-        """
+        """Runs on its own thread; a delivery in progress at the end is finished or repeated later."""
         self._thread.start()
         try:
             yield

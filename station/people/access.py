@@ -1,6 +1,4 @@
-"""The author of a request: by key or session, looked up at every request, so that every change is effective
-at once.
-"""
+"""The author of a request: by key or session, looked up each time, so that changes apply at once."""
 
 from __future__ import annotations
 

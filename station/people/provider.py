@@ -20,9 +20,7 @@ log = logging.getLogger(__name__)
 
 TIMEOUT_S = 10.0
 ALGORITHMS = ["RS256", "RS384", "RS512", "PS256", "PS384", "PS512", "ES256", "ES384", "ES512", "Ed25519"]
-"""Only the provider can sign with these; `none`, and signatures with the client's secret, are not
-accepted.
-"""
+"""Only the provider can sign with these; `none`, and the client's secret, are not accepted."""
 _LEEWAY_S = 60
 
 Why = Literal["unreachable", "cancelled", "expired", "not_valid", "no_role", "name_taken", "disabled"]

@@ -1,6 +1,4 @@
-"""Plan `check`: four positions at which a shift of either zero has the largest effect, and the smallest
-detectable shift.
-"""
+"""Plan `check`: four positions that best show a shift of either zero, and the smallest detectable shift."""
 
 from __future__ import annotations
 
@@ -55,9 +53,7 @@ class ShiftTest:
         return np.asarray(np.sqrt(_needed(self.dof) / np.diag(self.information)))
 
     def blind(self) -> tuple[Real, float]:
-        """The direction (2,) of both zeros together with the smallest effect, and the shift detected along
-        it.
-        """
+        """The direction (2,) of both zeros with the smallest effect, and the shift detected along it."""
         values, vectors = np.linalg.eigh(self.information)
         return vectors[:, 0], float(np.sqrt(_needed(self.dof) / values[0]))
 
@@ -82,9 +78,7 @@ def _needed(dof: int) -> float:
 
 
 def four_positions(robot: Robot) -> Visits:
-    """The positions of a coarse grid that minimise the smallest detectable shift of the less visible
-    joint.
-    """
+    """The positions of a coarse grid with the smallest detectable shift of the less visible joint."""
     places = inset_grid(robot, *GRID)
     mechanism = measured_at(robot, places)
     rows = information_rows(mechanism)

@@ -65,9 +65,7 @@ def _short_way(robot: Robot, places: Complex, some: NDArray[np.intp], start: int
 
 
 def diagnostic_fresh_stops(robot: Robot, dtheta: Real, seed: int) -> tuple[Stop, ...]:
-    """Random interior positions, different for each seed; commanded with zero offsets dtheta (2,) rad
-    subtracted.
-    """
+    """Random interior positions by seed; commanded with zero offsets dtheta (2,) rad subtracted."""
     (x0, x1), (y0, y1) = robot.workspace_x, robot.workspace_y
     rng = np.random.default_rng(seed)
     x = rng.uniform(x0 + FRESH_INSET_MM, x1 - FRESH_INSET_MM, FRESH_PLACES)

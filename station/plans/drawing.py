@@ -1,6 +1,4 @@
-"""A plan as a drawing: positions in the workspace for a terminal, positions and predicted accuracy for a
-page.
-"""
+"""A plan as a drawing: positions for a terminal, positions and predicted accuracy for a page."""
 
 from __future__ import annotations
 

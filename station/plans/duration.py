@@ -49,9 +49,7 @@ class Pace:
         return np.asarray(travel_s + motions * ARRIVAL_S + self.reading_s)
 
     def by_itself(self, here: Real, there: Real, approach: Sides) -> Real:
-        """(...,) whether the direct motion ends with the requested senses, by the rule of
-        `station.motion`.
-        """
+        """(...,) whether the direct motion ends with the requested senses, as in `station.motion`."""
         ends = (approach == 0) | (approach * (there - here) >= self.run_up_deg)
         return np.asarray(ends.all(axis=-1))
 

@@ -15,9 +15,7 @@ from scipy.special import chdtri, chndtr
 from station.records import Index, Real
 
 ALONE = 0.3
-"""A direction in which readings have less than this share of the memory's information cannot contradict
-it.
-"""
+"""Directions with less than this share of the memory's information cannot contradict it."""
 
 
 def gains(covariance: Real, rows: Real, weight: Real) -> Real:
@@ -62,9 +60,7 @@ class Contradiction:
         return np.asarray(np.einsum("...dj,dj->...d", changes @ test, changes))
 
     def directions(self, information: Real) -> Index:
-        """(...,) number of directions in which the readings have enough information to contradict the
-        memory.
-        """
+        """(...,) number of directions in which the readings could contradict the memory."""
         root = np.linalg.cholesky(self.remembered)
         values = np.linalg.eigvalsh(root.T @ self._told(information) @ root)
         return np.asarray(np.sum(values > ALONE**2, axis=-1))

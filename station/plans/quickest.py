@@ -62,9 +62,7 @@ class Quickest:
         return min(found, key=lambda chosen: float(self._cost(np.array([chosen]))[0]))
 
     def _exchanged(self, count: int) -> list[int]:
-        """The best of several starts, with one position after the other replaced by the best for its slot in
-        the set.
-        """
+        """The best of several starts, with one position after the other replaced by the best for its slot."""
         rng = np.random.default_rng(0)
         starts = [rng.choice(len(self.rows), count, replace=False) for _ in range(STARTS)]
         best = min((self._improved(start) for start in starts), key=lambda found: found[0])[1]

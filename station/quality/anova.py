@@ -22,9 +22,7 @@ retained.
 CATEGORIES = 1.41
 """Distinct categories per ratio of part variation to gauge variation (AIAG)."""
 DRAWS = 100_000
-"""Number of draws of the pivotal quantities; their quantiles are then good to a fraction of a percent of an
-interval.
-"""
+"""Number of draws of the pivotal quantities; quantiles are good to a fraction of a percent."""
 SEED = 20_05
 
 

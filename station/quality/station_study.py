@@ -106,9 +106,7 @@ def joint_gauge(joint: int, values: Real, tolerance_deg: float) -> JointGauge:
 
 
 def gauge_sd(values: Real) -> Real:
-    """(...,) standard deviation of one calibration, from values (robots, operators, mountings, repeats,
-    ...).
-    """
+    """(...,) sd of one calibration, from values (robots, operators, mountings, repeats, ...)."""
     shape, rest = values.shape[:4], values.shape[4:]
     found = []
     for one in np.moveaxis(values.reshape(*shape, -1), -1, 0):

@@ -63,9 +63,7 @@ class Advice(Record):
 
 
 class Remedy(Record):
-    """A measurement that would determine a weak direction, and the resulting standard uncertainty of the zero
-    offsets.
-    """
+    """A measurement that would determine a weak direction, and the zero offsets' standard uncertainty."""
 
     text: str
     sd_deg: float

@@ -124,9 +124,7 @@ class ExplainedEffect(EffectName):
     label: str
     parameters: tuple[Quantity, ...]
     depends_on: str | None = None
-    """Quantity that an unnamed error depends on: "joint1", "joint2", "reading", "place", "time" or
-    "approach".
-    """
+    """Dependence of an unnamed error: "joint1", "joint2", "reading", "place", "time" or "approach"."""
 
 
 class ExplanationRecord(Record):

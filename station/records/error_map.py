@@ -29,9 +29,7 @@ class ErrorMap(Record):
     after_mm: Grid
     """The same with the identified zero offsets in the drives."""
     after_95_mm: Grid
-    """With 95 % probability the position error at that point is not larger; the largest value is
-    `bound_95_mm`.
-    """
+    """With 95 % probability the position error there is not larger; the maximum is `bound_95_mm`."""
     bound_95_mm: float
     """With 95 % probability no position error over the workspace is larger."""
     limit_mm: float | None

@@ -127,9 +127,7 @@ def _names(above: list[Numbered], width: int) -> tuple[tuple[str, ...], tuple[st
 
 
 def _fitted(row: list[str], width: int) -> list[str]:
-    """The row with the length of a row of readings: the first column may be unnamed, the last may be
-    empty.
-    """
+    """As long as a row of readings: the first column may be unnamed, the last may be empty."""
     if len(row) == width + 1 and not row[-1]:
         return row[:-1]
     return ["", *row] if len(row) == width - 1 else row

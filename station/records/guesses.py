@@ -23,9 +23,7 @@ SAME_POSE_DEG = 0.02
 
 
 def with_guesses(m: Measurements) -> Measurements:
-    """The same readings, with approaches and positions inferred where the file has none; marked as
-    guessed.
-    """
+    """The same readings, with missing approaches and positions inferred and marked as guessed."""
     guessed = []
     m = replace(m, theta=_unwrapped(m.theta))
     if not m.approach.any():

@@ -102,9 +102,7 @@ class IdentificationDocument(Record):
     position_error_map: tuple[PositionErrorAt, ...]
     outliers: tuple[OutlierNote, ...]
     jump: JumpNote | None = None
-    """If not null, the zero offsets are not those of the machine in its present state, and `adequate` is
-    false.
-    """
+    """If not null, the zero offsets are not those of the present machine, and `adequate` is false."""
     references: tuple[ReferenceUse, ...] = ()
     """References from other instruments, and how well they agree with the other data."""
     memory: GateOfMemory | None

@@ -42,9 +42,7 @@ class Measurements:
     """(K,) index into `setups`; None if machine and instrument were never moved."""
     setups: tuple[str, ...] = ("",)
     sliding: tuple[int, ...] = ()
-    """Joints that slide, counted from 1; their `theta` is in metres: a metre and a radian move the end
-    similarly.
-    """
+    """Sliding joints, counted from 1; `theta` in metres: a metre and a radian move the end similarly."""
     resolution_mm: float = 0.0
     """Step of the readout if it is coarser than the noise of a sample, otherwise 0."""
     temperature_c: Real | None = None
@@ -88,7 +86,7 @@ class Measurements:
 
     @cached_property
     def repeat_group(self) -> Index:
-        """(K,) index of readings with the same position, approach, mount and set-up: their scatter is pure
+        """(K,) index of readings with one position, approach, mount and set-up: their scatter is pure
         error.
         """
         key = np.zeros(len(self), dtype=np.intp)

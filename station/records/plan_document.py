@@ -31,9 +31,7 @@ class PlanPrediction(Record):
     the zeros and nothing else.
     """
     duration_s: float | None = None
-    """Duration of all stops at the station's own speeds, in real time, without the fresh readings for
-    verification.
-    """
+    """Duration of all stops at the station's speeds, in real time, without the verification."""
     travel_deg: float | None = None
     """Motion of the joint with the longer one, summed over the stops."""
     map: tuple[PredictedSd, ...]

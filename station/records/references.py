@@ -16,9 +16,7 @@ from station.records.study_design import StudyDesign
 
 
 class JointAngle(Section):
-    """The angle of a proximal link, measured by an instrument in the robot's frame at standstill of the
-    drive.
-    """
+    """The angle of a proximal link, measured in the robot's frame at standstill of the drive."""
 
     kind: Literal["joint_angle"] = "joint_angle"
     joint: Literal[1, 2]

@@ -25,9 +25,7 @@ class StudyDesign(Section):
         return self.operators * self.mountings
 
     def operator_of(self, mounting: int) -> int:
-        """The operator 1, 2, ... of mounting 0, 1, ...: they take turns, so that a drift affects all
-        equally.
-        """
+        """The operator 1, 2, ... of mounting 0, 1, ...: in turn, so that a drift affects all equally."""
         return mounting % self.operators + 1
 
     def sequence_of(self, mounting: int, repeat: int) -> int:

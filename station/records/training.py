@@ -11,9 +11,7 @@ from station.records.result import Outcome, Verdict
 from station.records.run import State
 
 ChallengeGroup = Literal["catalogue", "unnamed", "fault"]
-"""An effect that the diagnosis has in its catalogue, one that it does not have, or a fault of a device or a
-line.
-"""
+"""An effect in the diagnosis's catalogue, one outside it, or a fault of a device or a line."""
 Score = Literal["found", "partly", "noticed", "wrong", "missed", "withstood"]
 """See `Exercise.score`."""
 

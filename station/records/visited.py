@@ -15,9 +15,7 @@ Stretches = list[tuple[float, float]]
 
 
 def visited_ranges(theta: Real) -> list[Stretches]:
-    """The intervals of each joint of theta (K, n), rad: neighbouring cells with enough readings are
-    joined.
-    """
+    """The intervals of each joint of theta (K, n), rad: neighbouring cells with readings are joined."""
     return [_stretches(angle) for angle in theta.T]
 
 

@@ -85,9 +85,7 @@ def scatter(
     x_names: Sequence[str] | None = None,
     words: Words = ENGLISH,
 ) -> Markup:
-    """Points, with whiskers if `low` and `high` are given; x_names are labels at x = 0, 1, ... in place of
-    numbers.
-    """
+    """Points, with whiskers if `low` and `high` are given; x_names are labels at x = 0, 1, ..."""
     return _chart("scatter", series, x_label, y_label, log_y, words, x_names)
 
 

@@ -220,9 +220,7 @@ class Situation:
 
     @cached_property
     def _by_zeros(self) -> tuple[Real, float]:
-        """The same with the zeros in the drives only: M, and the error from the geometry that remains,
-        mm^2.
-        """
+        """The same with the zeros in the drives only: M, and the remaining error of the geometry, mm^2."""
         weight = self._weight.copy()
         weight[GEOMETRY, GEOMETRY] = 0.0
         error = self.known.position_jacobian()[0]

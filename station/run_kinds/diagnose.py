@@ -128,9 +128,7 @@ def stage_accuracy(stage: StageAccuracy) -> Accuracy:
 
 
 def _seed(sequence: Measurements) -> int:
-    """Seed from the readings themselves: new positions for each run, reproducible from the stored
-    readings.
-    """
+    """Seed from the readings: new positions for each run, reproducible from the stored readings."""
     return zlib.crc32(np.ascontiguousarray(sequence.distance).tobytes())
 
 

@@ -157,9 +157,7 @@ class _Calibration:
         return np.asarray(parts * np.degrees(1.0) ** 2)
 
     def _readout_sd_mm(self) -> float:
-        """Standard deviation of a reading, from the scatter of its samples; from the specification if none
-        are stored.
-        """
+        """Standard deviation of a reading, from its samples; from the specification if none are stored."""
         kept = [r.samples_mm for r in self.readings if len(r.samples_mm) > 1]
         variances = [np.var(samples, ddof=1) / len(samples) for samples in kept]
         if not variances:

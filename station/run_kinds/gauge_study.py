@@ -124,9 +124,7 @@ def taken_over(store: Store, run: int) -> list[Reading]:
 
 
 def check_gauge_study(store: Store, request: CalibrationRequest) -> None:
-    """:raises NotApplicable: the earlier study cannot be continued; the error states why.  :raises NotFound:
-    no such run.
-    """
+    """:raises NotApplicable: the earlier study cannot be continued, with the reason. :raises NotFound:"""
     if request.of is None:
         return
     run = store.summary(request.of)

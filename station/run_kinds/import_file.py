@@ -23,9 +23,7 @@ from station.run_kinds.kind import RunKind, register
 from station.store import Store, request_hash
 
 MOST_READINGS = 2000
-"""Limit for both files together. The loop takes about a second for these, and its time grows with their
-square.
-"""
+"""Limit for both files together. The loop takes a second for these; time grows with their square."""
 
 
 @dataclass(frozen=True, slots=True)

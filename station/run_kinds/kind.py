@@ -39,9 +39,7 @@ class Start:
     limits: LimitSettings = field(default_factory=LimitSettings)
     """Limits of this station."""
     known_before: Callable[[], Beforehand | None] | None = None
-    """The knowledge from before a finished run, when it is evaluated again; None: the current knowledge in
-    the store.
-    """
+    """The knowledge before a finished run that is evaluated again; None: the current one in the store."""
 
     @property
     def pace(self) -> Pace:
@@ -93,9 +91,7 @@ class RunKind:
     :raises InputRefused: it is not possible for this robot.
     """
     check: Callable[[Store, CalibrationRequest], None] = _nothing_to_check
-    """Check before anything is stored. :raises NotApplicable: the earlier run does not permit it; the error
-    states why.
-    """
+    """Check before storing anything. :raises NotApplicable: the earlier run does not permit it."""
     done_by: Callable[[Store, int], int | None] | None = None
     """The run that has already done this for an earlier run, so that a repeated request is harmless."""
     continues: Callable[[Store, CalibrationRequest], Continued | None] | None = None
@@ -105,9 +101,7 @@ class RunKind:
     judged: bool = True
     """Whether it ends with a verdict on the robot."""
     rests_on_scale: bool = True
-    """Whether its verdict needs a scale with a valid certificate; not for kinds that only write the zeros of
-    a pass.
-    """
+    """Whether its verdict needs a certified scale; not for kinds that only write the zeros of a pass."""
     offsets: bool = False
     """Whether the zero offsets of a pass may be written to the drives."""
 
@@ -146,9 +140,7 @@ def kind_of_plan(plan: PlanName) -> str:
 
 
 def has_offsets(run: CalibrationSummary) -> bool:
-    """Whether a pass of its kind has zero offsets to write; the history may contain kinds that no longer
-    exist.
-    """
+    """Whether a pass of its kind has zero offsets to write; the history may contain former kinds."""
     kind = RUN_KINDS.get(run.kind)
     return kind is not None and kind.offsets
 

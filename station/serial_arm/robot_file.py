@@ -1,6 +1,4 @@
-"""The robot file of a serial arm: Denavit-Hartenberg links, tolerances, the measured quantity and its
-uncertainty.
-"""
+"""The robot file of a serial arm: Denavit-Hartenberg links, tolerances, measurement and uncertainty."""
 
 from __future__ import annotations
 

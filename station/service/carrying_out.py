@@ -55,9 +55,7 @@ class CarryingOut:
     settings: Settings
     listeners: Listeners
     begin_clock: Callable[[float], Clock]
-    """Start the clock from the seconds since the run began; called after all lines were closed, before any is
-    opened.
-    """
+    """Start the clock from the seconds since the run began; between closing and opening all lines."""
     take_wire: Callable[[], bytes]
     """The wire log since the last call, to be stored."""
     answers: Iterator[float | None] | None = None

@@ -1,6 +1,4 @@
-"""Interlocks in the record: interlocks that were violated and satisfied again during a run, as events of the
-run.
-"""
+"""Interlocks in the record: violations during a run, and their ends, as events of the run."""
 
 from __future__ import annotations
 

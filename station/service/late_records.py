@@ -48,9 +48,7 @@ class LateRecords:
     def deed(
         self, by: Actor, action: str, subject: str, after: Mapping[str, JsonValue] | None = None
     ) -> Event:
-        """Record an entry of the audit with the time of this call; returns at once a function that reports
-        when it is written.
-        """
+        """Record an audit entry with the time of this call; returns at once an event set when written."""
         at = datetime.now(UTC)
         return self._add(
             f"{action} by {by.name}",

@@ -234,9 +234,7 @@ class Orchestrator:
         return calibration_holds(self._store, serial)
 
     def _calibration_holds(self) -> CalibrationHolds:
-        """Whether the calibration of the robot measured last is valid; cached, so that a snapshot needs no
-        query.
-        """
+        """Whether the calibration of the robot measured last is valid; cached for snapshots."""
         serial = self._machine.robot.serial
         try:
             self._machine.locks.look_at_reference()
@@ -288,9 +286,7 @@ class Orchestrator:
         return self._store.summary(calibration_id).state
 
     def shutdown(self) -> None:
-        """Abort the active run, make the machine safe, end the worker, close the devices. Repeating it is
-        harmless.
-        """
+        """Abort the active run, make safe, end the worker, close the devices. May be repeated."""
         with self._submitting:
             first, self._closing = not self._closing, True
         if first:
@@ -306,9 +302,7 @@ class Orchestrator:
     # Watching ------------------------------------------------------------------------------------
 
     def subscribe(self, listener: Listener) -> Callable[[], None]:
-        """Call a function for every event from now on, in the worker's thread; returns the function to
-        unsubscribe.
-        """
+        """Call a function for every event, in the worker's thread; returns that to unsubscribe."""
         return self._listeners.subscribe(listener)
 
     def snapshot(self) -> StationView:

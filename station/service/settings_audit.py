@@ -21,9 +21,7 @@ _OF = " (secret part)"
 
 
 def record_settings(store: Store, settings: Settings) -> None:
-    """Store the settings of this start and record every difference from the last start, with the account that
-    started it.
-    """
+    """Store the settings of this start and record every change since the last, with the account."""
     values = dict(_flat(settings_of(settings)))
     hidden: dict[str, str] = {}
     before = store.settings_in_use()

@@ -57,9 +57,7 @@ TROUBLES = {
 }
 """Relative frequency of each."""
 _CHANGE_THE_MACHINE = ("jump", "lost_counts", "reboot", "unit", "frozen", "contaminated", "overspeed")
-"""Faults after which the readings do not represent the machine, so that its true values are no reference for
-them.
-"""
+"""Faults after which the readings do not represent the machine: its true values are no reference."""
 _NEW_KEY, _STRANGER = 0.05, 0.3
 """Number per day."""
 _CLOCK_STEPS_S = (-3600.0, -60.0, 90.0, 3600.0, 315_360_000.0)

@@ -70,9 +70,7 @@ def orders(depth: int) -> list[Order]:
 
 
 def writes_that_fail() -> list[WriteThatFails]:
-    """Every write of a measurement and an application: it fails, all from it on fail, or a kill happens at
-    it.
-    """
+    """Every write of a measurement and an application: it fails, all from it on fail, or a kill at it."""
     kinds: tuple[tuple[DiskTrouble | Literal["kill"], int], ...] = (
         ("error", 1),
         ("full", FOR_GOOD),

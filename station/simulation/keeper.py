@@ -61,9 +61,7 @@ class Keeper:
 
     @contextmanager
     def answered(self) -> Iterator[None]:
-        """Context of a request: a refusal with a sentence, or a missing answer because the station was
-        killed, is accepted.
-        """
+        """Context of a request: a refusal, or a missing answer because of a kill, is accepted."""
         try:
             yield
         except (NotRunning, *REFUSALS):

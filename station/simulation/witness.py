@@ -141,9 +141,7 @@ class Witness:
         self._started_by[who, action, f"run {run}"] = 1
 
     def done(self, who: str, action: str, subject: str) -> None:
-        """An action was confirmed whose audit entry is written later; a kill in the same minute may prevent
-        it.
-        """
+        """An action was confirmed that the audit records later; a kill in the same minute may prevent it."""
         self._done_late[who, action, subject] += 1
 
     def answered(self, answer: Answer) -> None:
@@ -195,9 +193,7 @@ class Witness:
         self._jumped_after[run] = len(self._shown.get(self._current.uid, {})) if self._current else 0
 
     def disturb(self, run: int) -> None:
-        """The machine or its readout is changed during a run: its true values are no reference for that
-        run.
-        """
+        """The machine or its readout is changed during a run: its true values are no reference for it."""
         self._disturbed.add(run)
 
     def off(self, since_s: float) -> None:

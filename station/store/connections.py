@@ -26,9 +26,7 @@ def connect(path: Path) -> sqlite3.Connection:
 
 
 def connect_read_only(path: Path) -> sqlite3.Connection:
-    """A connection that changes no byte of the file, and creates no file beside it if no station has it
-    open.
-    """
+    """A read-only connection; it creates no file beside the database if no station has it open."""
     open_elsewhere = path.with_name(f"{path.name}-wal").exists()
     address = f"{path.resolve().as_uri()}?mode=ro{'' if open_elsewhere else '&immutable=1'}"
     connection = sqlite3.connect(address, uri=True, check_same_thread=False)

@@ -111,9 +111,7 @@ def unsound(value: object, where: str = "") -> str | None:
 
 
 def _without_numbers(result: CalibrationResult) -> CalibrationResult:
-    """An invalid result without its numbers: only that it existed, and its method. Its readings are
-    stored.
-    """
+    """An invalid result without its numbers: its existence and method. Its readings are stored."""
     return CalibrationResult(
         verdict="fail", outcome="failed", reason=result.reason, method=result.method, zero_offsets=()
     )

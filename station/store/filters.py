@@ -14,9 +14,7 @@ Order = Literal["newest", "oldest", "serial", "serial_down"]
 BY_SERIAL: tuple[Order, ...] = ("serial", "serial_down")
 Conditions = tuple[list[str], list[str | int]]
 FEW = 2000
-"""Up to this many matches of a search are sorted; more matches are found quickly by scanning all runs in
-order.
-"""
+"""Up to this many matches of a search are sorted; more are found quickly by a scan in order."""
 MOST_COUNTED = 10_000
 """Counting stops here: larger counts are not useful, and a million takes a quarter of a second."""
 _AFTER_ALL = "\U0010ffff"

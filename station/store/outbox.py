@@ -114,9 +114,7 @@ class Outbox(KeptFile):
             )
 
     def expire(self, receiver: str, before: datetime, most: int) -> int:
-        """Give up deliveries that are pending for longer, and the oldest of too many; returns their
-        number.
-        """
+        """Give up deliveries pending for longer, and the oldest of too many; returns their number."""
         with self._writing() as db:
             return db.execute(
                 "UPDATE deliveries SET state = 'expired', ended_ms = ?, detail ="

@@ -301,9 +301,7 @@ class People(AuditTrail):
 
 
 def _keep_an_administrator(db: Database, user: User) -> None:
-    """Within the transaction that would remove one: two administrators who remove each other are handled in
-    turn.
-    """
+    """Within the transaction that would remove one: administrators removing each other go in turn."""
     if user.role != "administrator" or user.disabled:
         return
     if not db.execute(

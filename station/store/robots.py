@@ -147,9 +147,7 @@ class Memories(RobotFiles):
         return _remembered(row)
 
     def others_of_type(self, robot: Robot) -> list[tuple[Robot, LastingParameters]]:
-        """Other robots of its type with the memory of their newest pass, newest first; cleared ones are
-        omitted.
-        """
+        """Other robots of its type with the memory of their newest pass, newest first; none cleared."""
         rows = self._readers.all(
             "SELECT memories.robot_serial, memory, file FROM memories"
             " JOIN calibrations ON calibrations.id = calibration_id JOIN robots ON robots.id = robot_id"
@@ -184,9 +182,7 @@ class Memories(RobotFiles):
 
 
 def _check_type(db: Database, robot: RobotFile) -> None:
-    """:raises NotApplicable: robots of its type have other nominal lengths; the error states which and the
-    remedy.
-    """
+    """:raises NotApplicable: robots of its type have other nominal lengths; with the remedy."""
     file: Sections = json.loads(compact(robot.to_json()))
     kind = _robot_section(file).get("type")
     if kind is None:

@@ -82,9 +82,7 @@ class Tables(KeptFile):
     """Ranges of run numbers, both ends included."""
 
     def finished_after(self, run: int, most: int) -> list[tuple[int, str]]:
-        """Number and month of creation (UTC, "2026-11") of runs after `run`, up to the first that has not
-        ended.
-        """
+        """Number and month of creation (UTC, "2026-11") of runs after `run`, up to the first unfinished."""
         marks = ", ".join("?" * len(UNFINISHED))
         rows = self._readers.all(
             "SELECT id, strftime('%Y-%m', created_ms / 1000, 'unixepoch') AS month FROM calibrations"

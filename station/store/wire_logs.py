@@ -40,9 +40,7 @@ class WireLogs(KeptFile):
         return int(row["bytes"]) if row is not None else 0
 
     def drop_wire(self, ended_before: datetime) -> int:
-        """Delete the logs of runs that ended before; returns their number. Each is recorded as an event of
-        its run.
-        """
+        """Delete the logs of runs that ended before; returns their number. Each deletion is an event."""
         rows = self._readers.all(
             "SELECT DISTINCT run_id FROM wire_logs JOIN calibrations ON id = run_id WHERE ended_ms < ?",
             [millis(ended_before)],

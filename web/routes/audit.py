@@ -36,9 +36,7 @@ def read_audit(
     cursor: Cursor = None,
     contains: Contained = "",
 ) -> AuditList:
-    """Entries for every start, stop, application, change and sign-in. `station audit` checks the chain
-    too.
-    """
+    """Every start, stop, application, change and sign-in. `station audit` checks the chain too."""
     found = runtime.store.audit(limit=limit + 1, cursor=cursor, contains=contains.strip())
     items, last = page_of(found, limit)
     return AuditList(items=items, next=last.n if last else None)

@@ -46,9 +46,7 @@ def read_robot(serial: Serial, runtime: TheRuntime) -> Robot:
 def clear_check(
     serial: Serial, body: ClearBody, by: Annotated[Actor, needs(Permission.MAINTAIN)], runtime: TheRuntime
 ) -> CalibrationHolds:
-    """An engineer permits work with the calibration after a failed check; the person and the reason are
-    recorded.
-    """
+    """An engineer permits work with the calibration after a failed check; person and reason are recorded."""
     holds = runtime.orchestrator.clear_failed_check(serial, body.operator, body.reason)
     runtime.store.record(by, "check.cleared", f"robot {serial}", after={"reason": body.reason})
     return holds

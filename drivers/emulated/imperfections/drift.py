@@ -6,9 +6,7 @@ from drivers.emulated.imperfections.base import Effect, Scene
 
 
 class Drift(Effect):
-    """A mounting that relaxes: the reading creeps in proportion to time, independent of the machine's
-    motion.
-    """
+    """A mounting that relaxes: the reading creeps in proportion to time, independent of the motion."""
 
     kind: Literal["drift"] = "drift"
     mm_per_hour: float

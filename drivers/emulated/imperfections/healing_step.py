@@ -8,9 +8,7 @@ from drivers.emulated.imperfections.base import Effect, Scene
 
 
 class HealingStep(Effect):
-    """A chip under the slider adds `step_mm` from the `from_stop`-th stop on, and is gone `for_stops` stops
-    later.
-    """
+    """A chip under the slider adds `step_mm` from the `from_stop`-th stop on, for `for_stops` stops."""
 
     kind: Literal["healing_step"] = "healing_step"
     step_mm: float = 0.02

@@ -8,9 +8,7 @@ from drivers.emulated.imperfections.base import Effect, LastStop, Scene
 
 
 class ReadoutLag(Effect):
-    """The display's filter is too slow: the value retains `share` of the difference to that of the last
-    stop.
-    """
+    """The display's filter is too slow: it retains `share` of the difference to the last stop's value."""
 
     kind: Literal["readout_lag"] = "readout_lag"
     share: float = Field(default=0.00015, ge=0, le=1)

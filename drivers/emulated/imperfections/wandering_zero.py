@@ -9,9 +9,7 @@ from drivers.emulated.imperfections.base import JointEffect, Scene
 
 
 class WanderingZero(JointEffect):
-    """A clamp that creeps with every motion: each stop shifts the arm by `deg_per_stop` (sd), without a
-    change of feedback.
-    """
+    """A clamp that creeps with every motion: each stop shifts the arm by `deg_per_stop` (sd), undetected."""
 
     stage: ClassVar[int] = 0
 

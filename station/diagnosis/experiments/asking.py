@@ -16,9 +16,7 @@ RUN_UP = np.radians(1.0)
 
 
 def asked(found: ExplanationSet, places: Complex, sides: Real, stops: int) -> Measurements:
-    """Readings at positions (K,) approached from sides (K, 2), in the middle of an experiment of this many
-    stops.
-    """
+    """Readings at positions (K,) from sides (K, 2), in the middle of an experiment of this many stops."""
     learned = found.mechanism.measurements
     robot, p = found.mechanism.robot, found.shown.x[: found.shown.size]
     theta = inverse(robot.geometry, places) - p[:2]

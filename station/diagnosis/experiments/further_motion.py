@@ -1,6 +1,4 @@
-"""Further motion: readings at which the explanations differ most, compared with noise and their own
-uncertainty.
-"""
+"""Further motion: readings at which the explanations differ most, relative to noise and uncertainty."""
 
 from __future__ import annotations
 

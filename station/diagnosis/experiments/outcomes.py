@@ -1,6 +1,4 @@
-"""The readings that each explanation predicts for an experiment, and how often it would decide between
-them.
-"""
+"""The readings that each explanation predicts for an experiment, and how often it decides between them."""
 
 from __future__ import annotations
 

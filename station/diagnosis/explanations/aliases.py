@@ -1,6 +1,4 @@
-"""Named errors that these readings cannot distinguish from another: their projected signatures agree to
-0.9.
-"""
+"""Named errors that these readings cannot distinguish: their projected signatures agree to 0.9."""
 
 from __future__ import annotations
 
@@ -15,9 +13,7 @@ ALIKE = 0.9
 
 
 def aliases(bank: Bank, choices: Sequence[Choice], index: int) -> tuple[int, ...]:
-    """Families that cannot be distinguished from error `index` of a set, with the other errors of the set
-    known.
-    """
+    """Families that cannot be distinguished from error `index` of a set, with the others of the set known."""
     others = bank.known([c for k, c in enumerate(choices) if k != index])
     # a part that the others take up is scaled by the square root of the share that they leave
     shrink = 1.0 - np.sqrt(1.0 - others.share)

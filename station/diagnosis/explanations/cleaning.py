@@ -1,6 +1,4 @@
-"""Glitches: single readings that no explanation can account for are excluded by id, before and after
-weighing.
-"""
+"""Glitches: readings that no explanation accounts for, excluded by id before and after weighing."""
 
 from __future__ import annotations
 
@@ -50,9 +48,7 @@ def start(mechanism: FiveBar, reference: Reference) -> tuple[Real, Real]:
 
 
 def suspects(mechanism: FiveBar, reference: Reference) -> Mask:
-    """(K,) readings that disagree with the others and with their own position, if they are few and
-    isolated.
-    """
+    """(K,) readings that disagree with the others and with their own position, if few and isolated."""
     m = mechanism.measurements
     none = np.zeros(len(m), dtype=bool)
     try:

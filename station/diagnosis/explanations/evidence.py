@@ -54,9 +54,7 @@ class Known:
 
 
 class Scan(NamedTuple):
-    """Evidence of each family, given the known errors: averaged over members and sizes, and at the best of
-    them.
-    """
+    """Evidence of each family, given the known errors: averaged over members and sizes, and the best."""
 
     total: Real
     """(F,) log evidence over the base model's; -inf where not computed."""

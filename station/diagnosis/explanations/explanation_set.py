@@ -87,9 +87,7 @@ class ExplanationSet:
 
     @cached_property
     def position_error(self) -> tuple[PositionError, PositionError]:
-        """Position error of the mixture over the workspace: with the base model's commands, and with its
-        own.
-        """
+        """Position error of the mixture over the workspace: with the base model's and its own commands."""
         return self.mixture.before_and_after(self.base)
 
     @property

@@ -55,9 +55,7 @@ class Family:
     actions: Callable[[Situation, Sequence[Hidden]], list[Action]]
     """The actions of members with these hidden parameters, for a unit of every amplitude."""
     depends_on: str | None = None
-    """The quantity that an unnamed error depends on: "joint1", "joint2", "reading", "place", "time" or
-    "approach".
-    """
+    """Dependence of an unnamed error: "joint1", "joint2", "reading", "place", "time" or "approach"."""
     signed: bool = False
     """Whether its only amplitude cannot be negative."""
     one_sided: bool = False

@@ -109,9 +109,7 @@ class Mixture:
         return np.sqrt(square), np.concatenate(drawn, axis=1)
 
     def before_and_after(self, base: Settled) -> tuple[PositionError, PositionError]:
-        """Position error over the workspace: with the commands of the base model, and with those of the
-        set.
-        """
+        """Position error over the workspace: with the commands of the base model, and of the set."""
         place = self.mechanism.robot.workspace_grid(*GRID)
         after = self.position_error(self.commands(place), place)
         if len(self.settled) == 1 and self.settled[0] is base:

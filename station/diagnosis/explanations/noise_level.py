@@ -13,9 +13,7 @@ from station.records import Real
 LEVELS = np.geomspace(0.6, 12.0, 48)
 """Noise over the specification."""
 USUAL_SD, POOR_SD = 0.07, 0.5
-"""Standard deviations of the logarithm of the level: for most stations, and for those whose head is worse
-than specified.
-"""
+"""Standard deviations of the logarithm of the level: most stations, and those with a poor head."""
 POOR_SHARE, POOR_LEVEL = 0.1, 1.2
 
 
@@ -29,18 +27,14 @@ def _log_prior() -> Real:
 
 LOG_PRIOR = _log_prior()
 LOUD = 1.6
-"""Scatter of the repeats over that of the head, above which the feedback leaves a part of the angle
-unknown.
-"""
+"""Scatter of the repeats over that of the head, above which the feedback is not exact."""
 WANDERING = 1.5
 """von Neumann's ratio of their deviations below which they drift instead."""
 FEWEST = 8
 
 
 class NoiseLevel:
-    """Marginal likelihood of a quadratic form q of N whitened rows, of which `taken` were used by
-    parameters.
-    """
+    """Marginal likelihood of a quadratic form q of N whitened rows; parameters used `taken` of them."""
 
     def __init__(self, rows: int, taken: float) -> None:
         self._dof = rows - taken

@@ -37,9 +37,7 @@ HEALING = (4, 8, 16, 32, 64)
 
 
 def rough_families(s: Situation, lengths: Mapping[str, float], *, thermometer: bool) -> tuple[Family, ...]:
-    """Families for the readings of `s`, nominal lengths by name (mm), and whether a temperature was
-    recorded.
-    """
+    """Families for the readings of `s`, nominal lengths by name (mm), and whether it has temperatures."""
     return (
         *(_backlash(i) for i in (1, 2)),
         _both_backlash(),

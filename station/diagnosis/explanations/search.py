@@ -32,9 +32,7 @@ REFINED = 4
 """This many of the first scan are refined in any case."""
 MOST_POLISHED = 12
 STRONG = 20.0
-"""Log of evidence by which a second error must help before it is refined, whatever its distance from the
-best.
-"""
+"""Log of evidence by which a second error must help to be refined at any distance from the best."""
 NOTHING_FOUND = 6.0
 """Log of odds by which the best single error must exceed the base model before pairs are searched."""
 ALONE_WITHIN = 20.0
@@ -167,8 +165,7 @@ class Search:
         searched.sort(key=lambda k: -weighed[k])
         strong = STRONG + self.bank.log_evidence(known) + price
         for rank, family in enumerate(searched):
-            # with nothing else found, a wave between two steps of the search may be far better than the
-            # scan shows
+            # with nothing else found, a wave between two steps of the search may be far better than shown
             free = (not beside and rank < REFINED) or (
                 len(beside) == 1 and rank == 0 and scan.total[family] + price > strong
             )
@@ -195,9 +192,7 @@ class Search:
             self._polished_keys.discard(key)
 
     def _fits(self, key: Key, family: int) -> bool:
-        """Whether a family may be added: the same effect twice only where the machine can have it more than
-        once.
-        """
+        """Whether a family may be added: the same effect twice only if the machine can have it twice."""
         added = self.families[family]
         if family in key:
             return added.repeats

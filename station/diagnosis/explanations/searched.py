@@ -1,6 +1,4 @@
-"""Uncertainty of a searched parameter (cycles per turn, a period), from the effect of a small change on the
-readings.
-"""
+"""Uncertainty of a searched parameter (cycles per turn, a period), from the effect of a small change."""
 
 from __future__ import annotations
 

@@ -35,9 +35,7 @@ class Settled:
     """(P + q,)"""
     covariance: Real
     log_evidence: float
-    """At these members and sizes, with the noise level averaged; absolute, up to a constant of the
-    readings.
-    """
+    """At these members and sizes, noise level averaged; absolute, up to a constant of the readings."""
     cost: float
     """Sum of squares of residual and prior at the minimum, in units of the specified noise."""
     level: float

@@ -79,9 +79,7 @@ class Statements:
         return out
 
     def aliases(self, choices: tuple[Choice, ...], index: int) -> tuple[int, ...]:
-        """Named families that these readings cannot distinguish from one error of a set, and do not
-        exclude.
-        """
+        """Named families that these readings cannot distinguish from one error of a set, nor exclude."""
         held = {k for key, p in self.cores if p >= 0.01 for k in key}
         alike = aliases(self.weighing.bank, choices, index)
         return tuple(k for k in alike if k in held)

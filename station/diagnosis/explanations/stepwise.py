@@ -22,9 +22,7 @@ from station.five_bar import FiveBar
 from station.records import Measurements, Real
 
 OPEN = 4.0
-"""Standard deviation of a prediction over the noise above which it is meaningless (a direction not
-determined).
-"""
+"""Standard deviation of a prediction over the noise above which it is meaningless."""
 
 
 @dataclass(frozen=True)

@@ -12,9 +12,7 @@ from station.records import Real
 
 
 def thermal_families(s: Situation, lengths: Mapping[str, float], *, thermometer: bool) -> tuple[Family, ...]:
-    """Links and scale grow with temperature, by the expansion of a material; the mounting may move either
-    way.
-    """
+    """Links and scale grow with temperature by a material's expansion; the mounting may move either way."""
     if thermometer and s.rise is None:
         return ()
     if s.rise is None:

@@ -104,9 +104,7 @@ def prediction(later: FiveBar, reference: Reference, settled: Settled, row_sd: R
 
 
 def tangent(later: FiveBar, reference: Reference, settled: Settled) -> tuple[Real, Real]:
-    """(F,) measured less predicted, and the derivatives (F, X) of the prediction with respect to all
-    unknowns, mm.
-    """
+    """(F,) measured less predicted, and the derivatives (F, X) of the prediction by all unknowns, mm."""
     p = settled.x[: settled.size]
     plain = at_readings(later, p, reference, first=False)
     more = added(plain, settled.present)

@@ -64,9 +64,7 @@ class Weighing:
 
     @property
     def wanders(self) -> bool:
-        """Whether the best explanation has a random step at every reading; it is not a member of the
-        search.
-        """
+        """Whether the best explanation has a random step at every reading; the search does not contain it."""
         return any(c.family >= len(self.bank.families) for c in self.best.choices)
 
     def settle(self, key: Key) -> Settled:

@@ -1,6 +1,4 @@
-"""The result of a diagnosis, stored and used: the model file, commands with it, its effects on another
-log.
-"""
+"""The result of a diagnosis, stored and used: model file, commands, and its effects on another log."""
 
 from __future__ import annotations
 

@@ -1,6 +1,4 @@
-"""The identified model as JSON, with all that `station solve` needs, and a reader that validates
-everything.
-"""
+"""The identified model as JSON, with all that `station solve` needs, and a strict reader."""
 
 from __future__ import annotations
 
@@ -60,9 +58,7 @@ class LearnedModel:
 def model_document(
     diagnosis: TracedDiagnosis, fit: Fit, sd_factor: float, *, stage: str, confirmed: bool | None
 ) -> ModelDocument:
-    """Everything that commands and a transfer need; mm and rad, base parameters, then each term's
-    amplitudes.
-    """
+    """Everything that commands and a transfer need; mm and rad, base parameters, then amplitudes."""
     m = diagnosis.measurements
     degrees = np.degrees(m.theta)
     covariance = (fit.solution.covariance * sd_factor**2).tolist() if len(fit.x) < MANY else None

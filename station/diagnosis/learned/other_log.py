@@ -61,9 +61,7 @@ class Transfer:
     applied: Errors
     """With the effects, the same readings."""
     beyond: tuple[Errors, Errors] | None
-    """The same pair within the outer limits of the learned range, gaps included; None without such
-    readings.
-    """
+    """The same pair within the outer limits of the learned range, gaps included; None if empty."""
 
 
 def transfer(
@@ -109,9 +107,7 @@ def transfer(
 
 
 def _turned_near(part: ModelDocument, readings: Measurements) -> Measurements:
-    """The same poses, each joint moved by whole turns as near as possible to the middle of its learned
-    range.
-    """
+    """The same poses, each joint moved by whole turns to be nearest to the middle of its learned range."""
     middle = np.radians([(low + high) / 2.0 for low, high in part.ranges.joints_deg])
     turns = np.round((readings.theta - middle) / (2.0 * np.pi))
     return replace(readings, theta=readings.theta - 2.0 * np.pi * turns)
@@ -208,9 +204,7 @@ class _Frozen:
             ) from error
 
     def unknown(self, learned: Solution) -> Real:
-        """(K,) mm, standard uncertainty of the target's position, for a mechanism learned on other
-        readings.
-        """
+        """(K,) mm, standard uncertainty of the target's position, for a mechanism from other readings."""
         at = self.model.observe(np.concatenate([learned.x, self.amplitudes]), self.bases)
         J = at.by_parameter[:, : self.model.base_size]
         return by_reading(

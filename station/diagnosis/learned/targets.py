@@ -1,6 +1,4 @@
-"""Target positions from a CSV file or from the rows of a request, and the joint commands that are
-returned.
-"""
+"""Target positions from a CSV file or the rows of a request, and the joint commands for them."""
 
 from __future__ import annotations
 

@@ -22,9 +22,7 @@ SCALE_FACTORS = {
     "share_twice": 0.5, "share_half": 2.0, "share_four_times": 0.25, "share_quarter": 4.0,
     "share_five_times": 0.2, "share_fifth": 5.0,
 }  # fmt: skip
-"""Factors by which the readings are too large (wrong interpolation or counting of edges), and the
-correction.
-"""
+"""Factors of readings that are too large (wrong interpolation or edge counting), and the correction."""
 ANGLE_UNITS = {
     "in_radians": 180.0 / np.pi, "in_minutes_of_arc": 1.0 / 60.0, "in_seconds_of_arc": 1.0 / 3600.0,
     "in_milliradians": 0.18 / np.pi, "in_gon": 0.9, "in_turns": 360.0, "in_tenths_of_a_degree": 0.1,

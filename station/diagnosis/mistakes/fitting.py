@@ -179,9 +179,7 @@ class _Problem:
         z[size - len(m.mounts) : size] += offset if np.isfinite(offset) else 0.0
 
     def solved(self, begin: Real, noise: float) -> Solution | None:
-        """The fit with readings that scatter by `noise` times their specification; None without
-        convergence.
-        """
+        """The fit with readings that scatter by `noise` times specified; None without convergence."""
         distance, used, sd = self.mechanism.measurements.distance, self.used, self.row_sd[self.used]
 
         def residuals(z: Real) -> tuple[Real, Real]:
@@ -220,9 +218,7 @@ class _Problem:
 
 
 def posterior(robot: Robot, m: Measurements, found: Fitted) -> tuple[Real, Real]:
-    """Mean (P,) and root (P, P) of the posterior of a base-model fit, as prior for `fit` of other
-    readings.
-    """
+    """Mean (P,) and root (P, P) of a base-model fit's posterior, as prior for `fit` of other readings."""
     mechanism = FiveBar(robot, m)
     at = mechanism.observe(found.p, m.theta)
     J = (at.by_parameter / (found.row_sd * found.noise)[:, None])[found.used]

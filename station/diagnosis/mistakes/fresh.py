@@ -130,9 +130,7 @@ def _moved(
 def _cures(
     robot: Robot, fresh: Measurements, sequence_fit: Fitted, found: Fitted, without: list[float]
 ) -> bool:
-    """Whether it is far more probable than every explanation without a mistake, and leaves no more than the
-    sequence does.
-    """
+    """Whether it is far more probable than any other explanation, and leaves no more than the sequence."""
     frozen = float(
         np.sqrt(
             np.nanmean(

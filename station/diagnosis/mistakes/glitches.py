@@ -62,9 +62,7 @@ def glitches(robot: Robot, m: Measurements, base: Fitted | None, agreed: Rough, 
 
 
 def _one_place(m: Measurements, far: np.ndarray) -> bool:
-    """Whether every reading of the affected positions is off alike: then the position is at fault, not the
-    readings.
-    """
+    """Whether every reading of the affected positions is off: then the position is at fault."""
     theta = np.degrees(m.theta)
     companions = bad = 0
     for k in np.flatnonzero(far):

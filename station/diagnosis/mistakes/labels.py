@@ -150,9 +150,7 @@ def _agreement(recorded: Real, moved: Real) -> float | None:
 
 
 def _positive_play(robot: Robot, m: Measurements, joints: list[int]) -> bool:
-    """Whether backlash with the recorded sign is present: then the columns are right and the order of the
-    rows is wrong.
-    """
+    """Whether backlash with the recorded sign is present: then the order of the rows is wrong."""
     found = fit(robot, m, extras=plays(m))
     if found is None:
         return False

@@ -1,6 +1,4 @@
-"""Every kind of mistake as an explanation; the one that makes the readings agree, if chance cannot explain
-it.
-"""
+"""Every kind of mistake as an explanation; the one that makes the readings agree beyond chance."""
 
 from __future__ import annotations
 
@@ -192,8 +190,7 @@ def _far_better(best: _Candidate, base: Fitted, without: WithoutAMistake) -> boo
     """
     everything = without.everything - best.deviance
     if best.mistake is not None and best.mistake.severity == "as_effect":
-        # an entry of a defect's size is reported where it is as probable as any explanation without a
-        # mistake
+        # an entry of a defect's size is reported if it is as probable as any other explanation
         return (
             base.deviance - best.deviance > FAR_BETTER
             and min(without.simple - best.deviance, everything) > -AS_GOOD

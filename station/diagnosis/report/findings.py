@@ -1,6 +1,4 @@
-"""The results of one diagnosis, whichever search made it: the figures that documents, pages and tables
-show.
-"""
+"""The results of one diagnosis, whichever search made it: the figures of documents, pages and tables."""
 
 from __future__ import annotations
 

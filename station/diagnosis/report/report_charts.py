@@ -53,9 +53,7 @@ def _milli(angle: Real, value: Real, low: Real | None = None, high: Real | None 
 
 
 def residual_charts(m: Measurements, view: ResidualView, added: bool, wording: Wording) -> Iterator[Chart]:
-    """Pairs against order, time, angles, travel, approach and position; single ones where nothing was
-    added.
-    """
+    """Pairs against order, time, angles, travel, approach and position; single if nothing was added."""
     say, words = wording.say, wording.of_charts
     was, left = view.before_mm * MICROMETRES, view.after_mm * MICROMETRES
     for name, along in _by_number(m, view, wording):
@@ -117,8 +115,6 @@ def _pair(
 
 
 def _points(label: str, x: Real, y: Real) -> Series:
-    """At most as many of thousands of points as are distinguishable on the page, evenly spread over the
-    log.
-    """
+    """Of thousands of points, as many as are distinguishable on the page, evenly spread over the log."""
     every = -(-len(x) // MOST_POINTS)
     return Series(label, x[::every].tolist(), y[::every].tolist())

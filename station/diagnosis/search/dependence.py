@@ -124,9 +124,7 @@ def _worst_place(residual: WhitenedResidual) -> Real:
 
 
 def _periodic(residual: WhitenedResidual, along: Real, highest: float) -> tuple[float, Departure]:
-    """The period along a quantity that takes most, up to `highest` periods per unit, and the share it
-    takes.
-    """
+    """The period along a quantity that takes most, up to `highest` periods per unit, and its share."""
     span = float(np.ptp(along))
     lowest, step = 2.0 / (span or 1.0), 1.0 / (span or 1.0) / OVERSAMPLING
     count = int((highest - lowest) / step)

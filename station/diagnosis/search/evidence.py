@@ -96,9 +96,7 @@ def relearned(
 
 
 def _bands(terms: tuple[Term, ...], size: int) -> Index:
-    """(size + amplitudes,) band number of each, one for all effects of a kind: reducers of one arm are
-    similar.
-    """
+    """(size + amplitudes,) band number, shared by all effects of a kind: reducers of one arm are similar."""
     parts, first = [np.full(size, NONE, dtype=np.intp)], 0
     kinds: dict[type[Effect], int] = {}
     for term in terms:

@@ -100,9 +100,7 @@ def _kept(found: Fit, off: tuple[Outlier, ...]) -> Flags:
 
 
 def _settle(fits: list[Fit], prior: Prior) -> None:
-    """Noise, spreads and unknowns of the last model again; by the linear step where that does not
-    converge.
-    """
+    """Noise, spreads and unknowns of the last model again; by the linear step if that fails."""
     with suppress(NotConvergedError):
         fits[-1] = long_log.settled(fits[-1], prior)
 

@@ -93,9 +93,7 @@ class Scan:
         return self._possible(reduction), share, largest
 
     def _possible(self, reduction: Real) -> Real:
-        """(V,) the same, 0 where it exceeds the possible value: rounding along a direction that is not
-        detectable.
-        """
+        """(V,) the same, 0 where it exceeds the possible value: rounding along an invisible direction."""
         return np.where(reduction <= self.fit.cost, reduction, 0.0)
 
     def signature(self, candidate: Candidate) -> Real:
@@ -106,9 +104,7 @@ class Scan:
         return signature(candidate.variants.acts, basis, self.fit.at, model.names, rows)
 
     def information(self, variants: Variants) -> Real:
-        """(V, q, q) information of the rows on each variant's amplitudes, with everything in the model
-        refitted.
-        """
+        """(V, q, q) information of the rows on each variant's amplitudes, with the whole model refitted."""
         return self._projected(variants, variants.basis)[0]
 
     def _projected(self, variants: Variants, basis: Real) -> tuple[Real, Real, Real]:

@@ -100,9 +100,7 @@ def _departure_p(fit: Fit) -> float:
 
 
 def _tension_p(fit: Fit) -> float:
-    """Chi-square of the parameters under their prior; conservative: the readings determine only some of
-    them.
-    """
+    """Chi-square of the parameters under their prior; conservative: the readings determine only some."""
     pull = fit.prior.root @ (fit.x - fit.prior.mean)
     return float(chdtrc(len(pull), float(pull @ pull)))
 

@@ -25,9 +25,7 @@ from station.records import Real
 REACH = 0.1
 """Correlation length, as a share of the visited range."""
 FAR_BETTER = 10.0
-"""Difference of minus twice the log likelihood: 150 times more probable ("very strong", Kass and Raftery
-1995).
-"""
+"""Minus twice the log likelihood: 150 times more probable ("very strong", Kass and Raftery 1995)."""
 SIZES = np.geomspace(1e-3, 1e6, 40)
 """Variance of the alternative over that of the noise."""
 

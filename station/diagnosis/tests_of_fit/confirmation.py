@@ -49,13 +49,9 @@ class Confirmation:
     """(K,) size of each reading's residual."""
     p_value: float
     left_out: tuple[int | str, ...]
-    """Ids of a few fresh readings far off a model that predicts all others; they are excluded from the
-    tests.
-    """
+    """Ids of a few fresh readings far off a model that predicts all others; excluded from the tests."""
     whitened: WhitenedResidual
-    """The model's residual for readings learned on and fresh ones together; in a long log, for the former
-    only.
-    """
+    """The model's residual for readings learned on and fresh ones; in a long log, only the former."""
     departures: tuple[Departure, ...]
     """Departures of it; in a long log no further ones are tested than `adequacy` has already."""
     alternative: str | None

@@ -23,9 +23,7 @@ BLOCKS_A_FOLD = 2
 
 
 def predicted_by_others(solution: Solution, mechanism: Mechanism) -> Real:
-    """(R,) whitened measured less predicted, by a fit without the position; in long logs, without the
-    block.
-    """
+    """(R,) whitened measured less predicted, by a fit without the position; in long logs, the block."""
     m, reading = mechanism.measurements, mechanism.reading_of_row
     if len(m) < LONG:
         return held_out(solution, m.position[reading])

@@ -25,9 +25,7 @@ SLOW, SMOOTH = 6, 8
 OVER = (6, 3, 3)
 """Half waves over the workspace: across, up, and in the third direction where there is one."""
 MOST = 600
-"""Number of readings of a long log that are used, evenly spread: they show clearly what a residual depends
-on.
-"""
+"""Number of readings used of a long log, evenly spread: they show what a residual depends on."""
 LOST = 1e-3
 """Minimum share of a column after projection; below it the column has no information of its own."""
 STEP = 1e-4
@@ -155,9 +153,7 @@ class WhitenedResidual:
         return np.concatenate([getattr(c, name) for c in self._conditions])
 
     def spread(self, columns: Real) -> Real:
-        """(N, q) whitened columns, from columns (K, q) in mm; each coordinate of a reading has separate
-        columns.
-        """
+        """(N, q) whitened columns, from columns (K, q) in mm; separate for each coordinate of a reading."""
         count, coordinates = columns.shape[1], int(self.axis.max()) + 1
         rows = np.zeros((len(self.left), count * coordinates))
         for a in range(coordinates):
@@ -181,9 +177,7 @@ def departures(residual: WhitenedResidual) -> tuple[Departure, ...]:
 
 
 def added(residual: WhitenedResidual, on: str, columns: Real, beside: Real | None = None) -> Departure:
-    """F test of columns (K, q) in mm; the part that columns `beside` (K, m) could take up is attributed to
-    those.
-    """
+    """F test of columns (K, q) in mm; what columns `beside` (K, m) could take up is attributed to those."""
     taken, left = residual.taken, residual.left
     if beside is not None and beside.size:
         others = _orthonormal(perpendicular(residual.spread(beside), taken))

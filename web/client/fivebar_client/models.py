@@ -1,6 +1,6 @@
 """What the station takes and answers.  Made by `make reference`; do not edit.
 
-From schemas with SHA-256 9e4a4bfa2fc54c647bb6f22f4f94c5def83ef229579c349c9c1c52de421ff696.
+From schemas with SHA-256 7bd409c15a32e2e46ea4f6b9cc2af531a44efe7a5a7eac58200faf00c183961b.
 """
 
 from __future__ import annotations
@@ -13,8 +13,7 @@ from pydantic import AwareDatetime, BaseModel, Field
 
 class JointAngle(BaseModel):
     """
-    The angle of a proximal link, measured by an instrument in the robot's frame at standstill of the
-    drive.
+    The angle of a proximal link, measured in the robot's frame at standstill of the drive.
     """
 
     kind: Literal["joint_angle"] = "joint_angle"
@@ -57,8 +56,7 @@ class Quantity(BaseModel):
 
 class Remedy(BaseModel):
     """
-    A measurement that would determine a weak direction, and the resulting standard uncertainty of the zero
-    offsets.
+    A measurement that would determine a weak direction, and the zero offsets' standard uncertainty.
     """
 
     text: str
