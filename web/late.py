@@ -14,8 +14,7 @@ MALFORMED = f"{HEADER} must be the time in ms since 1970, a whole number."
 
 
 class LateCommands:
-    """Refuses with 412 commands that arrive after the time in their `X-Not-After`, ms since 1970 by this
-    station's clock.
+    """Refuses with 412 commands after the time in their `X-Not-After`, ms since 1970 by the station's clock.
 
     A station that was suspended receives the commands sent meanwhile. By then the page has told the operator
     that it does not respond, and the operator may be at the machine.

@@ -35,8 +35,7 @@ def waves(angle: Real, first: float, step: float, count: int) -> Real:
 
 
 def fastest_seen(angle: Real) -> float:
-    """Cycles per turn that readings at angles (K,), rad, distinguish from slower ones; inf if they are on no
-    grid.
+    """Cycles per turn that readings at angles (K,), rad, distinguish from slower ones; inf without a grid.
 
     On a grid of step s a wave of n cycles looks like one of 2 pi / s - n (Nyquist).
     """

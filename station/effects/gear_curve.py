@@ -121,8 +121,7 @@ def fast_basis(angle: Real, size: int) -> Real:
 
 
 def strongest_waves(angle: Real, curve: Real) -> list[tuple[float, Real]]:
-    """The strongest waves of a curve (G,) over angles (G,): cycles per turn, and factors that give their
-    size.
+    """The strongest waves of a curve (G,) over angles (G,): cycles per turn, and factors for their size.
 
     Least-squares periodogram, one wave taken out after another.  The second of each pair (2, G) times a curve
     is cosine and sine of that wave in it.

@@ -57,8 +57,7 @@ def pure_error(measurements: Measurements, whitened: Real) -> tuple[float, int]:
 
 
 def chance_of(square: float, count: int, dof: int) -> float:
-    """Probability of a sum of squares at least this large of `count` numbers, each over its standard
-    deviation.
+    """Probability of a sum of squares at least this large of `count` numbers, over their standard deviations.
 
     :param dof: degrees of freedom of the repeats that determined the noise (F); 0: the noise is known
     (chi-square)

@@ -199,8 +199,7 @@ class FiveBar:
         return f"{q.name} would be {p[worst] * q.shown:.3f} {q.unit}, {offset[worst]:.0f} times its tolerance"
 
     def position_errors(self, p: Real) -> tuple[Real, Real]:
-        """Errors over the workspace grid, commanded by nominal inverse position with zero offsets
-        uncompensated.
+        """Errors over the workspace grid, commanded by nominal inverse position, zero offsets uncompensated.
 
         Position at p less the commanded one (G, 2), and d (x, y) / d p (G, 2, P).
         """

@@ -61,8 +61,7 @@ def accuracy_of(
 def with_accuracy(
     result: CalibrationResult, accuracy: AccuracyReached, possible_mm: float | None = None
 ) -> CalibrationResult:
-    """The result, without a pass where the requirement is not met; a bound that cannot be computed does not
-    meet it.
+    """The result, without a pass if the requirement is not met, or the bound cannot be computed.
 
     :param possible_mm: bound that further readings could reach; by default the bound that was reached
     """

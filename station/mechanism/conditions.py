@@ -103,8 +103,7 @@ def readings_before(m: Measurements, reference: Reference | None) -> Real:
 
 
 def last_way(m: Measurements, came_from: Real) -> tuple[Real, Flags]:
-    """(K, n) motion of each joint before its reading, rad, NaN where unknown; and (K,) whether it was a
-    run-up.
+    """(K, n) motion of each joint before its reading, rad, NaN if unknown; (K,) whether it was a run-up.
 
     It was a run-up where the recorded approach differs from that of the motion from the previous reading.
     """

@@ -97,10 +97,9 @@ class Mechanism(Protocol):
         ...
 
     def position_errors(self, p: Real) -> tuple[Real, Real] | None:
-        """At the workspace's positions: error (G, 2), mm, of a machine with parameters p under nominal
-        commands, and its derivative (G, 2, P).
+        """Errors (G, 2) at the workspace's positions, mm, at parameters p under nominal commands.
 
-        None where no workspace is declared.
+        Also their derivative (G, 2, P). None where no workspace is declared.
         """
         ...
 

@@ -1,5 +1,4 @@
-"""New zeros for the drives: move to the position, declare it, read it back, with a journal that survives a
-crash.
+"""New zeros for the drives: move there, declare the zero, read it back, with a journal that survives a crash.
 
 A drive can only declare its current position to be its zero. The servo's deviation from its command is stored
 in the journal too, so the frame of every later angle is known to the pulse.

@@ -13,8 +13,7 @@ from station.settings import FolderSettings
 
 
 class Folder:
-    """Files are named by number and uid: a repetition has the same name, so an existing file is the same
-    event.
+    """Files are named by number and uid: an existing file of the same name is the same event.
 
     Files are written atomically.
     """

@@ -1,5 +1,4 @@
-"""Plan `diagnostic`: a grid traversed forwards and backwards that shows the cause of a residual, then fresh
-positions.
+"""Plan `diagnostic`: a grid forwards and backwards that shows the cause of a residual, then fresh positions.
 
 The two directions approach most positions from both sides; ten positions, read three times from the same side
 at different times, show the noise and the effect of time.
@@ -31,8 +30,7 @@ def diagnostic_grid(robot: Robot, inset_mm: float) -> Complex:
 
 
 def diagnostic_visits(robot: Robot) -> Visits:
-    """The grid forwards and backwards; ten positions are also read from one side, in both directions and once
-    more at the end.
+    """The grid forwards and backwards; ten positions are also read three times from one side.
 
     The path follows the columns, where neighbours are nearest for the joints. A further reading at the
     current position costs only its run-up.

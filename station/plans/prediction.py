@@ -34,8 +34,7 @@ def predict(robot: Robot, places: Complex) -> PlanPrediction:
 
 
 def zeros_only(mechanism: FiveBar, covariance: Real) -> Real:
-    """(P, P) covariance of the remaining errors when the drives get the zeros identified by a fit with
-    covariance (P, P).
+    """(P, P) of the errors that remain when the drives get the zeros of a fit with covariance (P, P).
 
     The geometry retains all of its error, known or not.
     """

@@ -1,5 +1,4 @@
-"""Gauge study: the contribution of the gauge to the scatter of measured parts, by crossed analysis of
-variance.
+"""Gauge study: the gauge's share of the scatter of measured parts, by crossed analysis of variance.
 
 Every operator measures every part several times.  Model: value = mean + part + operator + part x operator +
 repeat, all random (AIAG, Measurement Systems Analysis, 4th edition, appendix A).  Negative components are set

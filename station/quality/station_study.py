@@ -1,5 +1,4 @@
-"""Gauge study of a station: contributions of repeats, mounting, operators and robots to the scatter of zero
-offsets.
+"""Gauge study of a station: scatter of zero offsets by repeats, mounting, operators and robots.
 
 Every operator mounts the mechanism several times at every robot, and with each mounting the station
 calibrates several times.  Model: value = mean + robot + operator + robot x operator + mounting + repeat, all
@@ -79,8 +78,7 @@ class _Variances:
 
 
 def joint_gauge(joint: int, values: Real, tolerance_deg: float) -> JointGauge:
-    """The gauge study of values (robots, operators, mountings, repeats), deg; two or more of each except
-    robots.
+    """The gauge study of values (robots, operators, mountings, repeats), deg; two or more except of robots.
 
     :param tolerance_deg: from the lower to the upper limit of a zero offset
     """

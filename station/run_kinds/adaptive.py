@@ -1,5 +1,4 @@
-"""Plan `adaptive`: the next position is the one with the largest benefit for the required accuracy per
-second.
+"""Plan `adaptive`: the next position is the one with the largest benefit for the accuracy per second.
 
 It stops when the bound is met and the readings could have contradicted a wrong memory; if the requirement
 cannot be met, it stops early.  Each reading is predicted before it is used: that is its verification.

@@ -1,5 +1,4 @@
-"""Translation of taught positions to new zeros: joint angles of the same physical positions under the present
-ones.
+"""Translation of taught positions to new zeros: joint angles of the same physical positions.
 
 The actual angle of a joint is the angle of its drive plus the drive's zero offset. The zero offsets before
 and now, each with its uncertainty, give the new angle and the resulting position uncertainty of the platform.

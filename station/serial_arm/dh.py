@@ -1,5 +1,4 @@
-"""Kinematics of a serial arm: a chain of elementary rotations and translations, with every derivative in
-closed form.
+"""Kinematics of a serial arm: a chain of rotations and translations, with every derivative in closed form.
 
 A joint rotates about z or slides along z; the variable of a sliding joint is in metres, so that one unit of
 any joint moves the end about equally.

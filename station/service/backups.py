@@ -18,8 +18,7 @@ _OURS = re.compile(r"station-\d{8}T\d{9}Z\.db")
 
 
 def make_backup(store: Store, folder: Path, keep: int) -> BackupMade:
-    """Make one more backup in a folder. The newest `keep` are retained; the others are deleted, with a
-    record.
+    """Make one more backup in a folder. The newest `keep` are retained; others are deleted, with a record.
 
     :raises InputRefused: it cannot be written.
     """

@@ -195,8 +195,7 @@ class Orchestrator:
         return self.submit(request, idempotency_key=idempotency_key, by=by)
 
     def abort(self, calibration_id: int, who: str = "the operator") -> None:
-        """End a run at once and bring the machine to standstill; harmless if repeated or called after its
-        end.
+        """End a run at once and bring the machine to standstill; harmless if repeated or after its end.
 
         :raises NotFound: there is no such run.
         """

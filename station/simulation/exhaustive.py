@@ -126,8 +126,7 @@ def _station(seed: str = "") -> Iterator[Keeper]:
 
 @cache
 def _calibrated() -> tuple[TemporaryDirectory[str], tuple[tuple[int, str], ...]]:
-    """The data folder of a station with one passed calibration, and the events that its receiver has
-    accepted.
+    """The data folder of a station with one passed calibration, and the events accepted by its receiver.
 
     Made once in each process; the folder is deleted at its end.
     """

@@ -1,5 +1,4 @@
-"""The interface to the simulation: external imports of production modules are replaced, by name, in all of
-them.
+"""The interface to the simulation: external imports of all production modules are replaced, by name.
 
 Production code has no dependence on it. An object in a default argument or a dataclass field instead of a
 name of the module would not be replaced; a test checks for that.

@@ -61,8 +61,7 @@ class People(AuditTrail):
     def set_badge(
         self, by: Actor, user: User, *, badge_sha256: bytes | None = None, pin_hash: str | None = None
     ) -> None:
-        """A value of None leaves that field unchanged. It ends the sessions of the user: the old badge may be
-        in other hands.
+        """None leaves a field unchanged. The user's sessions end: the old badge may be in other hands.
 
         :raises InputRefused: another user has the badge.
         """

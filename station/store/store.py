@@ -336,8 +336,7 @@ class Store(
         until: datetime | None = None,
         ended_since: datetime | None = None,
     ) -> Page:
-        """A page of summaries; `cursor` is the `next` of the previous page. The other arguments are those of
-        `Filters`.
+        """A page of summaries; `cursor` is the `next` of the previous page. Other arguments as in `Filters`.
 
         :raises InputRefused: the cursor is invalid.
         """
@@ -418,8 +417,7 @@ class Store(
             )
 
     def drop_samples(self, ended_before: datetime) -> int:
-        """Retain only mean and number of the samples of runs that ended before; returns the number of
-        readings changed.
+        """Retain only mean and number of samples of runs that ended before; how many readings changed.
 
         One run at a time, so that a measurement does not wait; each deletion is recorded as an event.
         """

@@ -9,8 +9,7 @@ from drivers.emulated.imperfections.base import JointEffect, Lengths, Scene
 
 
 class AxisTilt(JointEffect):
-    """An arm that turns about a tilted axis leaves the plane; its projection on the plane is shorter and
-    rotated.
+    """An arm that turns about a tilted axis leaves the plane; its projection is shorter and rotated.
 
     The axis leans by `tilt_deg` towards `towards_deg`: of the arm's two components the one in that direction
     is shortened by cos(tilt), the one across stays.

@@ -1,5 +1,4 @@
-"""Readings as a linear problem about one point, whitened so that the part the geometry can take up costs
-nothing.
+"""Readings as a linear problem about one point, whitened so that the geometry's part costs nothing.
 
 About a point the readings are e = J (p - m) + B a + noise with the prior mean m of the base parameters. The
 covariance of J (p - m) + noise, in units of the noise, is 1 + J S J'; its inverse root turns e and every

@@ -15,8 +15,7 @@ from station.records import Complex, Real
 SHARE = 0.004
 """Explanations with a smaller probability are not used for the figures."""
 FORM = 1.3
-"""Factor for the uncertainty under an unnamed error over its computed value, since its form only approximates
-the true one.
+"""Factor on the uncertainty under an unnamed error, whose form only approximates the true one.
 
 Set on half of 28 kinds of random machines with an unnamed error: their 95 % intervals contained 91 % without
 the factor and contain 96 % with it; those of the other half, 91 % and 95 %.

@@ -1,5 +1,4 @@
-"""The sets of up to three errors that account for the readings: searched as a set, not from one winner
-onwards.
+"""The sets of up to three errors that account for the readings, searched as sets, not from one winner on.
 
 Every family alone; beside each of the most probable ones every other; beside the most probable pairs every
 third. Then the best sets are revisited: each error is exchanged for every other until nothing better is

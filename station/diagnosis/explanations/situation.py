@@ -98,8 +98,7 @@ class Situation:
 def at_readings(
     mechanism: FiveBar, p: Real, reference: Reference, added: Real | None = None, *, first: bool = True
 ) -> Situation:
-    """The readings of a mechanism at base parameters p (P,); `added` (K, 13) is the contribution of errors to
-    the targets.
+    """The readings of a mechanism at base parameters p (P,); `added` (K, 13) is what errors add.
 
     `first` is False for readings that follow those that contain the reference.
     """

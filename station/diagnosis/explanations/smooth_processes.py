@@ -1,5 +1,4 @@
-"""Unnamed errors without structure: Gaussian processes over angle, travel, position, time, approach x
-position.
+"""Unstructured unnamed errors: Gaussian processes over angle, travel, position, time, approach x position.
 
 A process over x with length scale h is a weighted sum of shapes k(x, z) K^-1/2 at inducing points z
 (Nystrom): independent amplitudes of unit variance then have its covariance.

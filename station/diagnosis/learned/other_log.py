@@ -1,5 +1,4 @@
-"""Effects learned on one log, applied unchanged to another: a test of whether they are properties of the
-machine.
+"""Effects learned on one log, applied unchanged to another: a test that they belong to the machine.
 
 The position of the machine and its tool may differ, so the parameters of the mechanism are fitted again, on
 three quarters of the new readings at a time; the effects stay as learned. Everything is judged by the
@@ -145,11 +144,10 @@ def _errors(mm: Real) -> Errors:
 
 
 def _held_out(mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelDocument) -> tuple[Real, Flags]:
-    """(K,) mm, every fold predicted by the mechanism as fitted to the others with the terms fixed; and
-    whether
+    """(K,) mm, each fold predicted by the mechanism fitted to the others, terms fixed; whether determined.
 
-    that fit determines the pose: a wrist orientation of no other reading reveals the tool's position for the
-    first time.
+    A pose with a wrist orientation that no other reading has is not determined: it alone shows the position
+    of the tool in that direction.
     """
     m = mechanism.measurements
     fold = folds(m)

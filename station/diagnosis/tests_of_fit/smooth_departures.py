@@ -1,5 +1,4 @@
-"""Smooth departures from any model: in time, by approach and position, by position, along an angle or the
-travel.
+"""Smooth departures from any model: in time, by approach and position, by position, along angle or travel.
 
 The catalogue names causes; these are unnamed, and a cause must leave none of them. A residual is compared
 with a few smooth columns of each kind, after the part that the model could still take up is projected out of

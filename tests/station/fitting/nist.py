@@ -1,5 +1,4 @@
-"""NIST's certified nonlinear regression problems (StRD,
-https://www.itl.nist.gov/div898/strd/nls/nls_main.shtml).
+"""NIST's nonlinear regression problems (StRD, https://www.itl.nist.gov/div898/strd/nls/nls_main.shtml).
 
 The numbers (data, two starts, certified values and standard deviations) are in `nist.json`.
 """

@@ -1,5 +1,4 @@
-"""Kills the real service at random instants while a program follows its runs, and checks that nothing is
-lost.
+"""Kills the real service at random instants while a program follows its runs, to check that nothing is lost.
 
 `python -m tests.station.service.killed_service [--kills N] [--seed S] [--resume FILE]`: one `station serve`
 on the emulated rig gets a run over REST, is followed on the live feed and killed (SIGKILL), N times. After
