@@ -12,7 +12,7 @@ from drivers.lines.url import NetAddress, SerialAddress
 from drivers.lines.wire_log import Entry, WireEvent
 
 _TRANSACTION = slice(0, 2)
-"""Of a Modbus TCP frame: the number of the request, assigned by the sender."""
+"""Number of the request in a Modbus TCP frame, assigned by the sender."""
 
 
 class Departed(Exception):

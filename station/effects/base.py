@@ -61,7 +61,7 @@ class Effect(ABC):
     experiment: ClassVar[str]
     """The experiment that distinguishes it from its aliases."""
     repeats: ClassVar[bool] = False
-    """Whether one place can have it more than once, with other hidden parameters."""
+    """Whether one place of action can have it more than once, with other hidden parameters."""
     by_approach: ClassVar[bool] = False
     """Whether its effect on the arm depends on the sense of the joint's last motion."""
     local: ClassVar[bool] = False

@@ -1,4 +1,4 @@
-"""Runs calibrations one at a time: states, the worker that measures, abort, stop, make-safe.
+"""Runs calibrations one at a time: states, worker thread, abort, stop, make-safe.
 
 One worker thread does all ordinary work with the devices, so they are never shared; between runs it queries
 the machine twice a second.  `stop` and `abort` work from any thread and go to the drives directly, past the

@@ -111,7 +111,7 @@ class TrainingDesk:
         return self.view()
 
     def repair(self) -> TrainingView:
-        """Remove all errors from the machine, whoever ordered them."""
+        """Remove all ordered errors from the machine."""
         self._rig.order([])
         self._rig.order_effects([])
         self._end_all()

@@ -49,7 +49,7 @@ class Family:
     weight: float
     """Share of the prior probability, relative to other families."""
     sizes: Real
-    """(T,) prior standard deviations of the amplitudes, mm or rad a unit of the basis."""
+    """(T,) prior standard deviations of the amplitudes, mm or rad per unit of the basis."""
     hidden: tuple[Hidden, ...]
     """(V) hidden parameters that distinguish the members."""
     actions: Callable[[Situation, Sequence[Hidden]], list[Action]]

@@ -115,6 +115,6 @@ def _pair(
 
 
 def _points(label: str, x: Real, y: Real) -> Series:
-    """Of thousands of points, as many as are distinguishable on the page, evenly spread over the log."""
+    """At most as many points as are distinguishable on the page, evenly spread over the log."""
     every = -(-len(x) // MOST_POINTS)
     return Series(label, x[::every].tolist(), y[::every].tolist())

@@ -168,7 +168,7 @@ class Scan:
     def _with_spread(
         self, effect: Effect, variants: Variants, left: Real, along: Real, share: float
     ) -> Candidate:
-        """Of many amplitudes with a prior, count only as many as the readings determine."""
+        """Count only as many of the amplitudes with a prior as the readings determine."""
         assert variants.spread is not None
         size = len(along)
         noise = max(self.fit.cost / max(self.fit.dof, 1), 1.0)
