@@ -83,7 +83,7 @@ class Body(StrictNumbers):
 
 
 class CalibrationBody(Body):
-    """What to calibrate, how, and the requester."""
+    """A calibration request: robot, plan and requester."""
 
     robot_serial: Serial
     plan: Plan
@@ -114,7 +114,7 @@ class CalibrationBody(Body):
 
 
 class DatasetFields(Body):
-    """Origin of the imported readings, and the requester; in the query, or as fields beside the files."""
+    """Robot and requester of an import; in the query, or as fields beside the files."""
 
     robot_serial: Serial = Field(
         default=RobotFile.default().serial, description="without a file kept here: the paper's robot"
@@ -124,7 +124,7 @@ class DatasetFields(Body):
 
 
 class ApplyBody(Body):
-    """The requester of writing zero offsets to the drives, rolling them back, or continuing a run."""
+    """The requester of an application, a rollback or a continued run."""
 
     operator: Name
 
@@ -156,7 +156,7 @@ class TranslatedList(Record):
 
 
 class ClearBody(Body):
-    """Who permits work with a robot again after a failed check, and why."""
+    """Who permits work with a robot again after a failed check, and the reason."""
 
     operator: Name
     reason: Annotated[str, StringConstraints(strip_whitespace=True, min_length=3, max_length=500)]

@@ -121,7 +121,7 @@ class CheckFound(Record):
     blind_shift_deg: float
     """The smallest shift detected along it."""
     valid_until: datetime | None = None
-    """Validity of the check; null if it failed."""
+    """End of the check's validity; null if it failed."""
 
 
 class LastingParameters(Record):

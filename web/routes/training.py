@@ -24,7 +24,7 @@ ALL: tuple[ChallengeGroup, ...] = ("catalogue", "unnamed", "fault")
 
 
 class ChallengeBody(Body):
-    """The error of the machine to choose."""
+    """The error to give the machine."""
 
     kind: Annotated[str, Field(max_length=64)]
     joint: Literal[1, 2] | None = Field(default=None, description="where the kind is at a joint")

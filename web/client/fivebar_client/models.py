@@ -1,6 +1,6 @@
 """What the station takes and answers.  Made by `make reference`; do not edit.
 
-From schemas with SHA-256 7bd409c15a32e2e46ea4f6b9cc2af531a44efe7a5a7eac58200faf00c183961b.
+From schemas with SHA-256 e7b98d159b3ae7234738c6b82557c9f10c934b3a29a7a768ae38b6b092f70bc1.
 """
 
 from __future__ import annotations
@@ -165,7 +165,7 @@ class CheckFound(BaseModel):
 
     valid_until: AwareDatetime | None
     """
-    Validity of the check; null if it failed.
+    End of the check's validity; null if it failed.
     """
 
 
@@ -708,7 +708,7 @@ class Stopped(BaseModel):
 
 class CalibrationBody(BaseModel):
     """
-    What to calibrate, how, and the requester.
+    A calibration request: robot, plan and requester.
     """
 
     robot_serial: str
