@@ -11,7 +11,7 @@ import click
 
 from station.cli.files import columns_option, file_path, measured_option
 from station.cli.kept import config_option, new_history
-from station.errors import NotFound
+from station.errors import InputRefused, NotFound
 from station.five_bar import Robot
 from station.machines import AnyRobot, read_robot, robot_of
 from station.records import (
@@ -83,13 +83,20 @@ def import_command(
 
 
 def _robot(store: Store, given: AnyRobot | None, serial: str) -> Arm | Robot:
-    """As given, else as kept, else the paper's five-bar; always of this serial."""
+    """As given, else as kept, else the paper's five-bar; always of this serial.
+
+    :raises InputRefused: a kind of machine whose logs are not kept.
+    """
     if given is None:
         try:
             given = robot_of(store.robot_file(serial), source=f"robot {serial}")
         except NotFound:
             given = Robot.default(serial)
-    assert isinstance(given, Arm | Robot)
+    if not isinstance(given, Arm | Robot):
+        raise InputRefused(
+            f"The history keeps logs of five-bars and serial arms, not of the model {given.model}; "
+            "use `station diagnose`."
+        )
     return replace(given, serial=serial)
 
 

@@ -14,8 +14,10 @@ from station.mechanism.conditions import (
 )
 from station.mechanism.observation import Observation, Parameter
 from station.mechanism.protocol import Mechanism, axes, axis_of_row, by_reading
+from station.mechanism.run_up import STILL_DEG, last_senses, needs_run_up
 
 __all__ = [
+    "STILL_DEG",
     "Conditions",
     "Mechanism",
     "Observation",
@@ -25,7 +27,9 @@ __all__ = [
     "axis_of_row",
     "by_reading",
     "last_motion",
+    "last_senses",
     "last_way",
+    "needs_run_up",
     "net_travel",
     "readings_before",
     "reference_of",

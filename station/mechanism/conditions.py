@@ -105,11 +105,13 @@ def readings_before(m: Measurements, reference: Reference | None) -> Real:
 def last_way(m: Measurements, came_from: Real) -> tuple[Real, Flags]:
     """(K, n) motion of each joint before its reading, rad, NaN if unknown; (K,) whether it was a run-up.
 
-    It was a run-up where the recorded approach differs from that of the motion from the previous reading.
+    It was a run-up where the recorded approach differs from that of the motion from the previous reading, or
+    that motion is shorter than a run-up.
     """
     way = m.theta - came_from[:, :-1]
     way[np.abs(way) < SAME_PLACE_RAD] = 0.0
-    run_up = ((m.approach != 0) & (m.approach != np.sign(way))).any(axis=1)
+    short = np.abs(way) < RUN_UP_RAD
+    run_up = ((m.approach != 0) & (short | (m.approach != np.sign(way)))).any(axis=1)
     return np.where(run_up[:, None], RUN_UP_RAD * m.approach, way), run_up
 
 

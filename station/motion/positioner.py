@@ -14,6 +14,7 @@ import numpy as np
 from drivers.protocols import ServoAxis
 from station.errors import StepFailed, sentence
 from station.five_bar import Robot, forward, inverse
+from station.mechanism import STILL_DEG, last_senses, needs_run_up
 from station.motion.clock import Clock, RunClock
 from station.motion.limits import check_way
 from station.motion.machine import Machine, NotReady, Pose
@@ -28,9 +29,6 @@ _SLOWEST_DEG_S = 1.0
 _DIGITS = 9
 _FROZEN_MM = 1e-6
 _MOVED_MM = 5.0
-_STILL_DEG = 0.004
-"""Two pulses: a smaller motion has no direction."""
-
 
 _Samples = tuple[list[float], Angles]
 """Samples of the scale, and the mean feedback."""
@@ -138,17 +136,15 @@ class Positioner:
         return float(wanted[0]) - stop.theta_deg[0], float(wanted[1]) - stop.theta_deg[1]
 
     def _way(self, stop: Stop) -> list[Angles]:
-        """A direct path if the last motion then has the requested signs, otherwise via a run-up point."""
+        """Directly, if that takes up backlash in the requested sense or in any; otherwise after a run-up."""
         run_up = self.machine.limits.overshoot_deg
         target = stop.theta_deg
-        direct = all(
-            not wanted or wanted * (target[joint] - self._theta[joint]) >= run_up
-            for joint, wanted in enumerate(stop.approach)
-        )
-        if direct:
+        way = np.subtract(target, self._theta)
+        senses = last_senses(np.array(stop.approach), way)
+        if not needs_run_up(senses, way, run_up):
             return [target]
-        before = (target[0] - stop.approach[0] * run_up, target[1] - stop.approach[1] * run_up)
-        return [before, target]
+        before = np.subtract(target, run_up * senses)
+        return [(float(before[0]), float(before[1])), target]
 
     # Motion ---------------------------------------------------------------------------------------
 
@@ -383,6 +379,6 @@ def _mean(angles: Sequence[Angles]) -> Angles:
 
 def _direction(travel_deg: float, before: int) -> int:
     """Sign of a motion; a motion too small to have a direction retains the previous one."""
-    if abs(travel_deg) <= _STILL_DEG:
+    if abs(travel_deg) <= STILL_DEG:
         return before
     return 1 if travel_deg > 0 else -1

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from station.mechanism import last_senses, needs_run_up
 from station.records import Index, Real
 from station.settings import LimitSettings
 
@@ -38,20 +39,18 @@ class Pace:
 
         here, there, approach (..., 2): deg, and signs of the last motion, 0 where it does not matter.
         """
-        direct = np.abs(there - here).max(axis=-1)
-        detour = np.abs(there - approach * self.run_up_deg - here).max(axis=-1) + self.run_up_deg
-        return np.asarray(np.where(self.by_itself(here, there, approach), direct, detour))
+        way = there - here
+        senses = last_senses(approach, way)
+        direct = np.abs(way).max(axis=-1)
+        detour = np.abs(way - senses * self.run_up_deg).max(axis=-1) + self.run_up_deg
+        return np.asarray(np.where(needs_run_up(senses, way, self.run_up_deg), detour, direct))
 
     def duration_s(self, here: Real, there: Real, approach: Sides) -> Real:
         """(...,) duration of the motion and the reading at its end."""
-        motions = np.where(self.by_itself(here, there, approach), 1, 2)
+        way = there - here
+        motions = 1 + needs_run_up(last_senses(approach, way), way, self.run_up_deg)
         travel_s = self.travel_deg(here, there, approach) / self.speed_deg_s
         return np.asarray(travel_s + motions * ARRIVAL_S + self.reading_s)
-
-    def by_itself(self, here: Real, there: Real, approach: Sides) -> Real:
-        """(...,) whether the direct motion ends with the requested senses, as in `station.motion`."""
-        ends = (approach == 0) | (approach * (there - here) >= self.run_up_deg)
-        return np.asarray(ends.all(axis=-1))
 
     def along(self, theta_deg: Real, approach: Sides, start_deg: Real | None = None) -> tuple[Real, Real]:
         """(R,) travel and duration of each leg of a sequence theta_deg (R, 2); the first from `start_deg`.

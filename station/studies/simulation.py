@@ -17,6 +17,7 @@ from drivers.emulated.machine import lower_meeting_point
 from drivers.emulated.spec import MachineSpec
 from drivers.emulated.virtual import VirtualReading, VirtualRig
 from station.five_bar import Robot, inverse
+from station.mechanism import last_senses, needs_run_up
 from station.plans import diagnostic_fresh_stops, make_plan
 from station.records import Complex, Measurements, Real, Stop, number
 
@@ -79,14 +80,13 @@ class SimulatedMachine:
         return self._measurements(taken, labels or [str(k) for k in range(len(taken))], samples)
 
     def run(self, stops: Sequence[Stop], samples: int = 1) -> Measurements:
-        """Readings at stops, approached as the station does: where a side is asked for, with a run-up."""
+        """Readings at stops, approached as the station does, with a run-up where it makes one."""
         taken = []
         for stop in stops:
-            before = [
-                angle - sense * RUN_UP_DEG for angle, sense in zip(stop.theta_deg, stop.approach, strict=True)
-            ]
-            if any(stop.approach) and not self._comes_from(stop):
-                self._taken(np.array([before]))
+            way = np.subtract(stop.theta_deg, self._stands)
+            senses = last_senses(np.array(stop.approach), way)
+            if needs_run_up(senses, way, RUN_UP_DEG):
+                self._taken(np.subtract(stop.theta_deg, RUN_UP_DEG * senses)[None])
             taken += self._taken(np.array([stop.theta_deg]), samples)
             self._stands = stop.theta_deg
         return self._measurements(taken, [stop.position for stop in stops], samples)
@@ -97,13 +97,6 @@ class SimulatedMachine:
         fresh = self.run(diagnostic_fresh_stops(robot, self.truth[:2], seed))
         numbers = tuple(range(len(sequence) + 1, len(sequence) + len(fresh) + 1))
         return sequence, replace(fresh, ids=numbers)
-
-    def _comes_from(self, stop: Stop) -> bool:
-        """The way there ends with the wanted senses by itself, as `station.motion` decides it."""
-        return all(
-            not sense or sense * (target - here) >= RUN_UP_DEG
-            for sense, target, here in zip(stop.approach, stop.theta_deg, self._stands, strict=True)
-        )
 
     def _measurements(
         self, taken: Sequence[VirtualReading], labels: Sequence[str], samples: int

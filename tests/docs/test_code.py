@@ -36,7 +36,7 @@ STATUS = re.compile(r"  # exit status (\d)$")
 def test_the_code_of_a_page_works(page: Path, tmp_path: Path) -> None:
     found = list(blocks(page))
     if any(block.name.partition("/")[0] in TREES for block in found):
-        _copy_of_the_repository(tmp_path)
+        copy_of_the_repository(tmp_path)
     environment = _environment(tmp_path)
     for block in found:
         where = f"{page.relative_to(ROOT)}, line {block.line}"
@@ -44,20 +44,22 @@ def test_the_code_of_a_page_works(page: Path, tmp_path: Path) -> None:
             for command, status, expected in _commands(block):
                 _run(command, status, expected, tmp_path, environment, where)
         elif block.kind == "diff":
-            _change(tmp_path / block.name, block.body, where)
+            change(tmp_path / block.name, block.body, where)
         else:
             file = tmp_path / block.name
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_text(block.body, encoding="utf-8")
 
 
-def _copy_of_the_repository(folder: Path) -> None:
+def copy_of_the_repository(folder: Path) -> None:
     for tree in TREES:
         shutil.copytree(
             ROOT / tree,
             folder / tree,
             ignore=shutil.ignore_patterns("node_modules", "static", "ui"),
         )
+    texts = "web/ui/src/messages"
+    shutil.copytree(ROOT / texts, folder / texts)
     shutil.copy(ROOT / "pyproject.toml", folder)
 
 
@@ -116,7 +118,7 @@ def _plain(text: str) -> str:
     return " ".join(re.sub(r"[^\w\s.,:;%=/()µ°|+-]", " ", text).split())
 
 
-def _change(file: Path, diff: str, where: str) -> None:
+def change(file: Path, diff: str, where: str) -> None:
     """Lines with `-` go, lines with `+` come, the others must stand there."""
     lines = diff.splitlines()
     old = "".join(f"{line[1:]}\n" for line in lines if line[:1] in (" ", "-") or not line)

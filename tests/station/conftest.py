@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from station.run_kinds import RUN_KINDS
 from station.service.orchestrator import Orchestrator
 from station.settings import LimitSettings, Settings
 from station.store.store import Store
@@ -46,8 +47,12 @@ def start(store: Store, rig: Rig) -> Iterator[Start]:
     """Orchestrators on the fake rig; shut down at the end, after hanging calls were released."""
     with ExitStack() as opened:
 
-        def start(procedure: ProcedureFactory = two_sequences, settings: Settings = SETTINGS) -> Orchestrator:
-            orchestrator = Orchestrator(rig.devices, store, settings, kinds_with(procedure))
+        def start(
+            procedure: ProcedureFactory | None = two_sequences, settings: Settings = SETTINGS
+        ) -> Orchestrator:
+            """With this procedure for whatever is measured by a plan; None: each kind with its own."""
+            kinds = RUN_KINDS if procedure is None else kinds_with(procedure)
+            orchestrator = Orchestrator(rig.devices, store, settings, kinds)
             opened.callback(orchestrator.shutdown)
             opened.callback(rig.released.set)
             return orchestrator

@@ -29,9 +29,19 @@ GEOMETRY = Robot.default().geometry
 HOME_DEG = (0.0, 180.0)
 
 
+AXIS_CALLS = (
+    "connect", "make_safe", "close", "enable", "move_to", "status", "feedback", "reset_alarm", "quick_stop",
+    "preset",
+)  # fmt: skip
+CALLS = {
+    *(f"axis {number} {call}" for number in (1, 2) for call in AXIS_CALLS),
+    *(f"scale {call}" for call in ("connect", "make_safe", "close", "read")),
+}
+
+
 @dataclass
 class Script:
-    """Scripted faults: for a call such as "axis 1 move_to", from the n-th time on, do this."""
+    """Scripted faults: for one of `CALLS`, from the n-th time on, do this."""
 
     faults: dict[str, tuple[int, Callable[[], None]]] = field(default_factory=dict)
     calls: list[str] = field(default_factory=list)
@@ -42,12 +52,16 @@ class Script:
         def fault() -> None:
             raise error
 
-        self.faults[call] = (at, fault)
+        self.do(call, fault, at=at)
 
     def do(self, call: str, action: Callable[[], None], *, at: int = 1) -> None:
+        """Act from the `at`-th call on.  :raises ValueError: no fake makes this call"""
+        if call not in CALLS:
+            raise ValueError(f"no device makes the call {call!r}; use one of {', '.join(sorted(CALLS))}")
         self.faults[call] = (at, action)
 
     def happens(self, call: str) -> None:
+        assert call in CALLS, call
         self.calls.append(call)
         at, action = self.faults.get(call, (0, None))
         if action is not None and self.calls.count(call) >= at:
@@ -173,6 +187,11 @@ def make_rig() -> Rig:
 def stop_at(position: str, x: float, y: float, approach: tuple[int, int] = (0, 0)) -> Stop:
     theta = np.degrees(inverse(GEOMETRY, np.array([complex(x, y)])))[0]
     return Stop(position, (x, y), (float(theta[0]), float(theta[1])), approach)
+
+
+def stop_with(position: str, theta_deg: tuple[float, float], approach: tuple[int, int] = (0, 0)) -> Stop:
+    P = complex(forward(GEOMETRY, np.radians([theta_deg]))[0])
+    return Stop(position, (P.real, P.imag), theta_deg, approach)
 
 
 STOPS = (

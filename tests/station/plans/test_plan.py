@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+import numpy as np
 import pytest
 
+from station.errors import InputRefused
 from station.five_bar import Robot
-from station.plans import PLANS, PlanDesign, make_plan, register
+from station.plans import PLANS, PlanDesign, each_once, make_plan, register
 from station.plans.boundary import on_the_boundary
 from station.run_kinds import RUN_KINDS, kind_of_plan
 
@@ -19,6 +23,21 @@ def test_plans_are_offered_in_this_order() -> None:
 def test_a_name_is_taken_once() -> None:
     with pytest.raises(ValueError, match="registered already"):
         register(PlanDesign("full", on_the_boundary))
+
+
+@pytest.fixture
+def far() -> Iterator[str]:
+    """A plan with its second position 10 mm outside the workspace."""
+    middle, x1 = sum(ROBOT.workspace_y) / 2, ROBOT.workspace_x[1]
+    plan = PlanDesign("far", lambda robot: each_once(np.array([0j, x1 + 10.0]) + 1j * middle))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("station.plans.plan.PLANS", {**PLANS, "far": plan})
+        yield "far"
+
+
+def test_a_position_outside_the_workspace_is_named(far: str) -> None:
+    with pytest.raises(InputRefused, match=r"P2 of the plan far, \(250\.0, -707\.0\) mm, lies outside"):
+        make_plan(far, ROBOT)
 
 
 @pytest.mark.parametrize("name", PLANS)

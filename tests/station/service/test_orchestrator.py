@@ -29,7 +29,7 @@ from station.settings import LimitSettings, Settings
 from station.store.store import Store
 from tests.station.asking import asked
 from tests.station.conftest import Start
-from tests.station.fakes import STOPS, Rig, result_of, stop_at
+from tests.station.fakes import STOPS, Rig, result_of, stop_at, stop_with
 from tests.waiting import soon
 
 REQUEST = asked("R1", "paper")
@@ -121,6 +121,20 @@ def test_a_wanted_approach_gets_a_run_up(start: Start, store: Store) -> None:
 
     run = run_to_end(start(both_sides))
     assert [r.approach for r in store.readings(run)] == [(1, 1), (-1, -1), (1, 1), (-1, -1)]
+
+
+def test_a_way_too_short_to_take_up_play_gets_a_run_up(start: Start, store: Store, rig: Rig) -> None:
+    """Joint 2 moves by a hundredth of a degree: no approach is wanted, but the recorded one must be true."""
+    first, second = stop_with("p", (-7.0, 190.0), (-1, -1)), stop_with("q", (20.0, 190.009))
+
+    def near(plan: PlanName, robot: Robot) -> Procedure:
+        readings = yield MeasurementSequence("Near", 1, (first, second))
+        return result_of(readings)
+
+    run = run_to_end(start(near))
+    moves = rig.script.calls.count("axis 2 move_to")
+    assert moves == 4, "both stops have a run-up"
+    assert store.readings(run)[-1].approach == (1, 1)
 
 
 def test_a_failed_verdict_is_a_run_that_succeeded(start: Start, store: Store) -> None:

@@ -1,13 +1,11 @@
 /** Numbers and times in the operator's format; a dash in place of a value that is not a number. */
 
-import { language } from "./messages/language";
+import { writing } from "./messages/language";
 
 export const MISSING = "–";
 
-const DECIMAL_COMMA = language === "de";
-
 /** A formatted number, with the decimal sign of the language. */
-export const local = (text: string) => (DECIMAL_COMMA ? text.replace(".", ",") : text);
+export const local = (text: string) => (writing.decimalComma ? text.replace(".", ",") : text);
 
 export function fixed(value: number | null | undefined, digits: number): string {
   if (value == null || !Number.isFinite(value)) return MISSING;
@@ -77,8 +75,7 @@ export function dateTime(iso: string | null | undefined): string {
 }
 
 function dateOf(time: Date): string {
-  const [year, month, day] = [time.getFullYear(), pad(time.getMonth() + 1), pad(time.getDate())];
-  return language === "de" ? `${day}.${month}.${year}` : `${year}-${month}-${day}`;
+  return writing.date(String(time.getFullYear()), pad(time.getMonth() + 1), pad(time.getDate()));
 }
 
 /** Difference of this computer's clock from UTC: all times of the page are in its zone. */

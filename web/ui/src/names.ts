@@ -1,7 +1,7 @@
 /** Display names for identifiers of the service. */
 
 import { t } from "./messages";
-import { language } from "./messages/language";
+import { writing } from "./messages/language";
 import { said } from "./messages/said";
 import type { EffectAt, Interlock, Plan, RunKind } from "./types";
 
@@ -22,7 +22,7 @@ export const capital = (text: string) => text.charAt(0).toUpperCase() + text.sli
 
 /** For the middle of a sentence; abbreviations keep their capitals, and so do German nouns. */
 export const inSentence = (name: string) =>
-  language !== "de" && /^[A-Z][^A-Z]/.test(name) ? name.charAt(0).toLowerCase() + name.slice(1) : name;
+  !writing.capitals && /^[A-Z][^A-Z]/.test(name) ? name.charAt(0).toLowerCase() + name.slice(1) : name;
 
 const PLACEHOLDERS: Record<string, string> = { n: "(\\d+)", axis: "([xyz])" };
 const PLACEHOLDER = /\{(\w+)\}/;

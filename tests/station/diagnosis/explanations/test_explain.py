@@ -9,6 +9,7 @@ from station.diagnosis.explanations import ExplanationSet, explain
 from station.diagnosis.explanations.mixture import FORM
 from station.diagnosis.explanations.validation import together
 from station.five_bar.mechanism import FiveBar
+from station.studies.confusion.machines import draw
 from tests.station.diagnosis.explanations.problems import ROBOT, TRUTH, effect, measured
 
 
@@ -163,3 +164,28 @@ def test_two_large_slips_of_which_the_tangent_promises_too_much() -> None:
     )
     assert {(f.part.effect, f.part.joint) for f in found.findings} == {("count_slip", 1), ("count_slip", 2)}
     assert sum(w.probability for w in found.weighing.settled) == pytest.approx(1.0)
+
+
+@pytest.mark.parametrize("seed", [3, 4])
+def test_a_slip_of_one_joint_beside_others_is_not_given_to_both(seed: int) -> None:
+    """The pair is found first, while a wave and a play are not known yet; it is exchanged for one joint's."""
+    found = explained(
+        seed,
+        effect(kind="count_slip", joint=1, step_deg=0.02, from_stop=40),
+        effect(kind="scale_cyclic", amplitude_mm=0.018, period_mm=5.0, phase_deg=41.0),
+        effect(kind="backlash", joint=1, width_deg=0.007),
+    )
+    named = {(f.part.effect, f.part.joint) for f in found.findings}
+    assert named == {("count_slip", 1), ("scale_cyclic", None), ("backlash", 1)}
+    assert found.decision.confirmed is True
+
+
+def test_an_effect_without_an_alternative_is_as_probable_as_all_that_hold_it() -> None:
+    """A step of one joint is no other name of a step of both: it says nothing of the other joint."""
+    drawn = draw(ROBOT, ("count_slip", "scale_cyclic", "backlash"), 13000 * 1_000_003 + 10)
+    found = explain(FiveBar(ROBOT, drawn.sequence), drawn.fresh)
+    assert any(f.part.key == ("count_slip", 1, None) for f in found.findings)
+    for finding in found.findings:
+        if not finding.alias_set:
+            assert finding.probability == pytest.approx(found.statements.marginals[finding.part.key])
+    assert found.decision.verdict == "ambiguous"

@@ -23,6 +23,28 @@ function keptHere(): string | null {
 
 export const language = preferred(keptHere(), navigator.languages);
 
+/** Formats that differ between languages. */
+interface Writing {
+  decimalComma: boolean;
+  /** From texts of year, month and day. */
+  date: (year: string, month: string, day: string) => string;
+  /** Between two sentences. */
+  between: string;
+  /** Whether names keep their capital in the middle of a sentence. */
+  capitals: boolean;
+}
+
+const byYear = (year: string, month: string, day: string) => `${year}-${month}-${day}`;
+const byDay = (year: string, month: string, day: string) => `${day}.${month}.${year}`;
+
+const WRITING: Record<Language, Writing> = {
+  en: { decimalComma: false, date: byYear, between: " ", capitals: false },
+  de: { decimalComma: true, date: byDay, between: " ", capitals: true },
+  zh: { decimalComma: false, date: byYear, between: "", capitals: false },
+};
+
+export const writing = WRITING[language];
+
 /** The address is unchanged: the page reloads in the other language at the same view. */
 export function choose(chosen: Language): void {
   try {

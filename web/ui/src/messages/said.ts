@@ -1,7 +1,7 @@
 /** English-only texts of the station, in the page's language. */
 import { local } from "../format";
 import { t } from "./index";
-import { language } from "./language";
+import { writing } from "./language";
 
 const BETWEEN = /(?<=[.?!]) (?=[A-Z])/;
 /**
@@ -65,7 +65,7 @@ function inPieces(text: string): string {
     pieces.push(piece ?? sentences[from]!);
     from = piece === undefined ? from + 1 : to + 1;
   }
-  return pieces.join(language === "zh" ? "" : " ");
+  return pieces.join(writing.between);
 }
 
 function whole(text: string): string | undefined {
