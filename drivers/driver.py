@@ -1,4 +1,4 @@
-"""How a driver is made: the options it has in the station file, and a function from them to a device.
+"""The definition of a driver: its options in the station file, and a function that makes a device from them.
 
 A further driver is one module with a `DRIVER` and one line in the register of its package
 (docs/how-to/add-a-servo-drive.md).
@@ -34,7 +34,7 @@ S = TypeVar("S", bound=DriverSettings)
 
 @dataclass(frozen=True, slots=True)
 class Drive:
-    """One drive on a line, and how its pulses become a joint angle."""
+    """One drive on a line, and the conversion of its pulses to a joint angle."""
 
     name: str
     unit: int
@@ -47,9 +47,9 @@ class ScaleDriver(Generic[S]):
 
     settings: type[S]
     make: Callable[[S], LinearScale]
-    """Nothing is opened yet.  :raises BadUrl:"""
+    """Make the readout; nothing is opened yet. :raises BadUrl:"""
     words: Callable[[bytes], str] = bytes.hex
-    """What bytes on its line mean, sent or come, for whoever reads a wire log."""
+    """The meaning of bytes sent or received on its line, for readers of a wire log."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,12 +58,12 @@ class ServoDriver(Generic[S]):
 
     settings: type[S]
     make: Callable[[S, Sequence[Drive]], Sequence[ServoAxis]]
-    """One axis a drive, in this order; nothing is opened yet.  :raises BadUrl:"""
+    """Make one axis per drive, in this order; nothing is opened yet. :raises BadUrl:"""
     registers: Mapping[int, str] = field(default_factory=dict)
-    """Names by address, for whoever reads a wire log."""
+    """Names by address, for readers of a wire log."""
     position_register: int | None = None
-    """Where the pulses of the joint's position begin, two registers."""
+    """First of the two registers with the pulses of the joint's position."""
 
     def words(self, url: str) -> ModbusWords:
-        """What frames on the line with this URL mean."""
+        """The meaning of frames on the line with this URL."""
         return ModbusWords(self.registers, over_tcp=url.startswith("modbus+tcp://"))

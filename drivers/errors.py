@@ -1,10 +1,10 @@
-"""How devices fail."""
+"""Errors of devices."""
 
 from __future__ import annotations
 
 
 class DeviceError(Exception):
-    """A device did not do what was asked; the text is one clear sentence for the operator."""
+    """A device did not carry out a request; the text is one clear sentence for the operator."""
 
 
 class LinkLost(DeviceError):
@@ -12,8 +12,8 @@ class LinkLost(DeviceError):
 
 
 class GarbledReply(DeviceError):
-    """Something answered, but not what the protocol allows (length, check sum, format)."""
+    """An answer violates the protocol (length, check sum, format)."""
 
 
 class DeviceFault(DeviceError):
-    """The device works and reports a fault of its own: alarm, signal loss, refused command."""
+    """The device works and reports its own fault: alarm, signal loss, refused command."""

@@ -10,7 +10,7 @@ from drivers.protocols import AxisStatus
 
 
 class _Mock:
-    """Records its calls; each may be told to fail."""
+    """Records its calls; each method can be made to fail."""
 
     def __init__(self, name: str) -> None:
         self._name = name
@@ -45,7 +45,7 @@ class _Mock:
 
 
 class MockScale(_Mock):
-    """A `LinearScale` that reads what a function says."""
+    """A `LinearScale` that reads the value of a function."""
 
     def __init__(self, value_mm: Callable[[], float], *, name: str = "linear scale") -> None:
         super().__init__(name)
@@ -57,7 +57,7 @@ class MockScale(_Mock):
 
 
 class MockAxis(_Mock):
-    """A `ServoAxis` that is at its target at once, unless it is held."""
+    """A `ServoAxis` that reaches its target at once, unless it is held."""
 
     def __init__(self, *, name: str, theta_deg: float = 0.0) -> None:
         super().__init__(name)

@@ -1,8 +1,8 @@
-"""What a linear scale and a servo axis can do, and how they fail.
+"""The interfaces of a linear scale and a servo axis, with their errors.
 
-Joint angles at this edge are degrees in the robot's nominal frame (P_0 at 0 and 180 deg);
-distances are mm.  Every device has the same life cycle: `connect`, `make_safe`, `close`;
-`make_safe` and `close` may be called in any state, any number of times, and never raise.
+Joint angles at this interface are degrees in the robot's nominal frame (P_0 at 0 and 180 deg); distances are
+mm. Every device has the same life cycle: `connect`, `make_safe`, `close`; `make_safe` and `close` may be
+called in any state, any number of times, and never raise.
 """
 
 from __future__ import annotations
@@ -13,13 +13,13 @@ from typing import Protocol, runtime_checkable
 
 @dataclass(frozen=True, slots=True)
 class AxisStatus:
-    """One look at a drive."""
+    """The state of a drive at one moment."""
 
     enabled: bool
     moving: bool
     in_position: bool
     alarm: int | None
-    """The drive's alarm code, None when it has none."""
+    """The drive's alarm code, None if it has none."""
 
 
 @runtime_checkable
@@ -28,13 +28,13 @@ class Device(Protocol):
 
     @property
     def name(self) -> str:
-        """What the operator calls it, for instance "linear scale" or "servo axis 1"."""
+        """Name for the operator, for instance "linear scale" or "servo axis 1"."""
         ...
 
     def connect(self) -> None:
-        """Open the line and prove that the right device answers.
+        """Open the line and verify that the right device answers.
 
-        :raises DeviceError: with what is wrong and what to check.
+        :raises DeviceError: with the error and what to check.
         """
         ...
 
@@ -54,14 +54,15 @@ class LinearScale(Device, Protocol):
     def read_mm(self) -> float:
         """The head's present value in mm.
 
-        :raises DeviceError: fault mark, silence, malformed line; never a doubtful number.
+        :raises DeviceError: there was a fault mark, silence, or a malformed line; a doubtful number is never
+        returned.
         """
         ...
 
 
 @runtime_checkable
 class RegisterReader(Protocol):
-    """A device on a Modbus line, which brings what other units on that line show as well."""
+    """A device on a Modbus line that also reads the registers of other units on that line."""
 
     def read_register(self, unit: int, address: int) -> int:
         """One holding register of a unit on the line, 0..65535.
@@ -76,13 +77,13 @@ class ServoAxis(Device, Protocol):
     """One positioning drive of an active joint."""
 
     def enable(self) -> None:
-        """Power the axis and wait until it says so.  :raises DeviceError:"""
+        """Power the axis and wait until it confirms. :raises DeviceError:"""
         ...
 
     def move_to(self, theta_deg: float, speed_deg_s: float) -> None:
         """Start an absolute move and return at once (one frame on the wire).
 
-        :raises DeviceError: refused, or the reply is missing and the read-back state disagrees.
+        :raises DeviceError: the move is refused, or the reply is missing and the read-back state disagrees.
         """
         ...
 
@@ -103,8 +104,8 @@ class ServoAxis(Device, Protocol):
         ...
 
     def preset(self, theta_deg: float) -> None:
-        """Declare the present place to be `theta_deg` (writes the zero into the drive).
+        """Declare the present position to be `theta_deg` (writes the zero into the drive).
 
-        :raises DeviceError: refused, moving, or read back different.
+        :raises DeviceError: it is refused, the axis moves, or the value reads back different.
         """
         ...

@@ -1,4 +1,4 @@
-"""Between the pulses of a drive and a joint angle."""
+"""Conversion between the pulses of a drive and a joint angle."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class JointScaling:
-    """Between a drive's pulses and a joint angle: theta = zero_at_deg + sign * pulses / per_deg."""
+    """Conversion of a drive's pulses to a joint angle: theta = zero_at_deg + sign * pulses / per_deg."""
 
     counts_per_rev: int
     ratio: float

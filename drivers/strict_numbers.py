@@ -1,4 +1,4 @@
-"""A truth value is no number, though Python takes it for one: `mm = true` is a mistake, not 1 mm."""
+"""Numbers that are not booleans: Python accepts `true` as a number, but `mm = true` is not 1 mm."""
 
 from __future__ import annotations
 
@@ -18,13 +18,13 @@ def _number(value: object) -> object:
 
 
 def _refuse_truth_values(node: object) -> None:
-    """Put the check before every number of a schema, in place."""
+    """Add the check to every number of a schema, in place."""
     if isinstance(node, list | tuple):
         for part in node:
             _refuse_truth_values(part)
     elif isinstance(node, dict):
         if node.get("function", {}) == {"type": "no-info", "function": _number}:
-            return  # a model within a model has been here already
+            return  # a nested model that is already processed
         numbers = all(type(choice) is int for choice in node.get("expected", ()))
         if node.get("type") in _NUMBERS or (node.get("type") == "literal" and numbers):
             checked = no_info_before_validator_function(_number, node.copy())
@@ -37,7 +37,7 @@ def _refuse_truth_values(node: object) -> None:
 
 
 class StrictNumbers(BaseModel):
-    """Base of what people and programs write; each number of it, however deep, refuses true and false."""
+    """Base of input from people and programs; each number in it, at any depth, refuses true and false."""
 
     model_config = ConfigDict(defer_build=True)  # most commands use few of the models
 

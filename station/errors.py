@@ -2,11 +2,11 @@
 
 
 class InputRefused(Exception):
-    """What was given cannot be used: one sentence that says what, where and what to do."""
+    """The input cannot be used: one sentence with the error, its location and the remedy."""
 
 
 class FieldRefused(InputRefused):
-    """The same of one field of a request, `targets.3.approach1` for instance."""
+    """The same for one field of a request, for instance `targets.3.approach1`."""
 
     def __init__(self, field: str, text: str) -> None:
         super().__init__(text)
@@ -14,7 +14,7 @@ class FieldRefused(InputRefused):
 
 
 class NotFound(Exception):
-    """Nothing is kept under this number or serial."""
+    """No entry has this number or serial."""
 
 
 class Busy(Exception):
@@ -26,11 +26,11 @@ class Busy(Exception):
 
 
 class NotApplicable(Exception):
-    """The zero offsets of a run cannot be written to the drives, or not taken back; says why."""
+    """The zero offsets of a run cannot be written to the drives, or not rolled back; with the reason."""
 
 
 class KeyReused(Exception):
-    """An idempotency key came again with another request."""
+    """An idempotency key was used again for another request."""
 
     def __init__(self, calibration_id: int) -> None:
         super().__init__(
@@ -40,15 +40,15 @@ class KeyReused(Exception):
 
 
 class NotSignedIn(Exception):
-    """Whoever asks is not known, or not any more; says why."""
+    """The author of a request is unknown, or no longer signed in; with the reason."""
 
 
 class Forbidden(Exception):
-    """Whoever asks is known but may not do this; names the roles that may."""
+    """The author of a request has no permission; the error names the roles that have it."""
 
 
 class TooManyTries(Exception):
-    """Too many failed sign-ins; the next is looked at after `after_s`."""
+    """Too many failed sign-ins; the next one is possible after `after_s`."""
 
     def __init__(self, after_s: float) -> None:
         super().__init__(f"Too many failed sign-ins; wait {after_s:.0f} s.")
@@ -56,7 +56,7 @@ class TooManyTries(Exception):
 
 
 class StoreUnavailable(Exception):
-    """The database cannot be read or written at this moment; says why."""
+    """The database cannot be read or written now; with the reason."""
 
 
 class StepFailed(Exception):
@@ -64,5 +64,5 @@ class StepFailed(Exception):
 
 
 def sentence(text: str) -> str:
-    """With a capital letter, the rest as it is."""
+    """The text with a capital first letter."""
     return text[:1].upper() + text[1:]

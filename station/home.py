@@ -1,4 +1,4 @@
-"""The data folder.  Alone, so that `station --help` loads nothing else."""
+"""The data folder. A separate module, so that `station --help` loads nothing else."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ import platformdirs
 
 
 def station_home(option: Path | None) -> Path:
-    """The folder of database, logs and backups: the option, STATION_HOME, or the platform's."""
+    """The folder for database, logs and backups: the option, STATION_HOME, or the platform's."""
     if option is not None:
         return option
     if named := os.environ.get("STATION_HOME"):

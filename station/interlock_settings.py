@@ -100,7 +100,7 @@ class ReferenceCheck(InterlockSection):
 
 
 class InterlockSettings(StrictNumbers):
-    """`[interlocks]`: each is a table of its own.  What is left out holds with its default limits."""
+    """`[interlocks]`: each interlock is a separate table. Omitted ones apply with their default limits."""
 
     model_config = ConfigDict(extra="forbid", frozen=True)
 
@@ -116,7 +116,7 @@ class InterlockSettings(StrictNumbers):
 
     @property
     def reads_registers(self) -> bool:
-        """Whether something beside the drives has to be asked."""
+        """Whether units other than the drives have to be queried."""
         return self.guard_door is not None or self.temperature is not None
 
     @model_validator(mode="before")

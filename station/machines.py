@@ -1,6 +1,6 @@
-"""The kinds of machine that the station knows, each with everything that belongs to it alone.
+"""The supported kinds of machine, each with its specific parts.
 
-A further mechanism is a package of its own and one entry in `KINDS` (docs/how-to/add-a-mechanism.md).
+A further mechanism is a separate package and one entry in `KINDS` (docs/how-to/add-a-mechanism.md).
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ class HasZeroTolerance(Protocol):
 
     @property
     def zero_offset_deg(self) -> float:
-        """Of each zero offset."""
+        """Tolerance of each zero offset."""
         ...
 
 
@@ -55,12 +55,12 @@ class AnyRobot(Protocol):
 
     @property
     def serial(self) -> str:
-        """Of the robot."""
+        """Serial of the robot."""
         ...
 
     @property
     def tolerances(self) -> HasZeroTolerance:
-        """Standard deviations of what is not known better."""
+        """Standard deviations of the nominal values."""
         ...
 
     @classmethod
@@ -80,22 +80,22 @@ AnyMechanism = Mechanism
 
 @dataclass(frozen=True)
 class MachineKind:
-    """What is particular to one kind of machine."""
+    """The specific parts of one kind of machine."""
 
     robot: type[AnyRobot]
     """Its robot file."""
     mechanism: Callable[[Any, Measurements], AnyMechanism]
-    """The robot under these readings."""
+    """The robot with these readings."""
     columns: Callable[[Any], Columns]
-    """What its measurement file holds."""
+    """The columns of its measurement file."""
     infers_columns: bool
-    """Whether approach and position are inferred where a log does not record them."""
+    """Whether approach and position are inferred if a log does not record them."""
     catalogue: Callable[[Any], tuple[Effect, ...]]
     """Every effect at every place where it can act."""
     weak_direction: Callable[[Any, Solution, Real, float], WeakDirection]
     """From mechanism, solution, row_sd (R,) and sd_factor."""
     extent: Literal["workspace", "measured poses"]
-    """Over what its position error is predicted."""
+    """The region over which its position error is predicted."""
 
 
 KINDS: dict[str, MachineKind] = {
@@ -128,9 +128,10 @@ KINDS: dict[str, MachineKind] = {
 
 
 def read_robot(path: Path | None) -> AnyRobot:
-    """A robot file of any model; None is the paper's five-bar.
+    """Read a robot file of any model; None is the paper's five-bar.
 
-    :raises InputRefused: missing, not TOML, or a value out of place, with the section and key.
+    :raises InputRefused: the file is missing, is not TOML, or contains an invalid value; the error gives
+    section and key.
     """
     if path is None:
         return Robot.default()
@@ -138,7 +139,7 @@ def read_robot(path: Path | None) -> AnyRobot:
 
 
 def robot_of(data: Sections, *, source: str = "robot") -> AnyRobot:
-    """From a robot file's sections.  :raises InputRefused: an unknown model, or as the robot's own file."""
+    """A robot from its file's sections. :raises InputRefused: unknown model, or as for its robot file."""
     section = data.get("robot")
     model = section.get("model") if isinstance(section, dict) else None
     kind = KINDS.get(FIVE_BAR_MODEL if model is None else model) if isinstance(model, str | None) else None
@@ -149,7 +150,7 @@ def robot_of(data: Sections, *, source: str = "robot") -> AnyRobot:
 
 
 def kind_of(machine: AnyRobot | Mechanism) -> MachineKind:
-    """What is particular to a robot or a mechanism."""
+    """The specific parts for a robot or a mechanism."""
     return KINDS[machine.model]
 
 
@@ -159,7 +160,7 @@ def effects_of(mechanism: Mechanism) -> tuple[Effect, ...]:
 
 
 def mechanism_of(robot: AnyRobot, measurements: Measurements) -> AnyMechanism:
-    """The robot under these readings."""
+    """The robot with these readings."""
     return kind_of(robot).mechanism(robot, measurements)
 
 
@@ -171,13 +172,12 @@ def read_readings(
     in_order: bool = True,
     mapping: ColumnMap | None = None,
 ) -> Measurements:
-    """A measurement file of this robot; what an arm's log does not record is inferred and marked.
+    """Read a measurement file of this robot; data missing in an arm's log are inferred and marked.
 
-    measured: which of the columns count where a file has both.
-    in_order: refuse a five-bar's file whose time runs backwards; else the caller judges the column.
-    mapping: which columns are which, where the file was not made for this program.
-
-    :raises InputRefused: anything malformed, with row, column and what to do.
+    :param measured: which measurement to use if a file contains both
+    :param in_order: refuse decreasing times in a five-bar's file; otherwise the caller checks the column
+    :param mapping: the column map of a foreign file
+    :raises InputRefused: the file is malformed; the error gives row, column and remedy.
     """
     return read_log(robot, content_of(path), path.name, measured, in_order=in_order, mapping=mapping)
 
@@ -209,7 +209,7 @@ def read_log(
 
 
 def _foreign(content: bytes, source: str, columns: Columns, mapping: ColumnMap | None) -> Measurements:
-    """By way of the contract's form; readings whose target was lost are left out and counted."""
+    """Convert to the contract's form first; readings with a lost target are excluded and counted."""
     read = translated(content, mapping, columns, source)
     if read.lost:
         log.warning(

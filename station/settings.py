@@ -32,7 +32,7 @@ Finite = Annotated[float, Field(allow_inf_nan=False)]
 
 
 def _beside_the_station_file(path: Path, info: ValidationInfo) -> Path:
-    folder: Path | None = info.context  # None where the settings are no file's
+    folder: Path | None = info.context  # None if the settings are not from a file
     return path if folder is None else folder / path
 
 
@@ -45,7 +45,7 @@ class _Section(StrictNumbers):
 
 
 class ScaleSettings(_Section):
-    """`[scale]`: the readout of the linear scale.  All options but `protocol` belong to its driver."""
+    """`[scale]`: the readout of the linear scale. All options except `protocol` belong to its driver."""
 
     protocol: str
     """Name of the driver; see the sections of the drivers below."""
@@ -54,13 +54,13 @@ class ScaleSettings(_Section):
     @model_validator(mode="before")
     @classmethod
     def _options_of_its_driver(cls, data: Any) -> Any:
-        # Here, not above: drivers load serial and Modbus libraries, which only a file with devices needs.
+        # Imported here: drivers load serial and Modbus libraries, which only a file with devices needs.
         from drivers.scales import SCALES
 
         return _with_options(data, "protocol", {name: driver.settings for name, driver in SCALES.items()})
 
     def flat(self) -> dict[str, JsonValue]:
-        """As the station file gives it, with every option."""
+        """The section as in the station file, with every option."""
         return {"protocol": self.protocol, **self.options.model_dump(mode="json")}
 
 
@@ -106,13 +106,13 @@ class ServoSettings(_Section):
     @model_validator(mode="before")
     @classmethod
     def _options_of_their_driver(cls, data: Any) -> Any:
-        from drivers.servos import SERVOS  # here, not above: as of the scale
+        from drivers.servos import SERVOS  # imported here, as for the scale
 
         known = {name: driver.settings for name, driver in SERVOS.items()}
         return _with_options(data, "profile", known, own=("joint",))
 
     def flat(self) -> dict[str, JsonValue]:
-        """As the station file gives it, with every option."""
+        """The section as in the station file, with every option."""
         joints = [joint.model_dump(mode="json") for joint in self.joint]
         return {"profile": self.profile, "joint": joints, **self.options.model_dump(mode="json")}
 
@@ -435,10 +435,10 @@ def _sentence(error: ErrorDetails, inside: tuple[int | str, ...] = ()) -> str:
 
 
 def backup_folder(settings: Settings, home: Path) -> Path:
-    """Where the station's own backups are: the station file's `[backup] folder`, else in the home folder."""
+    """Folder of the station's own backups: `[backup] folder`, otherwise in the home folder."""
     return settings.backup.folder or home / "backups"
 
 
 def database_path(settings: Settings, home: Path) -> Path:
-    """Where the store is: the station file's `[service] database`, else in the home folder."""
+    """File of the store: the station file's `[service] database`, otherwise in the home folder."""
     return settings.service.database or home / "station.db"

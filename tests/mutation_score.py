@@ -23,7 +23,7 @@ _DEFINITION = re.compile(r"\s*(?:async )?def (\S+?__mutmut_(?:orig|\d+))\(")
 
 @dataclass(frozen=True)
 class Mutant:
-    """One changed place."""
+    """One changed line or expression."""
 
     name: str
     status: str
@@ -47,7 +47,7 @@ def functions(source: str) -> dict[str, list[str]]:
 
 
 def mutants(meta: Path) -> list[Mutant]:
-    """Of one module, from what the mutation tester wrote beside it."""
+    """Mutants of one module, from the files of the mutation tester."""
     statuses: dict[str, int | None] = json.loads(meta.read_text())["exit_code_by_key"]
     bodies = functions(meta.with_suffix("").read_text())
     found = []

@@ -76,7 +76,7 @@ def cases(folder: Path) -> Iterator[Case]:
 
 
 def run(checkout: Path, case: Case, out: Path) -> None:
-    """Write the document, or what the command said where it made none."""
+    """Write the document, or the command's message if it made none."""
     target = out / f"{case.name}.json"
     if target.exists():
         return
@@ -97,7 +97,7 @@ def run(checkout: Path, case: Case, out: Path) -> None:
 
 
 def differences(a: object, b: object, at: str = "") -> Iterator[str]:
-    """Where two documents differ, field by field."""
+    """The differences of two documents, field by field."""
     if isinstance(a, dict) and isinstance(b, dict):
         for key in sorted({*a, *b}):
             if key in a and key in b:
@@ -146,7 +146,7 @@ def main() -> int:
 
 
 def _checkout(folder: Path, revision: str | None) -> Path:
-    """A work tree of a revision; the one that this script stands in for None."""
+    """A work tree of a revision; for None, that of this script."""
     if revision is None:
         return ROOT
     if not folder.exists():

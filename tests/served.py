@@ -1,4 +1,4 @@
-"""A `station serve` process of its own, that is killed and comes back at its address."""
+"""A separate `station serve` process that can be killed and restarted at its address."""
 
 from __future__ import annotations
 
@@ -13,12 +13,10 @@ END_LIMIT_S = 15.0
 
 
 class Served:
-    """On the emulated rig, in a folder of its own; `with` starts it."""
+    """A station on the emulated rig, in a separate folder; `with` starts it."""
 
     def __init__(self, home: Path, toml: str) -> None:
-        """
-        :param toml: of the station file
-        """
+        """:param toml: text of the station file"""
         self.home, self.port = home, 0
         self.config = home / "station.toml"
         self.config.write_text(toml)
@@ -36,7 +34,7 @@ class Served:
         self.end()
 
     def start(self) -> None:
-        """Returns when it listens; at the port that it had."""
+        """Start it; returns when it listens, at its earlier port."""
         command = [sys.executable, "-m", "station", "--home", str(self.home), "serve"]
         self._process = subprocess.Popen(
             [*command, "--config", str(self.config), "--port", str(self.port)],
@@ -53,7 +51,7 @@ class Served:
         self.port = urlsplit(found[0]).port or 0
 
     def kill(self) -> None:
-        """As the end of the electricity."""
+        """Kill it, as a power failure does."""
         assert self._process is not None
         self._process.kill()
         self.end()

@@ -1,4 +1,4 @@
-"""For what another thread or process does in its own time."""
+"""Waiting for another thread or process."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ Found = TypeVar("Found")
 
 
 def soon(look: Callable[[], Found | None], why: str = "", *, within_s: float = PATIENCE_S) -> Found:
-    """What `look` finds as soon as that is true.  :raises AssertionError: it has not become so in time."""
+    """The result of `look` as soon as it is true.  :raises AssertionError: it has not become so in time."""
     deadline_s = time.monotonic() + within_s
     while not (found := look()):
         assert time.monotonic() < deadline_s, why or found
@@ -25,7 +25,7 @@ def soon(look: Callable[[], Found | None], why: str = "", *, within_s: float = P
 
 @contextmanager
 def all_threads_end() -> Iterator[None]:
-    """Whatever was begun inside has ended soon after it."""
+    """All threads started inside end soon after it."""
     before = set(threading.enumerate())
     yield
     for thread in set(threading.enumerate()) - before:

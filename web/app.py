@@ -1,4 +1,4 @@
-"""The service put together: routes, live feed, page and problem documents around one `Runtime`."""
+"""The complete service: routes, live feed, page and problem documents around one `Runtime`."""
 
 from __future__ import annotations
 
@@ -70,15 +70,15 @@ ROUTES = (
 )  # fmt: skip
 LIVE_ROUTES = (live,)
 PROVIDER_ROUTES = (openid,)
-"""A provider may add parameters of its own to the address that it leads back to."""
+"""Routes that a provider redirects to, where it may add query parameters."""
 TOP_ROUTES = (metrics,)
-"""Where the tools that ask for them expect them."""
+"""Routes at the addresses that standard tools expect."""
 
 
 def create_app(runtime: Runtime, *, access: Access | None = None, static: Path = pages.STATIC) -> FastAPI:
     """The ASGI application on top of a running station.
 
-    :param access: who may do what; by default as the settings of the station have it
+    :param access: the permissions; by default those of the station's settings
     """
     service, openid_settings = runtime.settings.service, runtime.settings.openid
     access = access or access_of(runtime, service.host)
@@ -121,7 +121,7 @@ def _add_routes(app: Application) -> None:
 
 
 def _add_middleware(app: Application, service: ServiceSettings) -> None:
-    """The last one is the first that a request meets."""
+    """The middleware added last is the first to receive a request."""
     app.add_middleware(SlowBodies)
     app.add_middleware(LateCommands)
     app.add_middleware(etags.ETags, prefix=f"{API}/calibrations/")
@@ -133,7 +133,7 @@ def _add_middleware(app: Application, service: ServiceSettings) -> None:
 
 
 def access_of(runtime: Runtime, host: str) -> Access:
-    """Who may do what at a station that listens at this address."""
+    """The permissions of a station that listens at this address."""
     service, orchestrator = runtime.settings.service, runtime.orchestrator
     return Access(
         runtime.store,

@@ -1,4 +1,4 @@
-"""The application that describes itself by the checked-in OpenAPI file."""
+"""The application, described by the checked-in OpenAPI file."""
 
 from __future__ import annotations
 
@@ -13,15 +13,15 @@ FILE = Path(__file__).with_name("openapi.json")
 
 
 class Application(FastAPI):
-    """To make the description anew takes a second, during which nobody could stop the machine."""
+    """Generating the description takes a second, during which nobody could stop the machine."""
 
     def openapi(self) -> dict[str, JsonValue]:
-        """The file, which a test holds to what the routes say."""
+        """The checked-in file, which a test compares with the routes."""
         return kept_description()
 
 
 @cache
 def kept_description() -> dict[str, JsonValue]:
-    """Read once a process."""
+    """Read once per process."""
     document: dict[str, JsonValue] = json.loads(FILE.read_text(encoding="utf-8"))
     return document

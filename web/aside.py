@@ -1,4 +1,4 @@
-"""A call that may hang, on a thread that nothing else waits for."""
+"""A call that may hang, on a separate thread."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ async def record_later(
     subject: str,
     after: Mapping[str, JsonValue] | None = None,
 ) -> None:
-    """An entry of the audit about what was done already, made after it was answered.
+    """Record a completed action in the audit after its answer was sent.
 
-    A database that is locked does not hold the caller's connection: the entry follows when it can.
+    A locked database does not hold the caller's connection: the entry follows later.
     """
     written = orchestrator.late_records.deed(by, action, subject, after)
     await aside(lambda: written.wait(RECORD_WAIT_S))
 
 
 async def aside(function: Callable[[], T], *, timeout_s: float | None = None) -> T:
-    """What `function` returns or raises.
+    """The result or the error of `function`.
 
-    :raises TimeoutError: it has not come back; its thread is left to itself.
+    :raises TimeoutError: it has not returned; its thread continues alone.
     """
     with fail_after(timeout_s):
         return await to_thread.run_sync(function, abandon_on_cancel=True, limiter=_UNLIMITED)

@@ -1,4 +1,4 @@
-"""What travels over HTTP: bodies and answers.  The OpenAPI file and the page's types come from here."""
+"""Bodies and answers over HTTP. The OpenAPI file and the page's types are made from them."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ from station.records import (
 
 
 def _as_value(check: Callable[[str], str]) -> AfterValidator:
-    """A check of `station.records` as pydantic wants it."""
+    """A check of `station.records` as a pydantic validator."""
 
     def validate(text: str) -> str:
         try:
@@ -53,14 +53,14 @@ Serial = Annotated[
     str,
     StringConstraints(strip_whitespace=True, min_length=1, max_length=64),
     _as_value(checked_serial),
-    # for those who read the schema; a person gets the sentence of the check
+    # for readers of the schema; a person gets the sentence of the check
     Field(json_schema_extra={"pattern": r"^[\w.\-/]+$"}),
 ]
 Name = Annotated[
     str,
     StringConstraints(strip_whitespace=True, min_length=1, max_length=64),
     _as_value(checked_name),
-    # for those who read the schema; a person gets the sentence of the check
+    # for readers of the schema; a person gets the sentence of the check
     Field(json_schema_extra={"pattern": r"^[^\u0000-\u001f\u007f-\u009f\u2028\u2029]*$"}),
 ]
 
@@ -77,13 +77,13 @@ Plan = Annotated[
 
 
 class Body(StrictNumbers):
-    """What is sent: a field that is not known is refused."""
+    """A request body: unknown fields are refused."""
 
-    model_config = ConfigDict(extra="forbid", defer_build=False)  # FastAPI asks for models that are built
+    model_config = ConfigDict(extra="forbid", defer_build=False)  # FastAPI requires built models
 
 
 class CalibrationBody(Body):
-    """What to calibrate, how, and who asks."""
+    """A calibration request: robot, plan and requester."""
 
     robot_serial: Serial
     plan: Plan
@@ -114,7 +114,7 @@ class CalibrationBody(Body):
 
 
 class DatasetFields(Body):
-    """Whose readings are imported, and by whom; in the query, or as fields beside the files."""
+    """Robot and requester of an import; in the query, or as fields beside the files."""
 
     robot_serial: Serial = Field(
         default=RobotFile.default().serial, description="without a file kept here: the paper's robot"
@@ -124,13 +124,13 @@ class DatasetFields(Body):
 
 
 class ApplyBody(Body):
-    """Who writes zero offsets to the drives, takes them back, or continues a run."""
+    """The requester of an application, a rollback or a continued run."""
 
     operator: Name
 
 
 class AnswerBody(Body):
-    """The answer to what a run asks."""
+    """The answer to the prompt of a run."""
 
     prompt: str = Field(description="`id` of the prompt")
     value: float | None = Field(default=None, description="where a number is asked for")
@@ -149,14 +149,14 @@ class TranslateBody(Body):
 
 
 class TranslatedList(Record):
-    """In their order."""
+    """Translated positions, in the order of the request."""
 
     items: list[TranslatedPosition]
     next: None = None
 
 
 class ClearBody(Body):
-    """Who lets a robot work again after a failed check, and why."""
+    """Who permits work with a robot again after a failed check, and the reason."""
 
     operator: Name
     reason: Annotated[str, StringConstraints(strip_whitespace=True, min_length=3, max_length=500)]
@@ -169,7 +169,7 @@ class SeparatingStop(Record):
 
 
 class Separating(Record):
-    """The motion that distinguishes the causes which a run left open."""
+    """The motion that distinguishes the causes which a run left undecided."""
 
     apart: list[str]
     """Alternative causes that it should rule out, or confirm instead."""
@@ -179,7 +179,7 @@ class Separating(Record):
 
 
 class ResidualRow(Record):
-    """One reading that a diagnosis learned from, with all that its residual may be ordered by."""
+    """One reading that a diagnosis learned from, with all quantities its residual may be ordered by."""
 
     reading: int
     position: str
@@ -212,7 +212,7 @@ MOST_TARGETS = 10_000
 
 
 class Target(Body):
-    """Where P is to go, and what an effect may depend on there."""
+    """Target position of P, and the conditions that an effect may depend on there."""
 
     x_mm: Finite
     y_mm: Finite
@@ -223,7 +223,7 @@ class Target(Body):
 
 
 class SolveBody(Body):
-    """Targets to be commanded under the identified model."""
+    """Targets for commands under the identified model."""
 
     targets: list[Target] = Field(min_length=1, max_length=MOST_TARGETS)
 
@@ -234,7 +234,7 @@ class JointCommand(Record):
 
 
 class Solution(Record):
-    """Joint commands in the drives' nominal frame, one a target, in their order."""
+    """Joint commands in the drives' nominal frame, one for each target, in order."""
 
     commands: list[JointCommand]
     range: str = Field(description="what the model was learned on")
@@ -242,7 +242,7 @@ class Solution(Record):
 
 
 class Robot(Record):
-    """A robot as it is known here."""
+    """The data of a robot in this station."""
 
     serial: str
     file: Sections = Field(description="the sections of its robot file")
@@ -294,7 +294,7 @@ class ReadingList(Record):
 
 
 class Stopped(Record):
-    """What the drives answered to the quick stop; a run under way is being aborted."""
+    """Answer of the drives to the quick stop; an active run is being aborted."""
 
     axes: dict[str, str | None] = Field(description="by axis: null when it confirmed, else what went wrong")
     confirmed: bool = Field(description="whether every axis confirmed; if not, use the emergency stop")

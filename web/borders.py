@@ -1,4 +1,4 @@
-"""Which requests are looked at: by the name they ask for, by the page they come from, and through whom."""
+"""Which requests are accepted: by requested host name, by origin page, and by proxy."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ _NETLOC = re.compile(r"[\w.\-]+(:\d+)?|\[[0-9a-f:.]+\](:\d+)?", re.ASCII)
 
 
 class Forwarded:
-    """Believes the headers of declared proxies: address of the client, scheme, and the name it asked for."""
+    """Accepts the headers of declared proxies: address of the client, scheme, and requested host name."""
 
     def __init__(self, app: ASGIApp, proxies: Sequence[IPv4Network | IPv6Network]) -> None:
         self._app, self._proxies = app, proxies
@@ -49,10 +49,10 @@ class Forwarded:
 
 
 class Borders:
-    """Refuses names that are not this station's, and commands and live feeds for other sites' pages.
+    """Refuses host names that are not this station's, and commands and live feeds for other sites' pages.
 
-    A page on another host can point its own name at this address; then the browser takes both for one site.
-    The name in `Host` shows it.
+    Another host can point its own name at this address; the browser then treats both as one site. The name in
+    `Host` reveals it.
     """
 
     def __init__(self, app: ASGIApp, hosts: Sequence[str]) -> None:
@@ -75,7 +75,7 @@ class Borders:
 
     def _refused(self, scope: Scope, headers: Headers) -> tuple[int, str, str] | None:
         host = headers.get("host", "").lower()
-        # a browser always names the host; a probe that speaks HTTP/1.0 need not
+        # a browser always sends the host; a probe with HTTP/1.0 need not
         if "host" in headers and not self._ours(host, scope):
             text = f"This station is not called {host or 'nothing'}; declare the name in [service] hosts."
             return 403, text, "foreign-host"
@@ -93,7 +93,7 @@ class Borders:
         return host in self._declared or hostname(host) in self._declared
 
     def _from_our_page(self, headers: Headers, host: str) -> bool:
-        """True unless a browser says that another site's page is asking."""
+        """True unless a browser states that another site's page sends the request."""
         if headers.get("sec-fetch-site", "none") not in ("none", "same-origin"):
             return False
         origin = headers.get("origin")
@@ -102,12 +102,12 @@ class Borders:
         site = urlsplit(origin)
         if site.scheme not in ("http", "https"):
             return False
-        # a proxy may have changed `Host`; the name that browsers use is declared then
+        # a proxy may have changed `Host`; the public host name is declared then
         return site.netloc.lower() == host or site.netloc.lower() in self._declared
 
 
 def hostname(netloc: str) -> str:
-    """Without port and brackets; empty where it is none."""
+    """Host name without port and brackets; empty if it is not one."""
     if not _NETLOC.fullmatch(netloc):
         return ""
     try:

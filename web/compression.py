@@ -1,4 +1,4 @@
-"""Answers are sent compressed to whoever takes gzip (RFC 9110, section 12.5.3)."""
+"""Compressed answers for clients that accept gzip (RFC 9110, section 12.5.3)."""
 
 from __future__ import annotations
 
@@ -10,16 +10,16 @@ from starlette.types import ASGIApp, Message, Receive, Scope, Send
 from web.aside import aside
 
 LEAST_BYTES = 1000
-"""Below, the headers would cost more than is saved."""
+"""Below this size, the headers would exceed the savings."""
 INLINE_BYTES = 20_000
-"""Compressed at once, in less than a millisecond; longer ones on a thread, so that a stop never waits."""
+"""Up to this size, compressed at once, in less than a millisecond; otherwise on a thread."""
 LEVEL = 4
 _GZIP_WINDOW = 31
 _TEXT = ("application/json", "application/problem+json", "text/", "image/svg+xml", "application/javascript")
 
 
 class Compression:
-    """Compresses text that is sent whole or in pieces; what is sent to the live feed is left alone."""
+    """Compresses text that is sent whole or in pieces; the live feed is not compressed."""
 
     def __init__(self, app: ASGIApp) -> None:
         self.app = app
@@ -79,7 +79,7 @@ def _as_gzip(start: Message) -> Message:
     del headers["content-length"]
     headers["Content-Encoding"] = "gzip"
     headers.add_vary_header("Accept-Encoding")
-    if tag := headers.get("etag"):  # the same content, but not the same bytes
+    if tag := headers.get("etag"):  # the same content with other bytes
         headers["ETag"] = tag if tag.startswith("W/") else f"W/{tag}"
     return {**start, "headers": headers.raw}
 

@@ -1,4 +1,4 @@
-"""The cookie of a session: under which name, how it is set, and which one a browser sends."""
+"""The cookie of a session: its name, its attributes, and how it is read from a request."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from station.errors import NotSignedIn
 
 COOKIE = "station_session"
 HOST_COOKIE = f"__Host-{COOKIE}"
-"""With TLS: a browser takes it from this very host alone, not from another one of the plant's domain."""
+"""With TLS: a browser accepts it only from this host, not from another one of the plant's domain."""
 
 
 def sent_sessions(connection: HTTPConnection) -> list[str]:
-    """Every session that comes with a request; more than one only where another host has set one too."""
+    """All session cookies of a request; more than one only if another host has set one too."""
     name = _name(connection)
     pairs = ";".join(connection.headers.getlist("cookie")).split(";")
     found = (
@@ -23,7 +23,7 @@ def sent_sessions(connection: HTTPConnection) -> list[str]:
 
 
 def sent_session(connection: HTTPConnection) -> str | None:
-    """:raises NotSignedIn: it cannot be known which of two is meant."""
+    """:raises NotSignedIn: two cookies are ambiguous."""
     sent = sent_sessions(connection)
     if len(sent) > 1:
         raise NotSignedIn(
@@ -34,13 +34,13 @@ def sent_session(connection: HTTPConnection) -> str | None:
 
 
 def set_session(response: Response, cookie: str, connection: HTTPConnection) -> None:
-    """Only this station's page can send it."""
+    """Set a cookie that only this station's page can send."""
     secure = _by_tls(connection)
     response.set_cookie(_name(connection), cookie, path="/", httponly=True, samesite="strict", secure=secure)
 
 
 def delete_session(response: Response, connection: HTTPConnection) -> None:
-    """The browser forgets it."""
+    """Delete the cookie in the browser."""
     secure = _by_tls(connection)
     response.delete_cookie(_name(connection), path="/", httponly=True, samesite="strict", secure=secure)
 

@@ -1,4 +1,4 @@
-"""`ETag` on what is told of one run, so that a client that has it already need not be sent it again."""
+"""`ETag` for the data of a run, so that unchanged data need not be sent again."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from starlette.responses import Response
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 KEPT_BUT_ASKED_FOR = "private, no-cache"
-"""The client may keep the answer, but asks each time whether it still holds: an application may be added."""
+"""The client may store the answer, but must revalidate it each time: an application may be added."""
 
 
 class ETags:
-    """Marks GET answers under a prefix by the hash of their body; 304 where the client has that one.
+    """Marks GET answers under a prefix with the hash of their body; 304 if the client has that one.
 
-    The answers of a finished run do not change; whatever does change has another hash, so that nothing has
-    to be known of the run here (RFC 9110, section 13.1.2).
+    The answers of a finished run do not change; changed answers have another hash, so that this needs no
+    knowledge of the run (RFC 9110, section 13.1.2).
     """
 
     def __init__(self, app: ASGIApp, prefix: str) -> None:

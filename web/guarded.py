@@ -1,4 +1,4 @@
-"""What a route needs, declared where the route is, and checked before anything of its body is read."""
+"""The permissions of a route, declared at the route, and checked before its body is read."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ from web.problems import documented
 from web.strict_json import StrictRequest, is_json
 
 UNATTENDED = "x-unattended"
-"""Header of what the page asks by itself, while nobody touches it."""
+"""Header of automatic requests of the page, without user activity."""
 NOBODY = Actor(name="nobody", via="open")
-"""Who has not said who they are, on the way in."""
+"""The author of a request before authentication."""
 _OF_PROXIES = frozenset({"forwarded", "via", "x-real-ip"})
 """Headers that only a proxy adds; beside the family `X-Forwarded-`."""
 LOOKUP_LIMIT_S = 1.0
-"""Whoever wants to stop does not wait longer for a history that hangs."""
+"""Maximum time that a stop waits for a history that hangs."""
 
 
 class Needs:
@@ -37,10 +37,10 @@ class Needs:
         self.permission = permission
 
     async def __call__(self, connection: HTTPConnection) -> Actor:
-        """Who asks.
+        """The author of the request.
 
-        :raises NotSignedIn: nobody who is known.
-        :raises Forbidden: not in a role that may.
+        :raises NotSignedIn: the author is unknown.
+        :raises Forbidden: the role has no permission.
         """
         if (known := getattr(connection.state, "actor", None)) is not None:
             return known  # type: ignore[no-any-return]
@@ -57,9 +57,9 @@ class Needs:
         return actor
 
     async def _who_stops(self, connection: HTTPConnection) -> Actor:
-        """The panel needs no sign-in, and a history that cannot be read keeps nobody from a stop."""
+        """The panel needs no sign-in, and an unreadable history prevents nobody from stopping."""
         refused = NotSignedIn()
-        # one that another host has set stops no stop
+        # a cookie set by another host must not prevent a stop
         sessions: list[str | None] = [*sent_sessions(connection)] or [None]
         for session in sessions:
             try:
@@ -74,12 +74,12 @@ class Needs:
 
 
 def needs(permission: Permission) -> Any:
-    """For the `dependencies` of a route, or as the default of a parameter that is told who asks."""
+    """For the `dependencies` of a route, or as the default of a parameter that receives the author."""
     return Depends(Needs(permission))
 
 
 async def who_asks(connection: HTTPConnection) -> Actor:
-    """By key, else by session.  :raises NotSignedIn: says why."""
+    """The author by key, otherwise by session. :raises NotSignedIn: with the reason."""
     return await _known(connection, sent_session(connection))
 
 
@@ -95,16 +95,15 @@ async def _known(connection: HTTPConnection, session: str | None, timeout_s: flo
 
 
 def attended(connection: HTTPConnection) -> bool:
-    """Whether this is a sign of somebody at the page, who stays signed in by it.
+    """Whether this request shows activity of a user, which extends the session.
 
-    A page that was left alone goes on asking, and opens its live feed again: it says so, and that does not
-    count.
+    An unattended page continues its requests, and reopens its live feed: these are marked and do not count.
     """
     return connection.scope["type"] == "http" and UNATTENDED not in connection.headers
 
 
 def bearer(connection: HTTPConnection) -> str | None:
-    """The key that is shown.  :raises NotSignedIn: the header has another form."""
+    """The key in the header. :raises NotSignedIn: the header has another form."""
     given = connection.headers.getlist("authorization")
     if not given:
         return None
@@ -115,7 +114,7 @@ def bearer(connection: HTTPConnection) -> str | None:
 
 
 def named(connection: HTTPConnection) -> str | None:
-    """The name in `X-Operator`, which counts only where nobody signs in."""
+    """The name in `X-Operator`, which counts only if nobody can sign in."""
     return unquote(connection.headers.get("x-operator", ""))[:64].strip() or None
 
 
@@ -130,7 +129,7 @@ def at_the_panel(connection: HTTPConnection) -> bool:
 
 
 class GuardedRoute(APIRoute):
-    """Asks who it is before it reads the body, and reads JSON strictly."""
+    """Determines the author before it reads the body, and parses JSON strictly."""
 
     def __init__(self, *arguments: Any, **options: Any) -> None:
         super().__init__(*arguments, **options)
@@ -154,13 +153,13 @@ class GuardedRoute(APIRoute):
 
 
 def guard_of(dependant: Dependant) -> Needs | None:
-    """What a route declares; None where it declares nothing or more than once."""
+    """The permission that a route declares; None if it declares none or more than one."""
     found = [d.call for d in dependant.dependencies if isinstance(d.call, Needs)]
     return found[0] if len(found) == 1 else None
 
 
 class Router(APIRouter):
-    """Of guarded routes."""
+    """A router of guarded routes."""
 
     def __init__(self, **options: Any) -> None:
         super().__init__(route_class=GuardedRoute, **options)

@@ -1,4 +1,4 @@
-"""What every answer carries."""
+"""Headers of every answer."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ CONTENT_SECURITY_POLICY = (
     "default-src 'self'; style-src-attr 'unsafe-inline'; "
     "base-uri 'none'; form-action 'self'; frame-ancestors 'none'"
 )
-"""Own files only.  Style attributes are allowed because the SVG charts are drawn with them."""
+"""Only own files. Style attributes are allowed because the SVG charts use them."""
 
 SELF_CONTAINED = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
-"""Of a page that needs nothing but the styles in itself, so that it can be saved and mailed."""
+"""For a page that needs only its own styles, so that it can be saved and mailed."""
 
 POLICIES = {
     "Content-Security-Policy": CONTENT_SECURITY_POLICY,

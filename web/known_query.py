@@ -1,6 +1,6 @@
-"""Query parameters that nobody knows are refused.
+"""Unknown query parameters are refused.
 
-A filter with a slip in its name must not answer with everybody's runs.
+A filter with a typing error in its name must not return all runs.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from station.errors import FieldRefused
 
 
 async def known_query(request: Request) -> None:
-    """A dependency of every route.  :raises FieldRefused: the route and what it depends on do not take it."""
+    """A dependency of every route. :raises FieldRefused: the route does not accept a parameter."""
     if not request.query_params:
         return
     taken = get_flat_params(request.scope["route"].dependant)

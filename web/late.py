@@ -1,4 +1,4 @@
-"""A command that was confirmed at a page is worth something for a moment only."""
+"""Commands from a page are valid for a short time only."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ MALFORMED = f"{HEADER} must be the time in ms since 1970, a whole number."
 
 
 class LateCommands:
-    """Refuses with 412 what comes after the time in its `X-Not-After`, ms since 1970 by this station's clock.
+    """Refuses with 412 commands after the time in their `X-Not-After`, ms since 1970 by the station's clock.
 
-    A station that stood still finds what was confirmed at it meanwhile.  By then the operator has been told
-    that it does not respond, and may stand at the machine.
+    A station that was suspended receives the commands sent meanwhile. By then the page has told the operator
+    that it does not respond, and the operator may be at the machine.
     """
 
     def __init__(self, app: ASGIApp) -> None:

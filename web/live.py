@@ -1,8 +1,8 @@
-"""The live feed: a full snapshot first, then numbered events, a beat each second.
+"""The live feed: a full snapshot first, then numbered events, and a beat each second.
 
-A client that falls behind gets a snapshot instead of an ever longer queue, so that a late
-joiner, a slow one and one that comes back are the same case.  A snapshot may already hold what the
-events right after it tell: events state facts by id, so applying one twice changes nothing.
+A client that falls behind gets a snapshot instead of an ever longer queue, so that a late client, a slow one
+and one that reconnects are the same case. A snapshot may already contain the facts of the events directly
+after it: events state facts by id, so applying one twice changes nothing.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ Send = Callable[[str], Awaitable[None]]
 
 
 class LiveFeed:
-    """Numbers the orchestrator's events and hands them to every client."""
+    """Numbers the orchestrator's events and sends them to every client."""
 
     def __init__(
         self,
@@ -44,12 +44,12 @@ class LiveFeed:
 
     @property
     def clients(self) -> int:
-        """How many are fed at this moment."""
+        """Number of connected clients."""
         return len(self._clients)
 
     @contextmanager
     def attached(self) -> Iterator[None]:
-        """Listen to the orchestrator, from within the running event loop."""
+        """Subscribe to the orchestrator, from within the running event loop."""
         loop = asyncio.get_running_loop()
 
         def from_worker(event: LiveEvent) -> None:
@@ -62,7 +62,7 @@ class LiveFeed:
             unsubscribe()
 
     async def serve(self, send: Send) -> None:
-        """Feed one client until it is cancelled or `send` fails."""
+        """Serve one client until it is cancelled or `send` fails."""
         client = _Client(self._queue_length)
         self._clients.add(client)
         clock = asyncio.get_running_loop().time
@@ -98,7 +98,7 @@ class LiveFeed:
 
 
 class _Client:
-    """A bounded queue; when it overflows, what it held is dropped and the client is behind."""
+    """A bounded queue; when it overflows, its content is dropped and the client gets a snapshot."""
 
     def __init__(self, length: int) -> None:
         self.behind = True

@@ -1,4 +1,4 @@
-"""The messages of the live feed, by type.  The page's types come from here, through the OpenAPI file."""
+"""The messages of the live feed, by type. The page's types are made from them, through the OpenAPI file."""
 
 from __future__ import annotations
 
@@ -24,28 +24,28 @@ from station.records import (
 
 class _Message(Record):
     number: int
-    """Of the last event that this message or an earlier one tells."""
+    """Number of the last event in this message or an earlier one."""
     at: datetime
     build: str
-    """Changes with the page's files; the page then loads itself again."""
+    """Changes with the page's files; the page then reloads itself."""
 
 
 class SnapshotMessage(_Message):
-    """Everything, to begin with and after a gap."""
+    """The complete state, at the beginning and after a gap."""
 
     type: Literal["snapshot"]
     data: StationView
 
 
 class BeatMessage(_Message):
-    """Each second: the service lives."""
+    """Sent each second: the service is running."""
 
     type: Literal["beat"]
     data: None = None
 
 
 class RunMessage(_Message):
-    """The run under way, after any change of state or step."""
+    """The active run, after any change of state or step."""
 
     type: Literal["run"]
     data: RunBrief
@@ -66,14 +66,14 @@ class ReadingMessage(_Message):
 
 
 class ResidualsMessage(_Message):
-    """An identification has judged the readings."""
+    """Residuals of the readings, after an identification."""
 
     type: Literal["residuals"]
     data: tuple[ResidualOfReading, ...]
 
 
 class MachineMessage(_Message):
-    """Where the arm stands; null while it is not known."""
+    """Position of the arm; null while it is unknown."""
 
     type: Literal["machine"]
     data: MachineView | None
@@ -94,7 +94,7 @@ class InterlockMessage(_Message):
 
 
 class RetractMessage(_Message):
-    """Whether the arm has to be brought back has changed, or how far."""
+    """A change of the distance of the arm outside its workspace, or of whether it has to be brought back."""
 
     type: Literal["retract"]
     data: RetractView

@@ -1,4 +1,4 @@
-"""HEAD wherever there is GET, and the methods that an address has."""
+"""HEAD for every GET, and the methods of an address."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from starlette.routing import BaseRoute, compile_path
 from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 FILES_TAKE = "GET, HEAD"
-"""What the mounted folders of files have, which are no routes."""
+"""Methods of the mounted folders of files, which are no routes."""
 
 
 class HeadAsGet:
@@ -32,7 +32,7 @@ class HeadAsGet:
 
 
 def allowed(routes: Sequence[BaseRoute], path: str) -> str:
-    """The value of `Allow` for a path: what all its routes take together."""
+    """The value of `Allow` for a path: the methods of all its routes."""
     methods: set[str] = set()
     for route in iter_route_contexts(routes):
         if route.path is not None and route.methods and compile_path(route.path)[0].match(path):

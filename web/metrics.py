@@ -1,6 +1,6 @@
 """Counters and gauges of one service, for Prometheus.
 
-Labels have few values and never name a robot, a run or a person.  Counters begin anew with the process.
+Labels have few values and never name a robot, a run or a person. Counters restart with the process.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ _STEP_BUCKETS_S = (0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 20, 60)
 
 
 class Metrics:
-    """Of one running service; scraped from any thread."""
+    """Metrics of one running service; scraped from any thread."""
 
     def __init__(self, runtime: Runtime, clients: Callable[[], int]) -> None:
-        """:param clients: how many follow the live feed"""
+        """:param clients: number of clients of the live feed"""
         self._runtime = runtime
         self._registry = registry = CollectorRegistry()
         self._runs = Counter(
@@ -51,17 +51,17 @@ class Metrics:
         PlatformCollector(registry=registry)
 
     def exposed(self, accept: str) -> tuple[str, bytes]:
-        """Content type and text of everything at this moment, as the header `Accept` wants it."""
+        """Content type and text of all current values, in the format of the header `Accept`."""
         encode, content_type = choose_encoder(accept)
         return content_type, encode(self._registry)
 
     def stopped(self, *, confirmed: bool) -> None:
-        """Somebody pressed the stop."""
+        """Count a stop request."""
         self._stops.labels("yes" if confirmed else "no").inc()
 
     @contextmanager
     def attached(self) -> Iterator[None]:
-        """Count what happens meanwhile."""
+        """Count events while it is entered."""
         unsubscribe = self._runtime.orchestrator.subscribe(self._happened)
         try:
             yield
@@ -83,7 +83,7 @@ class Metrics:
 
 
 class _Now(Collector):
-    """What is looked up at each scrape."""
+    """Values that are looked up at each scrape."""
 
     def __init__(self, runtime: Runtime, clients: Callable[[], int]) -> None:
         self._runtime, self._clients = runtime, clients
@@ -111,7 +111,7 @@ class _Now(Collector):
         age = GaugeMetricFamily("station_delivery_age_seconds", "Oldest that waits.", labels=("receiver",))
         try:
             for waiting in store.backlogs():
-                label = (waiting.receiver.partition("?")[0],)  # a query may hold a token
+                label = (waiting.receiver.partition("?")[0],)  # a query may contain a token
                 backlog.add_metric(label, waiting.count)
                 age.add_metric(label, max(0.0, time.time() - waiting.oldest_at.timestamp()))
             up.add_metric((), 1)

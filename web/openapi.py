@@ -22,7 +22,7 @@ class _NoStation:
 
 
 def text() -> str:
-    """The OpenAPI document as it is kept: the routes alone decide it, no rig is needed."""
+    """The OpenAPI document as checked in: only the routes determine it, no rig is needed."""
     app = create_app(cast(Runtime, _NoStation()), access=Access(cast(Store, None), open=False))
     document = problems.add_schema(FastAPI.openapi(app))
     return json.dumps(document, indent=1, ensure_ascii=False) + "\n"

@@ -1,4 +1,4 @@
-"""The operator's page: its built files, and the API's documentation, both without the internet."""
+"""The operator's page: its built files, and the API's documentation, both without internet access."""
 
 from __future__ import annotations
 
@@ -26,13 +26,13 @@ VIEWS = (
     "/maintenance",
     "/sign-in",
 )
-"""The page's own addresses: each answers the same HTML, the page shows the view."""
+"""The page's own addresses: each returns the same HTML, and the page shows the view."""
 
 DOCS_FILES = Path(fastapi_offline.__file__).parent / "static"
 
 
 def build_id(static: Path) -> str:
-    """Changes whenever the built page does: its HTML names every file by content hash."""
+    """An identifier that changes with the built page: its HTML names every file by content hash."""
     html = static / "index.html"
     return hashlib.sha256(html.read_bytes()).hexdigest()[:12] if html.is_file() else "none"
 
@@ -54,7 +54,7 @@ def _page(static: Path) -> Response:
 
 
 class _HashedFiles(StaticFiles):
-    """Files whose name changes with their content may be kept for ever."""
+    """Files whose name changes with their content may be cached permanently."""
 
     async def get_response(self, path: str, scope: Scope) -> Response:
         response = await super().get_response(path, scope)
@@ -78,7 +78,7 @@ def _docs(app: FastAPI) -> HTMLResponse:
 
 
 def _inline_scripts(html: str) -> str:
-    """The page's inline scripts as CSP hashes, so that no other may run."""
+    """The page's inline scripts as CSP hashes, so that no other can run."""
     scripts = re.findall(r"<script>(.*?)</script>", html, re.DOTALL)
     return " ".join(
         f"'sha256-{base64.b64encode(hashlib.sha256(s.encode()).digest()).decode()}'" for s in scripts

@@ -31,11 +31,11 @@ from web.methods import allowed
 
 MEDIA_TYPE = "application/problem+json"
 RETRY_AFTER = {"Retry-After": "5"}
-"""Of what passes by itself: s."""
+"""Retry delay of transient problems: s."""
 
 
 class FieldAtFault(BaseModel):
-    """One thing wrong with a request."""
+    """One error in a request."""
 
     field: str
     detail: str
@@ -89,7 +89,7 @@ def documented(*statuses: int) -> dict[int | str, dict[str, Any]]:
 
 
 RESPONSES = documented(401, 403, 422, 500, 503)
-"""What any route may answer."""
+"""Answers of any route."""
 
 
 def add_schema(document: dict[str, Any]) -> dict[str, Any]:
@@ -177,11 +177,11 @@ def add(app: FastAPI) -> None:
 
     @app.exception_handler(Exception)
     async def unexpected(request: Request, error: Exception) -> ProblemResponse:
-        # the server closes the connection after an exception; the client should not have to find out
+        # the server closes the connection after an exception; the answer announces it
         headers = {"Connection": "close"}
         return problem(500, "The service failed at this request; its log has the cause.", headers=headers)
 
 
 def _field(location: tuple[int | str, ...]) -> str:
-    """`("body", "robot_serial")` -> `robot_serial`; the place alone when there is no name."""
+    """`("body", "robot_serial")` -> `robot_serial`; only the location if there is no name."""
     return ".".join(str(part) for part in location[1:]) or str(location[0])

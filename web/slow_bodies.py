@@ -1,4 +1,4 @@
-"""A body must arrive within a time, so that nobody holds a connection by sending a byte now and then."""
+"""A time limit for bodies, so that a client cannot hold a connection by sending single bytes slowly."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ WITHOUT_BODY = ("GET", "HEAD", "OPTIONS")
 
 
 class SlowBodies:
-    """Ends requests whose whole body has not come within `limit_s` with 408, and their connections."""
+    """Ends requests whose whole body has not arrived within `limit_s` with 408, and their connections."""
 
     def __init__(self, app: ASGIApp, limit_s: float = LIMIT_S) -> None:
         self.app, self._limit_s = app, limit_s
@@ -27,7 +27,7 @@ class SlowBodies:
         async def receive_in_time() -> Message:
             nonlocal complete
             if complete:
-                return await receive()  # waits for the end of the connection, as long as it takes
+                return await receive()  # waits for the end of the connection, without a limit
             try:
                 with fail_after(until - current_time()):
                     message = await receive()

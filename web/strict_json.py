@@ -1,4 +1,4 @@
-"""JSON as RFC 8259 has it: no NaN, no numbers beyond a double, no text that is none."""
+"""JSON as in RFC 8259: no NaN, no numbers beyond a double, no invalid text."""
 
 from __future__ import annotations
 
@@ -12,17 +12,17 @@ from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
 
 _NOT_TEXT = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff]")
-"""Control characters but tab and ends of lines, and halves of UTF-16 pairs."""
+"""Control characters except tab and line ends, and halves of UTF-16 pairs."""
 DEEPEST = 64
 LARGEST = 1_000_000
-"""Bytes of a body; files have a limit of their own (`web.uploads`)."""
+"""Maximum bytes of a body; files have a separate limit (`web.uploads`)."""
 
 
 class StrictRequest(Request):
-    """A request whose JSON holds only what can be stored and sent again, and whose body has a limit."""
+    """A request whose JSON contains only values that can be stored and sent, with a size limit."""
 
     async def body(self) -> bytes:
-        """:raises HTTPException: it is too large; what follows is not read."""
+        """:raises HTTPException: it is too large; the remainder is not read."""
         if not hasattr(self, "_body"):
             content = bytearray()
             async for chunk in self.stream():
@@ -33,7 +33,7 @@ class StrictRequest(Request):
         return self._body
 
     async def json(self) -> Any:
-        """:raises RequestValidationError: names where it is not JSON."""
+        """:raises RequestValidationError: it is not JSON; the error names the location."""
         if not hasattr(self, "_json"):
             body = await self.body()
             self._json = parse(body) if body else None

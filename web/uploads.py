@@ -23,14 +23,14 @@ UNNAMED = "measurement file"
 
 @dataclass(frozen=True, slots=True)
 class Uploaded:
-    """What came: files by field name, other fields as text."""
+    """The received files by field name, and other fields as text."""
 
     files: Mapping[str, Upload]
     fields: Mapping[str, str]
 
 
 def csv_or_form(*files: str, fields: Mapping[str, Any]) -> dict[str, Any]:
-    """How OpenAPI describes such a body; the first of the files is the one that a CSV body holds."""
+    """The OpenAPI description of such a body; a CSV body is the first of the files."""
     binary = {"type": "string", "contentMediaType": CSV}
     properties = {**dict.fromkeys(files, binary), **fields}
     form = {"type": "object", "properties": properties, "required": [files[0]]}
@@ -39,9 +39,10 @@ def csv_or_form(*files: str, fields: Mapping[str, Any]) -> dict[str, Any]:
 
 
 async def uploaded(request: Request, *files: str) -> Uploaded:
-    """The body's files, of which the first is needed.
+    """The body's files, of which the first is required.
 
-    :raises HTTPException: another content type, too large, cut off, or a form that is none.
+    :raises HTTPException: the content type is another, the body is too large or truncated, or the form is
+    invalid.
     """
     kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
     if kind not in (CSV, FORM):
@@ -77,7 +78,7 @@ async def _form(request: Request, content: bytes, wanted: tuple[str, ...]) -> Up
         raise HTTPException(400, "The form was cut off; send it again.")
     files: dict[str, Upload] = {}
     fields: dict[str, str] = {}
-    # read a second time from memory: the parser itself knows no limit for files
+    # read a second time from memory: the parser itself has no limit for files
     async with Request(request.scope, receive).form(max_files=len(wanted), max_fields=10) as form:
         for name, part in form.multi_items():
             if isinstance(part, UploadFile) != (name in wanted) or name in files or name in fields:
@@ -94,6 +95,6 @@ async def _form(request: Request, content: bytes, wanted: tuple[str, ...]) -> Up
 
 
 def _shown(name: str | None) -> str:
-    """A file's name without its folder, fit to be printed."""
-    last = PureWindowsPath(name or "").name  # takes both kinds of slashes
+    """A file's name without its folder, printable."""
+    last = PureWindowsPath(name or "").name  # accepts both kinds of slashes
     return "".join(c for c in last if c.isprintable())[:LONGEST_NAME]

@@ -3,6 +3,6 @@
     station --pty------> nd280 ---- head ----.
             --TCP--> modbus_tcp -> el7 x 2 -> machine (motion, effects)
 
-`spec` says what is emulated, `rig_file` reads it, `faults` spoils the wires on cue, `rig` holds all
-together, `virtual` sequences the machine alone, in virtual time and without wires.
+`spec` defines the emulation, `rig_file` reads it, `faults` disturbs the wires on schedule, `rig` combines
+all, `virtual` sequences the machine alone, in virtual time and without wires.
 """

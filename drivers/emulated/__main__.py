@@ -1,9 +1,9 @@
 """Run an emulated rig: `python -m drivers.emulated RIG.toml [--speed X] [--state FILE]`.
 
-One JSON line on standard output tells `[scale]`, `[servo]` and `[interlocks]` of a station file for it; the
-rig runs until standard input ends (so it never outlives whoever started it) or until it is terminated.  A
-line of standard input is JSON with `faults` or `effects` that replace those ordered before, or a `mount` of
-the mechanism; one line on standard output answers it.
+One JSON line on standard output contains `[scale]`, `[servo]` and `[interlocks]` of a station file for it;
+the rig runs until standard input ends (so it never outlives the process that started it) or until it is
+terminated.  A line of standard input is JSON with `faults` or `effects` that replace those ordered before, or
+a `mount` of the mechanism; one line on standard output is the answer.
 """
 
 from __future__ import annotations
@@ -24,18 +24,18 @@ from drivers.strict_numbers import StrictNumbers
 
 
 class Order(StrictNumbers):
-    """A line of standard input: what replaces what was ordered before; what is not given stays."""
+    """A line of standard input: replacements for earlier orders; omitted ones are unchanged."""
 
     model_config = ConfigDict(extra="forbid")
 
     faults: tuple[FaultOrder, ...] | None = None
     effects: tuple[AnyEffect, ...] | None = None
     mount: tuple[float, float, int] | None = None
-    """Where the mechanism is mounted from now on, mm, and the number of this mounting there."""
+    """New mounting point of the mechanism, mm, and the number of this mounting there."""
 
 
 def main() -> int:
-    """0 when ended as told, 2 when the input was refused."""
+    """0 after a regular end, 2 when the input was refused."""
     parser = argparse.ArgumentParser(prog="python -m drivers.emulated", description=__doc__.splitlines()[0])
     parser.add_argument("rig", nargs="?", type=Path, default=DEFAULT_RIG, help="rig file (TOML)")
     parser.add_argument("--speed", type=_positive, help="how much faster than real time the arms move")
@@ -62,7 +62,7 @@ def main() -> int:
 
 
 def _ordered(rig: EmulatedRig, line: str) -> str:
-    """Carry out one line of standard input, and say what is ordered now."""
+    """Carry out one line of standard input, and return the active orders."""
     try:
         order = Order.model_validate_json(line)
     except ValidationError as error:

@@ -1,6 +1,7 @@
 """The registers of one Oriental Motor BLV-R drive in direct data operation, in front of an axis.
 
-Its communication watchdog runs by itself: a drive that hears nothing for the set time stops with alarm 85h.
+Its communication watchdog runs by itself: a drive that receives nothing for the set time stops with alarm
+85h.
 """
 
 from __future__ import annotations
@@ -31,7 +32,7 @@ _ITEMS = (
 
 
 class BLVRDrive(EmulatedDrive):
-    """One drive; close it, for its watchdog has a thread."""
+    """One drive; close it, because its watchdog has a thread."""
 
     following_error_alarm = 0x10
 
@@ -53,7 +54,7 @@ class BLVRDrive(EmulatedDrive):
         return super().answer(request)
 
     def _watch(self) -> None:
-        """Silence counts while this program runs: what a busy computer keeps from it, a drive would hear."""
+        """Only silence while this program runs counts: a real drive would have received delayed data."""
         looked_s = time.monotonic()
         while not self._closing.wait(_LOOK_S):
             now_s = time.monotonic()
@@ -68,7 +69,7 @@ class BLVRDrive(EmulatedDrive):
         self._put(_WATCHDOG, 0)
 
     def _store(self, address: int, values: list[int]) -> int:
-        """Registers that are written before one that is refused stay written (manual, p. 242)."""
+        """Registers that are written before a refused one stay written (manual, p. 242)."""
         wanted = range(address, address + len(values))
         if address % 2 or len(values) % 2 or any(register not in self._registers for register in wanted):
             return ILLEGAL_VALUE
@@ -81,7 +82,7 @@ class BLVRDrive(EmulatedDrive):
         return 0
 
     def _act(self, item: int, before: int) -> int:
-        """What follows from a new value; an exception code or 0."""
+        """The reaction to a new value; an exception code or 0."""
         value = self._item(item)
         edge = before == 0 and value == 1
         if item == _INPUTS and value & _QUICK_STOP:

@@ -1,4 +1,4 @@
-"""What every emulated drive does: Modbus functions over registers, a servo axis, and what can befall it."""
+"""Common functions of the emulated drives: Modbus functions over registers, a servo axis, and faults."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class EmulatedDrive(ABC):
     following_error_alarm: int
     """Code of the family's alarm for a following error."""
     check_sum_exception: int | None = None
-    """What the family answers to a frame with a wrong check sum; None: nothing."""
+    """Exception code of the family for a frame with a wrong check sum; None: no answer."""
 
     def __init__(self, machine: Machine, joint: int, faults: Faults, registers: dict[int, int]) -> None:
         self._machine = machine
@@ -38,7 +38,7 @@ class EmulatedDrive(ABC):
         self._frozen_pulses: int | None = None
         self._lost_pulses = 0
 
-    # What befalls it ------------------------------------------------------------------------------
+    # Faults ---------------------------------------------------------------------------------------
 
     def raise_alarm(self, code: int = 0) -> None:
         """Stop and show an alarm; 0 is that of a following error."""
@@ -46,24 +46,24 @@ class EmulatedDrive(ABC):
         self._alarm = code or self.following_error_alarm
 
     def lose_counts(self) -> None:
-        """The encoder has missed pulses: from now on it counts from elsewhere."""
+        """Simulate missed pulses of the encoder: from now on its count is shifted."""
         self._axis.zero_pulses += _LOST_PULSES
         self._lost_pulses += _LOST_PULSES
 
     def reboot(self) -> None:
-        """As after a power cut: switched off, stopped, and counting from where it stands."""
+        """Simulate a power failure: switched off, stopped, and counting from its current position."""
         self._machine.quick_stop(self._joint)
         self._switch_off()
         self._lost_pulses += self._axis.feedback_pulses()
         self._axis.declare_zero()
 
     def find_reference(self) -> None:
-        """What was lost is found again, as after homing."""
+        """Restore lost counts, as after homing."""
         self._axis.zero_pulses -= self._lost_pulses
         self._lost_pulses = 0
 
     def close(self) -> None:  # noqa: B027 - most run nothing by themselves
-        """End whatever runs by itself."""
+        """End all threads of the drive."""
 
     # Modbus ---------------------------------------------------------------------------------------
 
@@ -107,15 +107,15 @@ class EmulatedDrive(ABC):
 
     @abstractmethod
     def _store(self, address: int, values: list[int]) -> int:
-        """Take registers in order; an exception code or 0."""
+        """Write registers in order; an exception code or 0."""
 
     @abstractmethod
     def _live(self) -> dict[int, int]:
-        """Registers that show the drive's state."""
+        """Registers that contain the drive's state."""
 
     @abstractmethod
     def _switch_off(self) -> None:
-        """The power stage."""
+        """Switch off the power stage."""
 
     # The axis -------------------------------------------------------------------------------------
 

@@ -17,18 +17,18 @@ _ABSOLUTE, _RELATIVE = 0x0001, 0x0041
 
 @dataclass(frozen=True, slots=True)
 class LeadshineFamily:
-    """Where the families of the maker differ."""
+    """Differences between the maker's families."""
 
     parameters: dict[int, int]
-    """Registers that keep what is written, as the drive leaves its box."""
+    """Registers that retain written values, with the factory settings."""
     enable: int
     on: int
-    """What switches it on, written there."""
+    """Value that switches it on, and its register."""
     alarm: int
     alarm_reset: int
     motion_status: int
     positions: tuple[int, ...]
-    """Where the position can be read beside 602Ch."""
+    """Registers with the position, beside 602Ch."""
 
 
 EL7 = LeadshineFamily(

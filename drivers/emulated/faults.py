@@ -1,4 +1,4 @@
-"""Scripted wire faults: which one is due on this occasion."""
+"""Scripted wire faults: the fault that is due on an occasion."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Faults:
         self._scripts = [_Script(fault) for fault in faults]
 
     def add(self, fault: Fault) -> None:
-        """Let a fault come, counted from now."""
+        """Add a fault, counted from now."""
         with self._lock:
             self._scripts.append(_Script(fault))
 
@@ -33,7 +33,7 @@ class Faults:
             self._scripts.clear()
 
     def due(self, kind: FaultKind, joint: int | None = None) -> Fault | None:
-        """Tell the script that an occasion for `kind` has come, and get the fault if it strikes now."""
+        """Report an occasion for `kind` to the script; returns the fault if it strikes now."""
         with self._lock:
             struck: Fault | None = None
             for script in self._scripts:

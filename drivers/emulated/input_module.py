@@ -23,7 +23,7 @@ class InputModule:
         self._machine = machine
         self.door_open = False
         self.shown_c: float | None = None
-        """In place of what the machine's temperature is."""
+        """Displayed in place of the machine's temperature."""
 
     def answer(self, request: bytes) -> bytes:
         """The reply PDU, an exception included."""

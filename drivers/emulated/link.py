@@ -1,4 +1,4 @@
-"""What a drive gives to the line that it is on."""
+"""The answer of a drive to its line."""
 
 from __future__ import annotations
 
@@ -9,17 +9,17 @@ from drivers.emulated.orders import Kind as Kind
 
 @dataclass(frozen=True, slots=True)
 class DriveReply:
-    """What came back from the drive; no PDU: it was silent."""
+    """The answer of the drive; without a PDU: it was silent."""
 
     pdu: bytes | None
     delay_s: float = 0.0
     spoil: Kind | None = None
-    """What becomes of the frame on its way."""
+    """Disturbance of the frame during transmission."""
 
 
 class DropLink(Exception):
-    """A drive's answer that makes a gateway close the connection."""
+    """An answer of a drive that makes a gateway close the connection."""
 
 
 class HalfOpen(Exception):
-    """A drive's answer that makes a connection dead without a word, for as long as it lives."""
+    """An answer of a drive that makes a connection permanently silent without closing it."""

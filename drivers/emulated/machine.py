@@ -1,8 +1,8 @@
 """The physical machine: two motors, gears, arms and links, a slider and a scale head.
 
-It computes forward, from the motors' pulses to what the head sees, and shares no formula with the
-station's identification.  It takes its time from a clock that is given to it, so a sequence of hundreds
-of stops can be simulated in virtual time.
+It computes forward, from the motors' pulses to the head's reading, and shares no formula with the station's
+identification.  It receives its clock as an argument, so a sequence of hundreds of stops can be simulated in
+virtual time.
 """
 
 from __future__ import annotations
@@ -54,11 +54,11 @@ class Axis:
         self._started_s = clock()
         self._commanded: int | None = None
         self.zero_pulses = 0
-        """Where the drive's zero has been declared to be."""
+        """Position declared as the drive's zero."""
         self.direction = 0
         """Sign of the joint angle's last motion, 0 before the first."""
         self.way_deg = 0.0
-        """How far that motion goes, deg, never negative."""
+        """Length of that motion, deg, never negative."""
         self.top_deg_per_s = 0.0
         """Its highest speed, deg/s of the machine's time, never negative."""
 
@@ -75,19 +75,19 @@ class Axis:
         self._commanded = pulses
 
     def quick_stop(self) -> None:
-        """Brake hard from wherever the axis is."""
+        """Brake hard from the current motion."""
         position, pulses_per_s = self._at(self._clock())
         if pulses_per_s:
             self._begin(braking(position, pulses_per_s, _STOP_RPM_PER_S * self._counts_per_rev / 60))
         self._commanded = None
 
     def declare_zero(self) -> None:
-        """The present place becomes the drive's zero."""
+        """The present position becomes the drive's zero."""
         self.zero_pulses += self.feedback_pulses()
         self._commanded = None
 
     def put(self, pulses: float) -> None:
-        """Stand at `pulses` from the first zero, as after switching on."""
+        """Set the position to `pulses` from the first zero, as after switching on."""
         self._motion = standing(pulses)
         self._commanded = None
 
@@ -102,11 +102,11 @@ class Axis:
 
     @property
     def shaft_pulses(self) -> float:
-        """Where the motor stands, from the first zero."""
+        """Position of the motor, from the first zero."""
         return self._at(self._clock())[0]
 
     def feedback_pulses(self) -> int:
-        """What the encoder counts, from the drive's zero."""
+        """Count of the encoder, from the drive's zero."""
         return round(self.shaft_pulses) - self.zero_pulses
 
     def travel_deg(self, at_s: float) -> float:
@@ -119,7 +119,7 @@ class Axis:
 
     @property
     def zero_offset_deg(self) -> float:
-        """True zero offset of the drive as it counts now: actual less nominal angle."""
+        """True zero offset of the drive in its present frame: actual less nominal angle."""
         return self._offset_deg + self.zero_pulses * self._deg_per_pulse
 
     def _begin(self, motion: Motion) -> None:
@@ -137,7 +137,7 @@ class Axis:
 
 @dataclass(frozen=True, slots=True)
 class MachineState:
-    """What stays when the power is off."""
+    """The state that is retained without power."""
 
     shaft_pulses: tuple[float, float]
     zero_pulses: tuple[int, int]
@@ -151,8 +151,8 @@ class Machine:
     ) -> None:
         """:param clock: seconds; only differences count
 
-        :param seed: of all its randomness; without it that of the spec
-        :param speed: how much faster than real the arms move
+        :param seed: seed of all its random numbers; by default that of the spec
+        :param speed: speed of the arms over real time
         """
         seed = spec.seed if seed is None else seed
         self._spec = self._mounted = spec
@@ -176,7 +176,7 @@ class Machine:
         self._stops = 0
         self._start_memories()
 
-    # -- what the drives do ------------------------------------------------------------------
+    # -- actions of the drives -----------------------------------------------------------------
 
     def command(
         self, joint: JointNumber, pulses: int, rpm: float, rpm_per_s: float = _USUAL_RPM_PER_S
@@ -197,12 +197,12 @@ class Machine:
         with self._lock:
             self.axes[joint - 1].declare_zero()
 
-    # -- what can be seen --------------------------------------------------------------------
+    # -- measurements --------------------------------------------------------------------------
 
     def head_mm(self) -> float:
         """One reading of the scale head, with its noise.
 
-        :raises Unreachable: the arms stand where the links cannot meet
+        :raises Unreachable: the links cannot meet with the arms at these angles
         """
         with self._lock:
             self._look()
@@ -210,19 +210,19 @@ class Machine:
             return self._reading_mm(scene) + self._noise.gauss(0.0, self._spec.scale_noise_mm)
 
     def point_mm(self) -> Point:
-        """Where P truly is, as a tracker would see it."""
+        """True position of P, as a tracker measures it."""
         with self._lock:
             self._look()
             return self._scene(self._clock()).r_mm
 
     def temperature_rise_k(self) -> float:
-        """Since switching on, as a thermometer on the machine shows it."""
+        """Rise since switching on, as a thermometer on the machine shows it."""
         t_s = self._clock() - self._on_s
         return sum(effect.temperature_rise_k(t_s) for effect in self._effects)
 
     @property
     def rests_from_s(self) -> float:
-        """The clock's time at which both axes stand still."""
+        """The clock's time from which both axes are at standstill."""
         return max(axis.rests_from_s for axis in self.axes)
 
     @property
@@ -240,7 +240,7 @@ class Machine:
             )
 
     def restore(self, state: MachineState) -> None:
-        """Stand where the machine was left."""
+        """Set the stored state of the machine."""
         with self._lock:
             for axis, shaft, zero in zip(self.axes, state.shaft_pulses, state.zero_pulses, strict=True):
                 axis.put(shaft)
@@ -248,8 +248,9 @@ class Machine:
             self._start_memories()
 
     def remount(self, c_mm: Point, mounting: int = 0) -> None:
-        """Mount the mechanism there; every place, and every mounting from 1 on, has its own error, always the
-        same one."""
+        """Mount the mechanism there; every point, and every mounting from 1 on, has its own constant
+        error.
+        """
         with self._lock:
             own = Random(f"{self._seed} mount {c_mm}" + (f" {mounting}" if mounting else ""))
             error = self._mounted.drm_mm
@@ -260,7 +261,7 @@ class Machine:
     # -- effects on order ----------------------------------------------------------------------
 
     def replace_effects(self, effects: Sequence[Effect]) -> None:
-        """These and no others from now on; to them the machine was switched on at this moment."""
+        """Activate these effects and no others; for them the machine was switched on at this moment."""
         with self._lock:
             self._look()
             self._on_s, self._stops = self._clock(), 0
@@ -277,14 +278,14 @@ class Machine:
             effect.start(Random(f"{self._seed} effect {number}"))
 
     def _start_memories(self) -> None:
-        """Let effects with a memory see where everything stands before the first move."""
+        """Initialise effects with a memory with the state before the first motion."""
         with suppress(Unreachable):
             self._reading_mm(self._scene(self._clock()))
 
     # -- physics ---------------------------------------------------------------------------------
 
     def _look(self) -> None:
-        """Let effects with a memory see what has happened since the last look."""
+        """Update effects with a memory with the events since the last call."""
         now_s = self._clock()
         if not self._rested:
             rests_s = self.rests_from_s
@@ -292,9 +293,9 @@ class Machine:
             steps = self._steps if until_s > self._looked_s else 0
             for step in range(1, steps + 1):
                 at_s = self._looked_s + (until_s - self._looked_s) * step / steps
-                with suppress(Unreachable):  # the head has lost the scale; nothing follows the arms there
+                with suppress(Unreachable):  # the head is off the scale; no part follows the arms there
                     self._reading_mm(self._scene(at_s))
-            if now_s >= rests_s and now_s > self._commanded_s:  # the other joint's command may still come
+            if now_s >= rests_s and now_s > self._commanded_s:  # the other joint's command may still follow
                 self._rested = True
                 self._stops += 1
                 for effect in self._effects:

@@ -1,7 +1,7 @@
-"""An RS-485 line with several drives on it, on a pseudo-terminal, with the time that bytes take.
+"""An RS-485 line with several drives on it, on a pseudo-terminal, with real transmission times.
 
-A frame ends where the line is silent for 3.5 characters; a character takes its bits at the baud rate.  What
-a drive answers to a wrong check sum is its family's affair; frames for others are not answered.
+A frame ends where the line is silent for 3.5 characters; a character takes its bits at the baud rate.  The
+answer to a wrong check sum depends on the drive's family; frames for others are not answered.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class RtuLine:
     """Serves until closed.
 
     :param units: drive address -> request PDU in, reply out
-    :param check_sum_exception: what a drive answers to a frame with a wrong check sum, None: nothing
+    :param check_sum_exception: answer of a drive to a frame with a wrong check sum; None: no answer
     """
 
     def __init__(
@@ -60,11 +60,11 @@ class RtuLine:
         while not self._closing.is_set():
             frame = self._next_frame()
             if frame:
-                time.sleep(len(frame) * self._byte_s)  # a pseudo-terminal brings all of it at once
+                time.sleep(len(frame) * self._byte_s)  # a pseudo-terminal delivers all of it at once
                 self._send(self._answer(frame))
 
     def _next_frame(self) -> bytes:
-        """What came up to a silence; nothing where nothing came for a while."""
+        """The bytes up to a silence; empty if nothing came for a while."""
         received = b""
         wait_s = 0.05
         while select.select([self._device], [], [], wait_s)[0]:
@@ -78,7 +78,7 @@ class RtuLine:
         return reply
 
     def _send(self, data: bytes) -> None:
-        """Byte after byte, in slices that the scheduler can keep."""
+        """Send byte after byte, in slices that the scheduler can time."""
         began_s, sent = time.monotonic(), 0
         while sent < len(data) and not self._closing.is_set():
             due = min(len(data), int((time.monotonic() - began_s) / self._byte_s))
@@ -92,7 +92,7 @@ class RtuLine:
 def reply_to(
     frame: bytes, units: Mapping[int, Callable[[bytes], DriveReply]], check_sum_exception: int | None
 ) -> tuple[bytes, float]:
-    """What the drives on a line send back for a frame, and how long after it; empty: nothing."""
+    """The answer of the drives on a line to a frame, and its delay; empty: no answer."""
     unit = units.get(frame[0]) if len(frame) >= 4 else None
     if unit is None:
         return b"", 0.0
@@ -104,7 +104,7 @@ def reply_to(
     try:
         reply = unit(pdu)
     except (DropLink, HalfOpen):
-        return b"", 0.0  # of a line that has no connection: nothing comes
+        return b"", 0.0  # the line has no connection: no answer
     if reply.pdu is None:
         return b"", 0.0
     whole = framed(frame[:1] + reply.pdu)
@@ -112,7 +112,7 @@ def reply_to(
 
 
 def check_sum(frame: bytes) -> bytes:
-    """CRC, low byte first; computed here so that drivers and emulation share none."""
+    """CRC, low byte first; computed here, so that drivers and emulation share no implementation."""
     crc = 0xFFFF
     for byte in frame:
         crc ^= byte
@@ -122,7 +122,7 @@ def check_sum(frame: bytes) -> bytes:
 
 
 def framed(frame: bytes) -> bytes:
-    """With its check sum."""
+    """The frame with its check sum."""
     return frame + check_sum(frame)
 
 

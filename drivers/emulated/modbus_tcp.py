@@ -77,14 +77,14 @@ class ModbusTcpGateway:
 
 
 def reply_frame(transaction: int, unit: int, request: bytes, reply: DriveReply) -> bytes:
-    """What the gateway sends back for a request PDU; also if its drive is silent, spoiled if so ordered."""
+    """The answer of the gateway to a request PDU; also for a silent drive, and disturbed if so ordered."""
     answer = bytes((request[0] | 0x80, _TARGET_SILENT)) if reply.pdu is None else reply.pdu
     whole = HEADER.pack(transaction, 0, len(answer) + 1, unit) + answer
     return _SPOIL[reply.spoil](whole) if reply.spoil else whole
 
 
 def _read_frame(connection: socket.socket) -> tuple[int, int, bytes] | None:
-    """Transaction, unit and PDU of the next request; None at the end or after nonsense."""
+    """Transaction, unit and PDU of the next request; None at the end or after invalid data."""
     header = _read_exactly(connection, HEADER.size)
     if header is None:
         return None

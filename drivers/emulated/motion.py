@@ -1,4 +1,4 @@
-"""Where an axis is while it moves: piecewise constant acceleration."""
+"""Position of an axis during motion: piecewise constant acceleration."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from functools import cached_property
 
 @dataclass(frozen=True)
 class Motion:
-    """Starts at `start` with `speed` at t = 0 and goes through `phases` of (duration_s, acceleration)."""
+    """Starts at `start` with `speed` at t = 0 and runs through `phases` of (duration_s, acceleration)."""
 
     start: float
     speed: float
@@ -22,7 +22,7 @@ class Motion:
 
     @cached_property
     def top_speed(self) -> float:
-        """The highest speed on the way, never negative."""
+        """The highest speed during the motion, never negative."""
         highest, speed = abs(self.speed), self.speed
         for duration_s, acceleration in self.phases:
             speed += acceleration * duration_s
@@ -50,7 +50,7 @@ def standing(at: float) -> Motion:
 
 
 def trapezoid(start: float, end: float, top_speed: float, acceleration: float) -> Motion:
-    """From rest to rest; a triangle if the way is too short for the top speed."""
+    """From rest to rest; a triangle if the distance is too short for the top speed."""
     way = abs(end - start)
     signed = math.copysign(acceleration, end - start)
     ramp_s = min(top_speed / acceleration, math.sqrt(way / acceleration))
@@ -59,7 +59,7 @@ def trapezoid(start: float, end: float, top_speed: float, acceleration: float) -
 
 
 def braking(start: float, speed: float, deceleration: float) -> Motion:
-    """From `speed` to rest as fast as `deceleration` allows."""
+    """From `speed` to rest with `deceleration`."""
     duration_s = abs(speed) / deceleration
     end = start + speed * duration_s / 2
     return Motion(start, speed, ((duration_s, -math.copysign(deceleration, speed)),), end)

@@ -1,8 +1,8 @@
 """The device side of a Heidenhain ND 281B position display, byte by byte.
 
-It answers Ctrl-B with the measured-value line, Ctrl-E with the error message, and `ESC Tnnnn CR`
-(keys), `ESC Annnn CR` (screen), `ESC Fnnnn CR` (functions) and `ESC Snnnn CR` (special) as the
-maker's tables say.  It knows no transport: bytes come in, replies with their delay go out.
+It answers Ctrl-B with the measured-value line, Ctrl-E with the error message, and `ESC Tnnnn CR` (keys), `ESC
+Annnn CR` (screen), `ESC Fnnnn CR` (functions) and `ESC Snnnn CR` (special) as in the maker's tables. It is
+independent of the transport: bytes come in, replies with their delay go out.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ _UNIT_AT = 12
 class ND280:
     """One display on its head.
 
-    :param head_mm: the head's position, asked once for each value
+    :param head_mm: the head's position, called once for each value
     """
 
     def __init__(self, head_mm: Callable[[], float], faults: Faults) -> None:
@@ -40,7 +40,7 @@ class ND280:
         self._error: str | None = None
 
     def receive(self, data: bytes) -> list[Reply]:
-        """What the display sends in answer to `data`."""
+        """The display's answer to `data`."""
         self._input += data
         replies = []
         while request := self._next_request():
@@ -50,11 +50,11 @@ class ND280:
         return replies
 
     def shift(self, by_mm: float) -> None:
-        """Every value from now on is that much longer, as after a miscount."""
+        """Increase every value from now on, as after a miscount."""
         self._datum_mm -= by_mm
 
     def reboot(self) -> None:
-        """As after a power cut: the datum is gone."""
+        """Simulate a power failure: the datum is lost."""
         self._special(0)
 
     def is_value(self, data: bytes) -> bool:
@@ -62,7 +62,7 @@ class ND280:
         return _VALUE.fullmatch(data) is not None
 
     def marked_faulty(self, data: bytes) -> bytes:
-        """A value line with the mark of a fault."""
+        """A value line with a fault mark."""
         return data[:_UNIT_AT] + b"?" + data[_UNIT_AT + 1 :]
 
     def in_other_unit(self, data: bytes) -> bytes:
@@ -70,7 +70,7 @@ class ND280:
         return data[:_UNIT_AT] + b'"' + data[_UNIT_AT + 1 :]
 
     def _next_request(self) -> bytes:
-        """One complete request out of the input buffer, or nothing yet."""
+        """One complete request from the input buffer, or nothing yet."""
         while self._input:
             first = self._input[:1]
             if first != _ESC:
@@ -114,7 +114,7 @@ class ND280:
         fault_mark = self._faults.due("scale_fault_mark") is not None
         try:
             value_mm = self._value_mm()
-        except Unreachable:  # arms where no slider can be: the head is off its scale
+        except Unreachable:  # impossible arm angles for the slider: the head is off its scale
             value_mm, fault_mark = 0.0, True
         self._error = _ERROR_TEXT if fault_mark else None
         unit = "?" if fault_mark else " "
@@ -125,7 +125,7 @@ class ND280:
         return Reply(line, late.delay_s if late else 0.0)
 
     def _screen(self, number: int) -> str | None:
-        """Text of a screen output, None where there is none."""
+        """Text of a screen output, None if there is none."""
         match number:
             case 0:
                 return "ND281B    \r\n 349797-03\r\n          \r\n"

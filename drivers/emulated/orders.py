@@ -1,7 +1,7 @@
 """Faults on order: at a moment, for a time or a number of occasions; from a rig file or while the rig runs.
 
-Which fault a device can have is in `KINDS`.  An order without `for_s` and `count` stays until it is taken
-back, except for events (a jump, a reboot, ...), which happen once.
+`KINDS` lists the faults of each device. An order without `for_s` and `count` is active until it is withdrawn,
+except for events (a jump, a reboot, ...), which happen once.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ KINDS: dict[Device, tuple[Kind, ...]] = {
 }
 EVENTS: tuple[Kind, ...] = ("jump", "lost_counts", "reboot", "alarm", "following_error")
 LATE_S = 1.5
-"""Beyond the time-out of every driver as it is set by default."""
+"""Beyond the default time-out of every driver."""
 
 Seconds = Annotated[float, Field(ge=0, le=86_400, allow_inf_nan=False)]
 
@@ -87,17 +87,17 @@ class FaultOrder(StrictNumbers):
     """`line` is the Modbus line of both axes, `inputs` the module on it with guard door and thermometer."""
     kind: Kind
     after_s: Seconds = 0.0
-    """From the order on."""
+    """Start, counted from the order."""
     for_s: Seconds | None = None
-    """None: until it is taken back, or `count` is used up."""
+    """Duration; None: until it is withdrawn, or `count` is used up."""
     count: Annotated[int, Field(gt=0)] | None = None
-    """How many occasions (requests, moves) it spoils; None: all, or one of an event."""
+    """Number of occasions (requests, motions) that it disturbs; None: all, or one for an event."""
     code: Annotated[int, Field(ge=0, le=0xFFFF)] = 0
-    """Of an exception or alarm; 0 takes a usual one."""
+    """Exception or alarm code; 0 selects a usual one."""
     mm: Annotated[float, Field(ge=-1000, le=1000, allow_inf_nan=False)] = 0.1
-    """Of a jump."""
+    """Size of a jump."""
     temperature_c: Annotated[float, Field(ge=-100, le=300, allow_inf_nan=False)] = 80.0
-    """What the thermometer shows, degC, with `temperature`."""
+    """Temperature shown by the thermometer, degC, with `temperature`."""
 
     @model_validator(mode="after")
     def _device_can_have_it(self) -> Self:
@@ -112,7 +112,7 @@ ORDERS: TypeAdapter[tuple[FaultOrder, ...]] = TypeAdapter(tuple[FaultOrder, ...]
 
 
 class Orders:
-    """What is ordered at present; may be used from any thread."""
+    """The active orders; may be used from any thread."""
 
     def __init__(
         self, orders: Iterable[FaultOrder] = (), clock: Callable[[], float] = time.monotonic
@@ -126,11 +126,11 @@ class Orders:
 
     @property
     def given(self) -> tuple[FaultOrder, ...]:
-        """As they were ordered."""
+        """The orders as received."""
         return self._given
 
     def replace(self, orders: Iterable[FaultOrder]) -> None:
-        """These and no others, counted from now."""
+        """Activate these and no others, counted from now."""
         with self._lock:
             self._given = tuple(orders)
             self._left = [1 if o.kind in EVENTS and o.count is None else o.count for o in self._given]
@@ -142,7 +142,7 @@ class Orders:
             return any(order.kind in kinds and order.device in devices for order in self._given)
 
     def due(self, kind: Kind, *devices: Device) -> FaultOrder | None:
-        """An occasion for `kind` has come: the order that spoils it, one occasion of it used up."""
+        """Report an occasion for `kind`; returns the order that disturbs it, with one occasion used up."""
         if not self._given:
             return None
         with self._lock:

@@ -15,10 +15,10 @@ _XON, _XOFF = 0x11, 0x13
 
 
 class PtyLine:
-    """Serves one device from a thread of its own until closed.
+    """Serves one device from its own thread until closed.
 
     :param receive: bytes from the station in, replies out
-    :param flow_control: whether the device honours XON/XOFF; else these are bytes as any
+    :param flow_control: whether the device uses XON/XOFF; otherwise these are ordinary bytes
     """
 
     def __init__(self, receive: Callable[[bytes], list[Reply]], flow_control: bool = True) -> None:
@@ -51,7 +51,7 @@ class PtyLine:
                 return
             if self._device in readable:
                 for reply in self._receive(self._without_flow_control(os.read(self._device, 256))):
-                    # replies keep their order: one that is late holds up all after it
+                    # replies retain their order: a late one delays all after it
                     due_s = max(time.monotonic() + reply.delay_s, pending[-1][0] if pending else 0.0)
                     pending.append((due_s, reply.data))
             while pending and not self._paused and pending[0][0] <= time.monotonic():

@@ -1,4 +1,4 @@
-"""What every emulated readout can be told and asked."""
+"""The interface of all emulated readouts."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ class Reply:
 
 
 class EmulatedReadout(Protocol):
-    """It knows no transport: bytes come in, replies with their delay go out."""
+    """It is independent of the transport: bytes come in, replies with their delay go out."""
 
     def receive(self, data: bytes) -> list[Reply]:
-        """What it sends in answer to `data`."""
+        """The answer to `data`."""
         ...
 
     def shift(self, by_mm: float) -> None:
-        """Every value from now on is that much longer, as after a miscount."""
+        """Increase every value from now on, as after a miscount."""
         ...
 
     def reboot(self) -> None:
-        """As after a power cut."""
+        """Simulate a power failure."""
         ...
 
     def is_value(self, data: bytes) -> bool:
@@ -34,9 +34,9 @@ class EmulatedReadout(Protocol):
         ...
 
     def marked_faulty(self, data: bytes) -> bytes:
-        """What comes in place of a value that cannot be measured."""
+        """The output in place of a value that cannot be measured."""
         ...
 
     def in_other_unit(self, data: bytes) -> bytes:
-        """The value as after somebody changed the unit."""
+        """The value in another unit, as after a change of the setting."""
         ...

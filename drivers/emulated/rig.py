@@ -29,7 +29,7 @@ from drivers.emulated.spec import Fault, RigSpec
 from drivers.emulated.spoiled import ReadoutOnLine, SpoiledDrive, SpoiledInputs
 
 Answer = Callable[[bytes], DriveReply]
-"""Of a unit on the line to a request PDU."""
+"""Answer of a unit on the line to a request PDU."""
 _SAVE_EVERY_S = 0.05
 _SCALE_LINES = {"heidenhain-nd": "baud=9600&format=7E2&override=8N1", "siko": "baud=19200&format=8N1"}
 
@@ -37,8 +37,8 @@ _SCALE_LINES = {"heidenhain-nd": "baud=9600&format=7E2&override=8N1", "siko": "b
 class EmulatedRig:
     """A context manager; inside it the devices answer at `scale_url` and `servo_url`.
 
-    Drive addresses are 1 and 2.  With a state file the drives start where they were left, also
-    after the process was killed.
+    Drive addresses are 1 and 2.  With a state file the drives start in their last positions, even after the
+    process was killed.
     """
 
     def __init__(self, spec: RigSpec, *, speed: float | None = None, state_file: Path | None = None) -> None:
@@ -85,7 +85,7 @@ class EmulatedRig:
         self._open.close()
 
     def inject(self, fault: Fault) -> None:
-        """Let a wire fault come, counted from now."""
+        """Add a wire fault, counted from now."""
         self._faults.add(fault)
 
     def clear_faults(self) -> None:
@@ -122,7 +122,7 @@ class EmulatedRig:
 
     @property
     def interlock_options(self) -> dict[str, dict[str, float]]:
-        """`[interlocks]` of a station file for this rig: where guard door and thermometer are wired to."""
+        """`[interlocks]` of a station file for this rig: the connections of guard door and thermometer."""
         return {
             "guard_door": {"unit": UNIT, "address": INPUTS, "bit": 0},
             "temperature": {
@@ -135,7 +135,7 @@ class EmulatedRig:
         }
 
     def _connect(self, units: dict[int, Answer], check_sum_exception: int | None, stack: ExitStack) -> str:
-        """Put the drives on their line; its address."""
+        """Connect the drives to their line; returns its address."""
         if self.spec.emulated.line == "tcp":
             gateway = ModbusTcpGateway(units)
             stack.callback(gateway.close)
@@ -165,7 +165,7 @@ class _DriveOnLine:
 
 
 class _StateKeeper:
-    """Keeps the machine's place in a file, so that it survives a kill."""
+    """Stores the machine's position in a file, so that it survives a kill."""
 
     def __init__(self, machine: Machine, path: Path) -> None:
         self._machine = machine
@@ -203,12 +203,12 @@ class _StateKeeper:
             return
         draft = self._path.with_name(self._path.name + ".new")
         draft.write_text(json.dumps({"shaft_pulses": state.shaft_pulses, "zero_pulses": state.zero_pulses}))
-        draft.replace(self._path)  # whole or not at all
+        draft.replace(self._path)  # atomic replacement
         self._saved = state
 
 
 class StateFileError(ValueError):
-    """A state file that cannot be used; the text is one sentence."""
+    """A state file is unusable; the text is one sentence."""
 
 
 def _load_state(path: Path) -> MachineState:

@@ -16,13 +16,13 @@ DEFAULT_RIG = RIGS / "paper_group1.toml"
 
 
 class RigFileError(ValueError):
-    """A rig file that cannot be used; the text is one sentence."""
+    """A rig file is unusable; the text is one sentence."""
 
 
 def load_rig(path: Path) -> RigSpec:
     """Read and check a rig file.
 
-    :raises RigFileError: naming the file, the entry and what is wrong with it
+    :raises RigFileError: naming the file, the entry and the error
     """
     try:
         text = path.read_text(encoding="utf-8")
@@ -34,7 +34,7 @@ def load_rig(path: Path) -> RigSpec:
 
 
 def parse_rig(text: str, name: str = "rig file") -> RigSpec:
-    """The same from text; `name` is what errors call it.  :raises RigFileError:"""
+    """The same from text; `name` is its name in errors. :raises RigFileError:"""
     try:
         tables: dict[str, Any] = tomllib.loads(text)
     except tomllib.TOMLDecodeError as error:
@@ -62,7 +62,7 @@ def parse_rig(text: str, name: str = "rig file") -> RigSpec:
 
 
 def dump_rig(spec: RigSpec) -> str:
-    """A rig file that reads back as `spec`, with nothing but what differs from the defaults."""
+    """A rig file that reads back as `spec` and contains only the differences from the defaults."""
     machine = _given(spec.machine)
     machine.pop("effects", None)
     lines = ["[machine]", *_entries(machine), "", "[emulated]", *_entries(_given(spec.emulated))]
@@ -78,7 +78,7 @@ def _given(table: BaseModel) -> dict[str, Any]:
 
 
 def _entries(table: dict[str, Any]) -> list[str]:
-    # numbers, booleans, strings and arrays are written alike in JSON and TOML
+    # numbers, booleans, strings and arrays have the same form in JSON and TOML
     return [f"{key} = {json.dumps(value)}" for key, value in table.items()]
 
 

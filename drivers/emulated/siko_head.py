@@ -13,17 +13,17 @@ _READ_POSITION, _IDENTIFY, _READ_RESOLUTION = 0x16, 0x1B, 0x1E
 _WRONG_CHECK, _REFUSED = 0x82, 0x83
 _SHORT = 0x80
 _GAP_S = 0.01
-"""A longer pause within a telegram makes the head forget its beginning."""
+"""After a longer pause within a telegram the head discards its beginning."""
 _MSA510 = 23
 _CODES = {0.1: 2, 0.01: 3}
 _INCH_COUNTS = 1 / 2.54
-"""Of a head that is switched to 0.001 inch: 0.01 mm and 0.001 inch, 0.0254 mm."""
+"""Counts of a head that is switched to 0.001 inch: 0.01 mm and 0.001 inch, 0.0254 mm."""
 
 
 class SikoDevice:
     """One head, address 1.
 
-    :param head_mm: its position on the tape, asked once for each value
+    :param head_mm: its position on the tape, called once for each value
     """
 
     def __init__(
@@ -43,7 +43,7 @@ class SikoDevice:
         self._heard_s = 0.0
 
     def receive(self, data: bytes) -> list[Reply]:
-        """What the head sends in answer to `data`."""
+        """The head's answer to `data`."""
         if self._clock() - self._heard_s > _GAP_S:
             self._input = b""
         self._heard_s = self._clock()
@@ -57,11 +57,11 @@ class SikoDevice:
         return replies
 
     def shift(self, by_mm: float) -> None:
-        """Every value from now on is that much longer."""
+        """Increase every value from now on."""
         self._datum_mm -= by_mm
 
     def reboot(self) -> None:
-        """An absolute head knows its position; only what was shifted is gone."""
+        """An absolute head retains its position; only a shift is lost."""
         self._datum_mm = 0.0
 
     def is_value(self, data: bytes) -> bool:
@@ -69,7 +69,7 @@ class SikoDevice:
         return len(data) == 6 and data[1] == _READ_POSITION
 
     def marked_faulty(self, data: bytes) -> bytes:
-        """What comes in place of a position where the head cannot measure."""
+        """The output in place of a position where the head cannot measure."""
         return self._telegram(bytes((self._address, _REFUSED)))
 
     def in_other_unit(self, data: bytes) -> bytes:

@@ -1,4 +1,4 @@
-"""What is to be emulated: the machine's true errors, its speed, scripted wire faults."""
+"""The definition of an emulation: the machine's true errors, its speed, scripted wire faults."""
 
 from __future__ import annotations
 
@@ -46,11 +46,11 @@ class MachineSpec(_Table):
     scale_noise_mm: float = Field(default=(3 + 0.35) / 3 * 1e-3, ge=0)
     """Standard deviation of a reading, eq. 34 of the paper."""
     scatter: bool = True
-    """Whether the servos come to rest beside their command, eq. 35 of the paper."""
+    """Whether the servos have a position error at rest, eq. 35 of the paper."""
     servo_error_pulses: float = Field(default=4.0, ge=0)
     """Largest error of a stop (three standard deviations), pulses."""
     whole_pulses: bool = True
-    """Whether a servo rests on a pulse of its encoder (eq. 35 speaks of pulse errors) or between two."""
+    """Whether a servo stops on a pulse of its encoder (eq. 35 refers to pulse errors) or between two."""
     effects: tuple[AnyEffect, ...] = ()
 
     @property
@@ -59,22 +59,22 @@ class MachineSpec(_Table):
 
 
 class EmulationSpec(_Table):
-    """How the machine is run."""
+    """Settings for running the machine."""
 
     speed: Positive = 50.0
-    """How much faster than real time the arms move."""
+    """Speed of the arms over real time."""
     scale: Literal["heidenhain-nd", "siko"] = "heidenhain-nd"
-    """Which readout is on the head."""
+    """Readout of the head."""
     scale_resolution_mm: Positive = 0.01
-    """Of a SIKO head."""
+    """Resolution of a SIKO head."""
     servo: Literal["leadshine-el7", "leadshine-cs2rs", "orientalmotor"] = "leadshine-el7"
-    """Which family the drives are of."""
+    """Family of the drives."""
     line: Literal["tcp", "rtu"] = "tcp"
     """Whether the drives are behind a Modbus TCP gateway, or the station is on their RS-485 line."""
     baud: Annotated[int, Field(ge=1200, le=1_000_000)] = 38_400
-    """Of that line."""
+    """Baud rate of that line."""
     state_file: str | None = None
-    """Where the drives' places are kept while the rig is off; none: they start at their zero."""
+    """File with the drives' positions while the rig is off; none: they start at their zero."""
 
 
 FaultKind = Literal[
@@ -92,22 +92,21 @@ FaultKind = Literal[
 
 
 class Fault(_Table):
-    """A fault on the wire that comes after `after` occasions and stays for `times` of them.
+    """A fault on the wire that begins after `after` occasions and lasts for `times` of them.
 
-    Occasions are value requests for `scale_...`, requests to the drive for `drive_silent`,
-    `drive_exception`, `drive_late` and `servo_link_dropped`, moves for `drive_alarm` and
-    `drive_never_in_position`.
+    Occasions are value requests for `scale_...`, requests to the drive for `drive_silent`, `drive_exception`,
+    `drive_late` and `servo_link_dropped`, moves for `drive_alarm` and `drive_never_in_position`.
     """
 
     kind: FaultKind
     joint: Literal[1, 2] | None = None
-    """Which drive; none means either."""
+    """Number of the drive; none means either."""
     after: int = Field(default=0, ge=0)
     times: int = Field(default=1, gt=0)
     delay_s: float = Field(default=0.5, gt=0)
-    """Of late replies."""
+    """Delay of late replies."""
     code: int = Field(default=0, ge=0, le=0xFFFF)
-    """Exception or alarm code; 0 takes a usual one."""
+    """Exception or alarm code; 0 selects a usual one."""
 
 
 class RigSpec(_Table):
@@ -117,4 +116,4 @@ class RigSpec(_Table):
     emulated: EmulationSpec = EmulationSpec()
     faults: tuple[Fault, ...] = ()
     orders: tuple[FaultOrder, ...] = ()
-    """Written as `[[fault]]` too, with `device`."""
+    """Also written as `[[fault]]`, with `device`."""

@@ -1,4 +1,4 @@
-"""Emulated devices as the orders spoil them: what crosses the wire, and what the device itself does."""
+"""Emulated devices with the ordered faults: of the wire, and of the device itself."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _LOSSES: tuple[Kind, ...] = ("lost_counts", "reboot")
 
 
 class _Unit(ABC):
-    """What is on the line, and its place there."""
+    """A unit on the line, and its address."""
 
     def __init__(self, own: Device, orders: Orders, *, behind_gateway: bool) -> None:
         self._behind_gateway = behind_gateway
@@ -26,12 +26,12 @@ class _Unit(ABC):
         self._own: Final = own
         self._orders = orders
         self._spoiled = False
-        """Whether something was ordered at the last request."""
+        """Whether a fault was ordered at the last request."""
 
     def answer(self, request: bytes) -> DriveReply:
-        """:raises DropLink: the port is gone; :raises HalfOpen: nothing comes on this connection any more"""
+        """:raises DropLink: the port is gone; :raises HalfOpen: this connection stays silent from now on"""
         was_spoiled, self._spoiled = self._spoiled, bool(self._orders.given)
-        if not self._spoiled:  # as nearly always
+        if not self._spoiled:  # the usual case
             if was_spoiled:
                 self._change()
             return DriveReply(self._answer(request))
@@ -57,11 +57,11 @@ class _Unit(ABC):
 
     @abstractmethod
     def _answer(self, request: bytes) -> bytes:
-        """The device's own."""
+        """The device's own answer."""
 
     @abstractmethod
     def _change(self) -> None:
-        """What is ordered befalls the device."""
+        """Apply the ordered faults to the device."""
 
     def _due(self, kind: Kind) -> FaultOrder | None:
         return self._orders.due(kind, self._own, "line")
@@ -121,7 +121,7 @@ class ReadoutOnLine:
         self._last_value = b""
 
     def receive(self, data: bytes) -> list[Reply]:
-        """As `ND280.receive`, spoiled."""
+        """As `ND280.receive`, disturbed."""
         if jumped := self._due("jump"):
             self._display.shift(jumped.mm)
         if lost := self._due("lost_counts"):
@@ -140,7 +140,7 @@ class ReadoutOnLine:
             data = self._spoiled_value(data)
         if self._due("late"):
             delay_s = LATE_S
-        if self._due("bad_crc"):  # the line has parity only: one character is lost to it
+        if self._due("bad_crc"):  # the line has only parity: one character is lost
             data = data[:3] + b"\0" + data[4:]
         if self._due("short"):
             data = data[:-3]

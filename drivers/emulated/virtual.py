@@ -1,4 +1,4 @@
-"""Walks in virtual time: the machine without wires and without waiting."""
+"""Measurement sequences in virtual time: the machine without wires and without waiting."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _LEAST_RPM = 0.1
 
 
 class VirtualClock:
-    """A clock that stands still until it is told the time."""
+    """A clock that advances only on request."""
 
     def __init__(self) -> None:
         self.time_s = 0.0
@@ -29,7 +29,7 @@ class VirtualClock:
 
 @dataclass(frozen=True, slots=True)
 class VirtualReading:
-    """What the station would have recorded at one stop, and the truth beside it."""
+    """The reading that the station would have recorded at one stop, with the true values."""
 
     t_s: float
     theta_deg: tuple[float, float]
@@ -41,7 +41,7 @@ class VirtualReading:
 
 
 class VirtualRig:
-    """A machine in virtual time, walked stop by stop."""
+    """A machine in virtual time, moved from stop to stop."""
 
     def __init__(self, spec: MachineSpec, *, seed: int | None = None) -> None:
         self.clock = VirtualClock()
@@ -53,7 +53,7 @@ class VirtualRig:
     ) -> VirtualReading:
         """Move both joints to a command (nominal frame), wait, and read.
 
-        :param samples: readings of the head that are averaged
+        :param samples: number of readings of the head that are averaged
         """
         spec, machine = self._spec, self.machine
         targets = [self._pulses(i, angle) for i, angle in enumerate(theta_deg)]
@@ -62,7 +62,7 @@ class VirtualRig:
         ]
         longest = max(ways) or 1
         for joint, target, way in zip(_JOINTS, targets, ways, strict=True):
-            # both joints arrive together, as the station drives them
+            # both joints arrive together, as under the station
             machine.command(joint, target, max(rpm * way / longest, _LEAST_RPM))
         self.clock.advance_to(machine.rests_from_s + settle_s)
         scale_mm = sum(machine.head_mm() for _ in range(samples)) / samples

@@ -1,4 +1,4 @@
-"""Who may use a line next."""
+"""The order in which threads use a line."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from itertools import count
 from threading import Condition
 
 Gate = Callable[[], AbstractContextManager[None]]
-"""What a frame is sent inside of, so that nothing decided elsewhere comes between decision and frame."""
+"""Context in which a frame is sent, so that no other decision falls between decision and frame."""
 
 
 class Lane:
-    """A lock whose urgent callers pass all that wait; ordinary ones wait while an urgent one does.
+    """A lock in which urgent callers overtake all others; ordinary ones wait while an urgent one waits.
 
-    Ordinary callers go in the order in which they came.  Without that, whoever works with a line all the
-    time takes it again before one that waits has woken up, and a watchdog is not fed.
+    Ordinary callers are served in the order of arrival. Without that, a thread that uses a line continuously
+    would take it again before a waiting thread wakes up, and a watchdog would not be fed.
     """
 
     def __init__(self) -> None:
@@ -27,7 +27,7 @@ class Lane:
 
     @property
     def urgent_waiting(self) -> bool:
-        """Whether the holder should give way."""
+        """Whether the holder should release it."""
         return self._urgent_waiting > 0
 
     @contextmanager

@@ -1,7 +1,7 @@
 """One Modbus line with several drives on it: RS-485 (RTU), a TCP gateway, or RTU through a device server.
 
-Nothing is sent twice except reads and stops, replies are checked for kind and length, frames keep a gap, a
-link that fell silent heals, and a stop passes all that wait.
+Nothing is sent twice except reads and stops, replies are checked for kind and length, frames have a gap
+between them, a silent link recovers, and a stop overtakes all waiting requests.
 """
 
 from __future__ import annotations
@@ -31,11 +31,11 @@ _STOP_PAUSE_S = 0.02
 
 
 class UnansweredWrite(LinkLost):
-    """A write went out and no proper reply came: it may have taken or not; read the state back."""
+    """A write was sent without a valid reply: it is unknown whether it was accepted; read the state back."""
 
 
 class NotSent(LinkLost):
-    """The request did not reach the drive for certain."""
+    """The request certainly did not reach the drive."""
 
 
 class ModbusBus(OnLine):
@@ -43,9 +43,9 @@ class ModbusBus(OnLine):
 
     def __init__(self, url: str, *, timeout_s: float = 0.3, budget_s: float | None = None) -> None:
         """:param timeout_s: the worst reply time of the drives on the line
-        :param budget_s: for how long reads are repeated; by default three time-outs and half a second
+        :param budget_s: time limit for repeated reads; by default three time-outs and half a second
 
-        :raises BadUrl: one sentence about what is wrong in `url`
+        :raises BadUrl: one sentence about the error in `url`
         """
         self.address: SerialAddress | NetAddress = parse_line_url(
             url,
@@ -67,12 +67,12 @@ class ModbusBus(OnLine):
         self._heard_at_s: dict[int, float] = {}
 
     def silent_s(self, unit: int) -> float:
-        """For how long a unit has not been heard, inf before the first time."""
+        """Time since the last answer of a unit, inf before the first."""
         return time.monotonic() - self._heard_at_s.get(unit, -math.inf)
 
     @property
     def stops(self) -> int:
-        """How many stops have been asked for so far."""
+        """Number of stops requested so far."""
         return self._stops
 
     def open(self, owner: object) -> None:
@@ -94,13 +94,13 @@ class ModbusBus(OnLine):
                 self._link.close()
 
     def read(self, unit: int, address: int, count: int, *, budget_s: float | None = None) -> list[int]:
-        """Holding registers (function 03), asked for again when the reply is lost, malformed or "busy".
+        """Holding registers (function 03), requested again when the reply is lost, malformed or "busy".
 
-        :param budget_s: for how long; without it that of the bus
+        :param budget_s: time limit; by default that of the bus
         :return: `count` values 0..65535
         :raises DeviceFault: the drive refuses
-        :raises GarbledReply: a reply of the wrong kind or length
-        :raises LinkLost: no reply
+        :raises GarbledReply: the reply has the wrong kind or length
+        :raises LinkLost: there is no reply
         """
         request = read_request(unit, address, count)
         budget_s = self._budget_s if budget_s is None else budget_s
@@ -116,21 +116,21 @@ class ModbusBus(OnLine):
         self._write(write_one_request(unit, address, value))
 
     def write(self, unit: int, address: int, values: Sequence[int], *, stops_seen: int) -> None:
-        """Several registers (function 10h), sent once, unless a stop came meanwhile.
+        """Several registers (function 10h), sent once, unless a stop was requested meanwhile.
 
         :param stops_seen: `stops` when the decision to send this was taken
-        :raises: as `write_one`; DeviceFault also when a stop was asked for since
+        :raises: as `write_one`; DeviceFault also when a stop was requested since
         """
 
         self._write(write_request(unit, address, values), stops_seen)
 
     def stop(self, unit: int, address: int, value: int | Sequence[int], *, look_at: int) -> None:
-        """A write that stops a drive, past all that wait; sent again until confirmed.
+        """A write that stops a drive and overtakes all waiting requests; sent again until confirmed.
 
-        One register goes out with function 06, several with 10h; as many are read from `look_at` on.
+        One register is sent with function 06, several with 10h; the same number is read from `look_at` on.
 
-        Stopping twice is stopping.  The reply to function 06 is a copy of the request, which an adapter
-        that echoes gives too, so the drive's registers at `look_at` have to be readable as well.
+        Repeating a stop is harmless. The reply to function 06 is a copy of the request, which an echoing
+        adapter returns too, so the drive's registers at `look_at` have to be readable as well.
 
         :raises DeviceFault: the drive refuses
         :raises LinkLost: no attempt was confirmed
@@ -205,7 +205,7 @@ class ModbusBus(OnLine):
 
 
 class _Uncertain(Exception):
-    """A write must not be repeated: the drive may have taken it."""
+    """A write must not be repeated: the drive may have accepted it."""
 
     def __init__(self, cause: DeviceError) -> None:
         super().__init__(str(cause))
@@ -213,7 +213,7 @@ class _Uncertain(Exception):
 
 
 def _check(request: Request, pdu: bytes) -> None:
-    """:raises DeviceError: what the reply refuses the request with"""
+    """:raises DeviceError: the refusal in the reply"""
     if request.is_refused_by(pdu):
         raise _refusal(request.unit, pdu[1])
 

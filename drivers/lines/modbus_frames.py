@@ -2,7 +2,7 @@
 
 After *Modbus Application Protocol* V1.1b3 (functions 03, 06, 08, 10h, 17h), *Modbus over Serial Line* V1.02
 (RTU frame, check sum) and *Modbus Messaging on TCP/IP* V1.0b (header).  Requests and check sums are encoded
-by pymodbus; which bytes answer a request, and where they stand among others, is decided here.
+by pymodbus; the assignment of received bytes to requests is implemented here.
 """
 
 from __future__ import annotations
@@ -27,14 +27,14 @@ _LONGEST_PDU = 253
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What one drive is asked, and what a proper reply to it begins with and how long it is."""
+    """A request to one drive, with the beginning and the length of a valid reply."""
 
     unit: int
     pdu: bytes
     reply_start: bytes
-    """The bytes of a normal reply that are known beforehand, function code first."""
+    """The fixed first bytes of a normal reply, function code first."""
     reply_length: int
-    """Of a normal reply's PDU."""
+    """Length of a normal reply's PDU."""
 
     @property
     def function(self) -> int:
@@ -42,7 +42,7 @@ class Request:
 
     @property
     def is_answered_by_a_copy(self) -> bool:
-        """Whether a proper reply cannot be told from an echo, as with function 06."""
+        """Whether a valid reply cannot be distinguished from an echo, as with function 06."""
         return self.reply_start == self.pdu
 
     @property
@@ -102,9 +102,9 @@ def with_check_sum(frame: bytes) -> bytes:
 
 
 def find_rtu_reply(received: bytes, request: Request) -> bytes | None:
-    """The PDU of the first whole frame that answers or refuses a request, after whatever stray bytes.
+    """The PDU of the first whole frame that answers or refuses a request, after any stray bytes.
 
-    A frame is believed only with its drive's address, its function and a right check sum.
+    A frame is accepted only with its drive's address, its function and a correct check sum.
     """
     for start in range(len(received)):
         if received[start] != request.unit:
@@ -119,7 +119,7 @@ def find_rtu_reply(received: bytes, request: Request) -> bytes | None:
 
 
 def other_rtu_reply(received: bytes, request: Request) -> str | None:
-    """What a well-formed frame is that came in place of the reply; None as long as there is none."""
+    """The description of a well-formed frame that came in place of the reply; None if there is none."""
     if len(received) < 4:
         return None
     unit, function = received[0], received[1]
@@ -140,13 +140,13 @@ def other_rtu_reply(received: bytes, request: Request) -> str | None:
 
 
 class BadHeader(Exception):
-    """A TCP stream that is not Modbus any more."""
+    """A TCP stream is no longer Modbus."""
 
 
 def take_tcp_frame(received: bytearray) -> tuple[int, int, bytes] | None:
     """Remove the first whole frame: transaction, unit, PDU; None until it is complete.
 
-    :raises BadHeader: no frame begins here; only a new connection can help.
+    :raises BadHeader: no frame begins here; a new connection is required.
     """
     if len(received) < _HEADER.size:
         return None

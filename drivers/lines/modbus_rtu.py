@@ -1,7 +1,7 @@
 """Modbus RTU: one half-duplex line, on a serial port or through a serial device server.
 
-RTU frames carry no number, so a late reply would be taken for the next one: after a reply that did not
-come, ordinary requests wait until none can come any more.  A stop does not wait for that.
+RTU frames have no number, so a late reply would be taken for the next one: after a missing reply, ordinary
+requests wait until none can come any more. A stop does not wait for that.
 """
 
 from __future__ import annotations
@@ -18,9 +18,9 @@ from drivers.lines.url import SerialAddress
 
 _LONGEST_FRAME_BYTES = 256
 _SILENCE_BYTES = 3.5
-_LEAST_GAP_S = 0.004  # the slowest of the supported drives asks for 3 ms
+_LEAST_GAP_S = 0.004  # the slowest of the supported drives requires 3 ms
 _PATIENCE_S = 0.01
-"""How long a stop waits, beyond the time on the wire, for a reply that a drive may be about to give."""
+"""Time that a stop waits, beyond the time on the wire, for a reply that a drive may be about to send."""
 _SLICE_S = 0.002
 
 
@@ -31,7 +31,7 @@ class _Stop:
     request: Request
     timeout_s: float
     first: bool
-    """Whether it is no repetition."""
+    """Whether it is not a repetition."""
     sent_at_s: float | None = None
     reply: bytes | None = None
     error: DeviceError | None = None
@@ -42,11 +42,11 @@ class _Stop:
 
 
 class RtuLink:
-    """Exchanges of one line, one at a time; may be called from any thread."""
+    """Exchanges on one line, one at a time; may be called from any thread."""
 
     def __init__(self, line: SerialLine, timeout_s: float) -> None:
         self.stop_timeouts_s = (timeout_s / 3, timeout_s * 2 / 3, timeout_s * 4 / 3)
-        """Of the attempts to stop: noise may have hit the first, a slow drive answers within the last."""
+        """Time-outs of the attempts to stop: noise may hit the first; a slow drive answers in the last."""
         self._line = line
         self._timeout_s = timeout_s
         self._lane = Lane()
@@ -59,14 +59,14 @@ class RtuLink:
         self._free_from_s = 0.0
         self._stale_until_s = 0.0
         self._overdue = False
-        """Whether a reply that did not come in time may still come."""
+        """Whether a missing reply may still come."""
 
     def exchange(self, request: Request, gate: Gate) -> bytes:
         """The PDU of the reply.
 
-        :param gate: entered to send the frame; what it raises is raised
-        :raises LinkLost: no reply, or it was given up for a stop
-        :raises GarbledReply: another reply than could be one
+        :param gate: entered to send the frame; its errors are propagated
+        :raises LinkLost: there was no reply, or it was given up for a stop
+        :raises GarbledReply: the reply is not a possible one
         """
         while True:
             time.sleep(max(0.0, self._stale_until_s - time.monotonic()))
@@ -75,16 +75,16 @@ class RtuLink:
                     return self._exchange(request, gate)
 
     def stop(self, request: Request, timeout_s: float, *, first: bool) -> bytes:
-        """One attempt, past all that wait and past a reply that is overdue.
+        """One attempt, which overtakes all waiting requests and an overdue reply.
 
-        Stops of several drives that are asked for at the same time go out one right after the other;
-        their answers are collected together.  :raises: as `exchange`
+        Stops of several drives requested at the same time are sent directly after each other; their answers
+        are collected together.  :raises: as `exchange`
         """
         stop = _Stop(request, timeout_s, first)
         with self._stops_lock:
             self._stops.append(stop)
         with self._lane.hold(urgent=True):
-            if stop.open:  # else whoever held the lane for another drive's stop has done this one too
+            if stop.open:  # otherwise another stop's thread has sent this one too
                 self._carry_out_stops()
         if stop.error is not None:
             raise stop.error
@@ -143,8 +143,9 @@ class RtuLink:
         )
 
     def _let_overdue_replies_pass(self) -> None:
-        """What was taken for the reply to a repetition may have been the late one to the first request: then
-        the reply to the repetition follows, and would be taken for that to the next request."""
+        """The reply to a repetition may have been the late one to the first request: then the reply to the
+        repetition follows, and would be taken for that to the next request.
+        """
         if not self._overdue:
             return
         silent_from_s = time.monotonic()
@@ -162,7 +163,7 @@ class RtuLink:
     # Stops ----------------------------------------------------------------------------------------
 
     def _carry_out_stops(self) -> None:
-        """Send what is to be sent and collect the answers, until each has come or its time is over."""
+        """Send the pending stops and collect the answers, until each has come or its time is over."""
         received = b""
         while stops := self._open_stops():
             try:
@@ -182,7 +183,7 @@ class RtuLink:
                         self._free_from_s = time.monotonic() + self._gap_s
                     elif time.monotonic() > stop.sent_at_s + stop.timeout_s:
                         stop.error = self._no_reply(stop.request, received)
-            except DeviceError as error:  # the line itself
+            except DeviceError as error:  # an error of the line itself
                 for stop in stops:
                     stop.error = error
             if any(stop.error for stop in stops):
@@ -194,7 +195,7 @@ class RtuLink:
             return list(self._stops)
 
     def _next_stop_s(self, stops: list[_Stop]) -> float:
-        """When the next stop may be sent: the drive asked last has answered, or does not hurry to."""
+        """The time for the next stop: the last drive has answered, or is slow to answer."""
         waiting = [
             stop.sent_at_s + (len(stop.request.rtu) * 2) * self._byte_s + _PATIENCE_S
             for stop in stops

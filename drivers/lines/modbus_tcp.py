@@ -1,7 +1,7 @@
 """Modbus TCP: a drive's own connection, or a gateway to a serial line with several drives.
 
-A connection can be dead without a word (half open), so one on which a reply did not come is closed and
-the next request opens another.  A stop never trusts an old one: it goes out on a connection of its own.
+A connection can fail silently (half open), so it is closed after a missing reply and the next request opens
+another. A stop never uses an old one: it is sent on a separate connection.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ class TcpLink:
 
     def __init__(self, line: SerialLine, timeout_s: float) -> None:
         self.stop_timeouts_s = (timeout_s * 5 / 3, timeout_s * 5 / 3)
-        """Of the attempts to stop.  TCP repeats what is lost by itself: who has not answered yet is slow."""
+        """Time-outs of the attempts to stop. TCP repeats lost data: a missing answer means a slow drive."""
         self._line = line
         self._timeout_s = timeout_s
         self._lane = Lane()
@@ -33,9 +33,9 @@ class TcpLink:
     def exchange(self, request: Request, gate: Gate) -> bytes:
         """The PDU of the reply.
 
-        :param gate: entered to send the frame; what it raises is raised
-        :raises LinkLost: no reply, or it was given up for a stop
-        :raises GarbledReply: another reply than could be one
+        :param gate: entered to send the frame; its errors are propagated
+        :raises LinkLost: there was no reply, or it was given up for a stop
+        :raises GarbledReply: the reply is not a possible one
         """
         with self._lane.hold(urgent=False):
             self._busy = True
@@ -48,8 +48,8 @@ class TcpLink:
                 self._busy = False
 
     def stop(self, request: Request, timeout_s: float, *, first: bool) -> bytes:
-        """One attempt, past all that wait and past a reply in flight.  :raises: as `exchange`"""
-        if self._busy or not first:  # a gateway that takes one connection only has to be freed for this one
+        """One attempt, which overtakes all waiting requests and a reply in flight. :raises: as `exchange`"""
+        if self._busy or not first:  # a gateway that accepts only one connection must be free for this one
             self._line.interrupt()
 
         @contextmanager

@@ -1,4 +1,4 @@
-"""Modbus frames in words, for whoever reads a wire log."""
+"""Modbus frames in words, for readers of a wire log."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ _HEADER_BYTES = 7
 
 
 class ModbusWords:
-    """Follows one line: the answer to a read tells no register, the request before it does."""
+    """Follows one line: the answer to a read contains no register address, but the request before it does."""
 
     def __init__(self, registers: Mapping[int, str], *, over_tcp: bool) -> None:
         """:param registers: names by address"""
@@ -22,7 +22,7 @@ class ModbusWords:
         self._asked = 0
 
     def request(self, frame: bytes) -> str:
-        """What was sent."""
+        """The meaning of sent bytes."""
         unit, pdu = self.taken_apart(frame)
         if pdu is None or len(pdu) < 5:
             return _bytes(frame)
@@ -38,7 +38,7 @@ class ModbusWords:
         return f"drive {unit}: function {function:02X}h, {pdu[1:].hex(' ')}"
 
     def answer(self, frame: bytes) -> str:
-        """What came: one chunk, which need not be a whole frame."""
+        """The meaning of received bytes: one chunk, which need not be a whole frame."""
         unit, pdu = self.taken_apart(frame)
         if pdu is None or len(pdu) < 2:
             return _bytes(frame)
@@ -51,7 +51,7 @@ class ModbusWords:
         return f"drive {unit}: function {pdu[0]:02X}h, {pdu[1:].hex(' ')}"
 
     def taken_apart(self, frame: bytes) -> tuple[int, bytes | None]:
-        """The drive and what it is told or tells, from the function on; None where it is no whole frame."""
+        """The drive and the content of the frame, from the function on; None if it is not a whole frame."""
         if self._over_tcp:
             if len(frame) <= _HEADER_BYTES:
                 return 0, None
@@ -64,7 +64,7 @@ class ModbusWords:
         return self._name(address) + (f" and {count - 1} more" if count > 1 else "")
 
     def name(self, address: int) -> str:
-        """Of a register, else its address."""
+        """Name of a register, otherwise its address."""
         return self._registers.get(address, f"{address:04X}h")
 
     def _name(self, address: int) -> str:

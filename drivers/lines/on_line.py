@@ -1,4 +1,4 @@
-"""What every user of a line has in common: the line."""
+"""The common base of all users of a line."""
 
 from __future__ import annotations
 
@@ -13,10 +13,10 @@ class OnLine:
 
     @property
     def line(self) -> SerialLine:
-        """Whose notice and opener are everybody's on it."""
+        """The line, whose notice and opener are shared by all its users."""
         return self._line
 
 
 def line_of(device: object) -> SerialLine | None:
-    """The line of a device; None where it has none, as in tests without a wire."""
+    """The line of a device; None if it has none, as in tests without a wire."""
     return device.line if isinstance(device, OnLine) else None

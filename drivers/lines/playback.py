@@ -1,4 +1,4 @@
-"""A wire log played back to the drivers that made it: they ask the same and are answered the same."""
+"""A wire log played back to the drivers that made it: same requests, same answers."""
 
 from __future__ import annotations
 
@@ -12,24 +12,24 @@ from drivers.lines.url import NetAddress, SerialAddress
 from drivers.lines.wire_log import Entry, WireEvent
 
 _TRANSACTION = slice(0, 2)
-"""Of a Modbus TCP frame: the number of the request, given by whoever asks."""
+"""Number of the request in a Modbus TCP frame, assigned by the sender."""
 
 
 class Departed(Exception):
-    """The drivers do something else than they did when the log was made."""
+    """The drivers act differently than when the log was made."""
 
 
 class Playback:
-    """The happenings of the thread that carried out the run, in their order."""
+    """The events of the thread that carried out the run, in order."""
 
     def __init__(self, events: Iterable[WireEvent]) -> None:
         self._events = [event for event in events if event.own]
         self._next = 0
 
     def opener(self, line: int, *, numbered: bool) -> Opener:
-        """What opens a port in place of the true one.
+        """Opens a port in place of the real one.
 
-        :param numbered: whether frames begin with a number that the asker gives, as in Modbus TCP
+        :param numbered: whether frames begin with a number assigned by the sender, as in Modbus TCP
         """
 
         def open_port(address: SerialAddress | NetAddress, xonxoff: bool) -> Port:
@@ -41,14 +41,14 @@ class Playback:
         return open_port
 
     def clock(self) -> float:
-        """What the run's clock said next, in seconds since the run began.  :raises Departed:"""
+        """The next time of the run's clock, in seconds since the run began. :raises Departed:"""
         event = self.taken(0, "clock")
         if event is None:
             raise self.departed("looks at its clock")
         return int(event.data) / 1e6
 
     def taken(self, line: int, what: Entry) -> WireEvent | None:
-        """The next happening, if it is this one."""
+        """The next event, if it is this one."""
         if self._next < len(self._events):
             event = self._events[self._next]
             if (event.line, event.what) == (line, what):
@@ -57,7 +57,7 @@ class Playback:
         return None
 
     def departed(self, does: str) -> Departed:
-        """The error for something that is not what happened next."""
+        """The error for an action that differs from the next event."""
         if self._next == len(self._events):
             return Departed(f"The wire log ends here, and the station {does}.")
         event = self._events[self._next]
@@ -68,7 +68,7 @@ class Playback:
 
     @property
     def is_over(self) -> bool:
-        """Whether everything has been played."""
+        """Whether all events have been played."""
         return self._next == len(self._events)
 
 
@@ -81,7 +81,7 @@ class _PlayedPort:
 
     def write(self, data: bytes) -> None:
         while self._playback.taken(self._line, "nothing"):
-            pass  # it gave up waiting earlier than this one
+            pass  # its wait ended earlier than this one
         self._break_if_it_did()
         event = self._playback.taken(self._line, "tx")
         if event is None:
@@ -101,10 +101,10 @@ class _PlayedPort:
         return b""
 
     def interrupt(self) -> None:
-        """Nobody waits."""
+        """No thread waits."""
 
     def close(self) -> None:
-        """Nothing is held."""
+        """There is nothing to release."""
 
     def _break_if_it_did(self) -> None:
         if (event := self._playback.taken(self._line, "broken")) is not None:

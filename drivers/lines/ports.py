@@ -1,4 +1,4 @@
-"""What bytes go through: a serial port or a network connection, opened for this process alone."""
+"""Transports for bytes: a serial port or a network connection, opened for this process exclusively."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ from drivers.lines.rfc2217 import open_remote_port
 from drivers.lines.url import LineFormat, NetAddress, RemoteSerialAddress, SerialAddress
 
 CONNECT_LIMIT_S = 1.0
-_IFLAG, _CFLAG = 0, 2  # of what termios.tcgetattr returns
+_IFLAG, _CFLAG = 0, 2  # indices in the result of termios.tcgetattr
 
 
 class Port(Protocol):
-    """An open port.  Every failure is an `OSError`; the far end's closing is one too."""
+    """An open port. Every failure is an `OSError`, including a closed connection at the far end."""
 
     def write(self, data: bytes) -> None: ...
 
@@ -32,7 +32,7 @@ class Port(Protocol):
         ...
 
     def interrupt(self) -> None:
-        """Make a reader in another thread give up now, if the port can do that."""
+        """Make a reader in another thread stop waiting, if the port supports that."""
         ...
 
     def close(self) -> None:
@@ -41,11 +41,11 @@ class Port(Protocol):
 
 
 Opener = Callable[[SerialAddress | NetAddress, bool], Port]
-"""As `open_port`."""
+"""Function with the signature of `open_port`."""
 
 
 def open_port(address: SerialAddress | NetAddress, xonxoff: bool) -> Port:
-    """Open it for this process alone.
+    """Open it for this process exclusively.
 
     :raises LinkLost: the port is missing, busy or unreachable
     :raises DeviceError: the port cannot carry the line format
@@ -76,10 +76,10 @@ class _SerialPort:
         return bytes(self._port.read(max(1, self._port.in_waiting))) if readable else b""
 
     def interrupt(self) -> None:
-        """Deadlines on a serial line are short; nothing is gained by cutting them off."""
+        """Deadlines on a serial line are short; interrupting them has no benefit."""
 
     def close(self) -> None:
-        with suppress(OSError):  # the cable may be out
+        with suppress(OSError):  # the cable may be disconnected
             # a pseudo-terminal whose other side stays open would remember it
             fcntl.ioctl(self._port.fileno(), termios.TIOCNXCL)
         with suppress(OSError):
@@ -90,7 +90,7 @@ class _SocketPort:
     def __init__(self, connection: socket.socket) -> None:
         self._connection = connection
         connection.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-        connection.settimeout(CONNECT_LIMIT_S)  # of sending; reading waits for its deadline
+        connection.settimeout(CONNECT_LIMIT_S)  # for sending; reading waits for its deadline
 
     def write(self, data: bytes) -> None:
         self._connection.sendall(data)
@@ -113,7 +113,7 @@ class _SocketPort:
 
 
 def open_serial_port(address: SerialAddress, *, xonxoff: bool) -> serial.Serial:
-    """Open a port for this process alone, and make sure that it took the line format.
+    """Open a port for this process exclusively, and verify that it accepted the line format.
 
     :raises LinkLost: the port is missing or busy
     :raises DeviceError: the port cannot carry the line format
@@ -138,7 +138,7 @@ def open_serial_port(address: SerialAddress, *, xonxoff: bool) -> serial.Serial:
     if not _carries(port, wanted):
         port.close()
         raise _cannot_carry(address)
-    # The lock of `exclusive` is advisory: only programs that ask for it see it.
+    # The lock of `exclusive` is advisory: only programs that request it respect it.
     fcntl.ioctl(port.fileno(), termios.TIOCEXCL)
     if wanted.parity != "N":
         _check_parity(port)
@@ -166,9 +166,9 @@ def _cannot_carry(address: SerialAddress) -> DeviceError:
 
 
 def _carries(port: serial.Serial, wanted: LineFormat) -> bool:
-    """Whether the port took data bits and parity.
+    """Whether the port accepted data bits and parity.
 
-    A pseudo-terminal drops both without a word the first time, and refuses the second time.
+    A pseudo-terminal silently ignores both the first time, and refuses the second time.
     """
     control_flags = termios.tcgetattr(port.fileno())[_CFLAG]
     data_bits = {termios.CS7: 7, termios.CS8: 8}.get(control_flags & termios.CSIZE)
@@ -176,7 +176,7 @@ def _carries(port: serial.Serial, wanted: LineFormat) -> bool:
 
 
 def reason(error: Exception) -> str:
-    """Why a port failed, in the operator's words."""
+    """Why a port failed, in words for the operator."""
     code = error.errno if isinstance(error, OSError) else None
     if code == errno.ENOENT:
         return "there is no such port (is the adapter plugged in?)"

@@ -1,4 +1,4 @@
-"""Asking again, for a limited time."""
+"""Repeated requests with a time limit."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ T = TypeVar("T")
 
 
 def within(budget_s: float, ask: Callable[[], T]) -> T:
-    """What `ask` returns; it is asked again, ever less often, while its reply is late or malformed.
+    """The result of `ask`; it is called again, at increasing intervals, while its reply is late or malformed.
 
-    Every request passes here, some dozens for each reading, and nearly all are answered at once.
+    Every request uses this function, dozens for each reading, and nearly all are answered at once.
 
     :param budget_s: no attempt begins later than this after the first
-    :raises DeviceError: of the first attempt: what failed then is the cause, what followed may be its effect
+    :raises DeviceError: that of the first attempt: it is the cause, and later errors may be its consequences
     """
     until_s = time.monotonic() + budget_s
     pause_s = _FIRST_PAUSE_S

@@ -1,4 +1,4 @@
-"""A serial port of a device server that also takes the line settings (RFC 2217), by way of pyserial."""
+"""A serial port of a device server that also accepts the line settings (RFC 2217), with pyserial."""
 
 from __future__ import annotations
 
@@ -25,18 +25,18 @@ class RemotePort:
         self._port.write(data)
 
     def read_some(self, deadline_s: float) -> bytes:
-        # The library receives in a thread of its own; there is nothing to wait on but its queue.
+        # The library receives in its own thread; only its queue can be waited on.
         while not (waiting := self._port.in_waiting):
             if time.monotonic() >= deadline_s:
                 return b""
             time.sleep(_LOOK_S)
         data = bytes(self._port.read(waiting))
-        if not data:  # the mark of its end
+        if not data:  # the end mark
             raise ConnectionResetError(errno.ECONNRESET, "the far end closed the connection")
         return data
 
     def interrupt(self) -> None:
-        """Deadlines on a serial line are short; nothing is gained by cutting them off."""
+        """Deadlines on a serial line are short; interrupting them has no benefit."""
 
     def close(self) -> None:
         with suppress(OSError):
@@ -44,10 +44,10 @@ class RemotePort:
 
 
 def open_remote_port(address: RemoteSerialAddress, *, xonxoff: bool) -> RemotePort:
-    """:raises LinkLost: nothing answers there, or not as RFC 2217 says"""
+    """:raises LinkLost: there is no answer, or one that violates RFC 2217"""
     try:
         port = Serial(
-            # ser2net takes flow control, and does not say so
+            # ser2net accepts flow control, and does not report it
             f"rfc2217://{address.host}:{address.port}?ign_set_control",
             baudrate=address.baud,
             bytesize=address.format.data_bits,

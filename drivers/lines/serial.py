@@ -1,6 +1,6 @@
-"""One line: opened from a URL, written to, and read into a parser of one's own with a deadline.
+"""One line: opened from a URL, written to, and read with a deadline by the caller's parser.
 
-A line that broke heals: the next use opens it anew, and says why if that fails.
+A broken line recovers: the next use opens it again, and reports the cause if that fails.
 """
 
 from __future__ import annotations
@@ -15,25 +15,26 @@ from drivers.lines.traffic import Traffic
 from drivers.lines.url import NetAddress, SerialAddress, parse_line_url
 
 Happening = Literal["tx", "rx", "nothing", "broken", "refused"]
-"""What was sent, what came, that nothing was there at a glance (a read without waiting), the text of an
-error of the open line, or that with which it could not be opened."""
+"""Bytes sent, bytes received, an empty read without waiting, the text of an error of the open line, or the
+error with which it could not be opened.
+"""
 Recorder = Callable[[Happening, bytes], None]
-"""Told of everything that happens on a line, as it happens, in the thread that causes it."""
+"""Receives every event on a line immediately, in the thread that causes it."""
 
 XON = b"\x11"
 _ECHO_LIMIT_S = 0.1
 
 
 class SerialLine:
-    """A line that stays open, and is opened again when it broke, until it is closed."""
+    """A line that stays open, and is opened again after a failure, until it is closed."""
 
     def __init__(
         self, url: str, *, default_baud: int = 9600, default_format: str = "8N1", flow_control: bool = False
     ) -> None:
         """Read the URL; nothing is opened yet.
 
-        :param flow_control: XON/XOFF, honoured by the operating system on serial ports
-        :raises BadUrl: one sentence about what is wrong in it
+        :param flow_control: XON/XOFF, handled by the operating system on serial ports
+        :raises BadUrl: one sentence about the error in it
         """
         address = parse_line_url(
             url,
@@ -56,7 +57,7 @@ class SerialLine:
         self.recorder: Recorder | None = None
         self.traffic = Traffic()
         self.opener: Opener = open_port
-        """What opens its port; a recording may be played back in place of one."""
+        """Opens its port; a recording may be played back in place of one."""
         self._flow_control = flow_control
         self._port: Port | None = None
         self._wanted = False
@@ -64,7 +65,7 @@ class SerialLine:
 
     @property
     def notice(self) -> str | None:
-        """One sentence to log at start when the line format is overridden, else None."""
+        """One sentence to log at start if the line format is overridden, otherwise None."""
         return self.address.notice if isinstance(self.address, SerialAddress) else None
 
     @property
@@ -73,11 +74,11 @@ class SerialLine:
 
     @property
     def is_played_back(self) -> bool:
-        """Whether nobody is there, and a wire log answers."""
+        """Whether a wire log answers in place of a device."""
         return self.opener is not open_port
 
     def open(self) -> None:
-        """Open for this process alone; open it again whenever it breaks, until it is closed.
+        """Open for this process exclusively; open it again after each failure, until it is closed.
 
         :raises LinkLost: the port is missing, busy or unreachable
         :raises DeviceError: the port cannot carry the line format
@@ -92,22 +93,23 @@ class SerialLine:
         self._drop()
 
     def renew(self) -> None:
-        """After a reply that did not come: a connection may be dead without a word, so the next use
-        opens a new one.  A serial port stays open."""
+        """Call after a missing reply: a connection may have failed silently, so the next use opens a new one.
+        A serial port stays open.
+        """
         if isinstance(self.address, NetAddress):
             self._drop()
 
     def interrupt(self) -> None:
-        """Let a network reader in another thread give up now; from any thread."""
+        """Make a network reader in another thread stop waiting; from any thread."""
         port = self._port
         if port is not None:
             port.interrupt()
 
     def write(self, data: bytes) -> None:
-        """Send; on a line that echoes, also take back what was sent.
+        """Send; on a line that echoes, also read the echo.
 
         :raises LinkLost: the line broke
-        :raises GarbledReply: the echo is not what was sent
+        :raises GarbledReply: the echo differs from the sent bytes
         """
         port = self._opened()
         try:
@@ -119,7 +121,7 @@ class SerialLine:
             self._take_echo(data)
 
     def read_some(self, deadline_s: float) -> bytes:
-        """Whatever has come in, at least one byte; empty once `time.monotonic()` passes the deadline.
+        """The received bytes, at least one; empty once `time.monotonic()` passes the deadline.
 
         :raises LinkLost: the line broke
         """
@@ -137,7 +139,7 @@ class SerialLine:
         return data
 
     def drain(self, seconds: float) -> None:
-        """Throw away everything that arrives within the next `seconds` (0: what is there already).
+        """Discard everything that arrives within the next `seconds` (0: only bytes already received).
 
         :raises LinkLost: the line broke
         """
@@ -146,19 +148,19 @@ class SerialLine:
             pass
 
     def refuse_echo(self, sent: bytes, received: bytes) -> None:
-        """:raises GarbledReply: what came begins with the very bytes that were sent"""
+        """:raises GarbledReply: the received bytes begin with the sent bytes"""
         if sent and received.startswith(sent):
             raise self.echoes()
 
     def echoes(self) -> GarbledReply:
-        """The error for a line that sends back what it is sent."""
+        """The error for a line that echoes."""
         return GarbledReply(
             f"{self.address} sends back what it is sent (echo): switch the echo of its adapter off,"
             " or add echo=1 to its address."
         )
 
     def _take_echo(self, sent: bytes) -> None:
-        """A collision or noise shows here too: the adapter hears what was on the wire."""
+        """Read the echo. It also reveals collisions and noise: the adapter receives what is on the wire."""
         wire_s = 0.0
         if isinstance(self.address, SerialAddress):
             wire_s = len(sent) * self.address.format.bits_per_byte / self.address.baud
@@ -190,7 +192,7 @@ class SerialLine:
         return self._port
 
     def _resume_output(self, port: Port) -> None:
-        """A device that was told to pause, by a program that then died, would be silent for ever."""
+        """Resume a device: if a program that died had paused it, it would stay silent."""
         try:
             port.write(XON)
         except OSError as error:

@@ -1,4 +1,4 @@
-"""How much crossed a line since it was made, and how long its replies took."""
+"""The amount of data on a line since it was made, and the times of its replies."""
 
 from __future__ import annotations
 
@@ -6,9 +6,9 @@ import time
 
 
 class Traffic:
-    """Counts only; who reads it never waits for the line.
+    """Only counts; reading them never waits for the line.
 
-    A round trip is the time from the end of sending to the first byte that comes.
+    A round trip is the time from the end of sending to the first received byte.
     """
 
     def __init__(self) -> None:
@@ -16,19 +16,19 @@ class Traffic:
         self.requests = 0
         self.replies = 0
         self.broken = 0
-        """How often the open line broke, or could not be opened."""
+        """Number of failures of the open line, and of failed attempts to open it."""
         self.round_trips_s = 0.0
         """Sum over all replies."""
         self.last_round_trip_s: float | None = None
         self.stop_sent_at_s: dict[int, float] = {}
-        """By unit, when its last stop frame went out that was no repetition; of the clock."""
+        """By unit, time of the clock at which its last non-repeated stop frame was sent."""
 
     def note_stop(self, unit: int) -> None:
         """The first frame of a stop has been sent."""
         self.stop_sent_at_s[unit] = time.monotonic()
 
     def note(self, what: str) -> None:
-        """Something happened on the line.
+        """Count an event on the line.
 
         :param what: a `Happening`
         """

@@ -1,13 +1,13 @@
-"""Where a device hangs: the URLs of the station file, read strictly.
+"""Addresses of devices: the URLs of the station file, parsed strictly.
 
 `serial:///dev/ttyUSB0?baud=9600&format=7E2`, `socket://host:port`,
-`modbus+rtu:///dev/ttyUSB1?baud=38400&format=8N2`, `modbus+tcp://host:port`,
-`modbus+rtuovertcp://host:port` (RTU frames through a serial device server), `rfc2217://host:port?baud=9600&
-format=7E2` and `modbus+rfc2217://...` (a device server that takes the line settings as well).
+`modbus+rtu:///dev/ttyUSB1?baud=38400&format=8N2`, `modbus+tcp://host:port`, `modbus+rtuovertcp://host:port`
+(RTU frames through a serial device server), `rfc2217://host:port?baud=9600& format=7E2` and
+`modbus+rfc2217://...` (a device server that accepts the line settings as well).
 
-`override=8N1` may follow on a serial URL: the line is then opened with that format instead,
-for a port that cannot carry the wanted one (a pseudo-terminal has no parity), and the opened
-line says so in its `notice`.  `echo=1` says that the RS-485 adapter sends back all that it is sent.
+`override=8N1` may follow on a serial URL: the line is then opened with that format instead, for a port that
+does not support the specified one (a pseudo-terminal has no parity), and the opened line reports it in its
+`notice`. `echo=1` states that the RS-485 adapter echoes everything it receives.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from drivers.errors import DeviceError
 
 
 class BadUrl(DeviceError, ValueError):
-    """A URL of the station file that cannot be used; the text is one sentence."""
+    """A URL of the station file is unusable; the text is one sentence."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +37,7 @@ class LineFormat:
 
     @property
     def bits_per_byte(self) -> int:
-        """On the wire, start bit included."""
+        """Number of bits on the wire, start bit included."""
         return 1 + self.data_bits + (self.parity != "N") + self.stop_bits
 
 
@@ -50,19 +50,19 @@ class SerialAddress:
     format: LineFormat
     override: LineFormat | None
     echo: bool = False
-    """Whether the adapter sends back what it is sent."""
+    """Whether the adapter echoes."""
 
     def __str__(self) -> str:
         return self.port
 
     @property
     def effective_format(self) -> LineFormat:
-        """What the port is opened with."""
+        """Format with which the port is opened."""
         return self.override or self.format
 
     @property
     def notice(self) -> str | None:
-        """One sentence for the log when the wanted format is overridden."""
+        """One sentence for the log if the specified format is overridden."""
         if self.override is None or self.override == self.format:
             return None
         return f"{self.port} runs as {self.override} instead of {self.format}, as its URL asks."
@@ -75,7 +75,7 @@ class NetAddress:
     host: str
     port: int
     echo: bool = False
-    """Whether the far adapter sends back what it is sent."""
+    """Whether the far adapter echoes."""
 
     def __str__(self) -> str:
         return f"{self.host}:{self.port}"
@@ -92,11 +92,11 @@ class RemoteSerialAddress(NetAddress):
 def parse_line_url(
     url: str, *, serial: str, net: Sequence[str], default_baud: int, default_format: str
 ) -> SerialAddress | NetAddress:
-    """A serial or network address out of `url`.
+    """A serial or network address from `url`.
 
     :param serial: scheme of the serial form, for instance "serial"
     :param net: schemes of the network form, for instance "socket"
-    :raises BadUrl: with what is wrong in it
+    :raises BadUrl: with the error in it
     """
     parts = urlsplit(url)
     if parts.scheme == serial:

@@ -1,8 +1,9 @@
 """The wire log: everything that happened on the lines of a station during a run, as text.
 
-One happening a line: tenths of a millisecond since the one before, the number of the line with a mark, bytes
-in hexadecimal.  An asterisk after the mark: it was not the thread that carries out the run (a stop, a
-watchdog's feeder).  What that thread read from its clock is in the log as well, for its decisions hang on it.
+One event per line: tenths of a millisecond since the previous one, the number of the wire with a mark, bytes
+in hexadecimal. An asterisk after the mark: it was another thread than that of the run (a stop, a watchdog's
+feeder). The times that the run's thread read from its clock are in the log as well, since its decisions
+depend on them.
 """
 
 from __future__ import annotations
@@ -30,28 +31,28 @@ _ENTRIES = {mark: entry for entry, mark in _MARKS.items()}
 _LINE = re.compile(r"(\d+) (\d+)([><.!xc])(\*?) ((?:[0-9a-f]{2})*)")
 _TICK_S = 1e-4
 _CLOCK = 0
-"""The line that readings of the clock are written under."""
+"""Line number for readings of the clock."""
 
 
 @dataclass(frozen=True, slots=True)
 class WireEvent:
-    """One happening."""
+    """One event."""
 
     at_s: float
-    """Since the log began."""
+    """Time since the log began."""
     line: int
     what: Entry
     data: bytes
-    """Of `clock` the microseconds since the run began, in decimal."""
+    """For `clock`, the microseconds since the run began, in decimal."""
     own: bool
-    """Whether the thread that carries out the run caused it."""
+    """Whether the thread of the run caused it."""
 
 
 class WireLog:
-    """Listens on lines until it is closed; one thread carries out the run, others may use the lines too."""
+    """Records lines until it is closed; one thread carries out the run, others may use the lines too."""
 
     def __init__(self, lines: Mapping[int, SerialLine], clock: Callable[[], float] | None = None) -> None:
-        """:param lines: by the number that the log gives them; recording begins, for the calling thread"""
+        """:param lines: by their number in the log; recording begins, for the calling thread"""
         self._lines = lines
         self._clock = clock or time.monotonic
         self._owner = get_ident()
@@ -64,16 +65,16 @@ class WireLog:
             line.recorder = self._recorder(number)
 
     def close(self) -> None:
-        """Listen no more."""
+        """End recording."""
         for line in self._lines.values():
             line.recorder = None
 
     def note_clock(self, microseconds: int) -> None:
-        """What the run's clock said."""
+        """Record a time of the run's clock."""
         self._write(_CLOCK, "clock", str(microseconds).encode())
 
     def take(self) -> str:
-        """What was written since this was called last."""
+        """Text written since the last call."""
         with self._lock:
             written, self._written = self._written, []
         return "".join(written)
@@ -84,7 +85,7 @@ class WireLog:
     def _write(self, line: int, what: Entry, data: bytes) -> None:
         with self._lock:
             own = get_ident() == self._owner
-            # That nothing was there matters only if something came afterwards that nobody had asked for.
+            # An empty read is relevant only if bytes arrived afterwards without a request.
             if what == "nothing":
                 self._glances[line] += own
                 return
@@ -101,7 +102,7 @@ class WireLog:
 
 
 def wire_events(lines: Iterable[str]) -> Iterator[WireEvent]:
-    """What a log says.  :raises ValueError: a line that is none of a log"""
+    """The events of a log. :raises ValueError: a line is not of a log"""
     tick = 0
     for text in lines:
         match = _LINE.fullmatch(text.rstrip("\n"))

@@ -1,4 +1,4 @@
-"""Readouts of the linear scale, one wire protocol a module."""
+"""Readouts of the linear scale, one wire protocol per module."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ SCALES: Mapping[str, ScaleDriver[Any]] = {
     "heidenhain-nd": heidenhain_nd.DRIVER,
     "siko": siko.DRIVER,
 }
-"""By `[scale] protocol` of the station file."""
+"""Drivers by `[scale] protocol` of the station file."""
 
 __all__ = [
     "SCALES",

@@ -1,11 +1,11 @@
 """Heidenhain ND 280 / 281B / 287 position displays over their serial line.
 
-The measured value is asked for with Ctrl-B and comes as one fixed line of 17 characters (maker's
-table of the measured-value output): sign, ten characters of number, blank, unit, sorting, series,
-CR LF.  `ESC A....CR` reads what the display shows; such a reply begins with STX, a refusal is NAK.
+The measured value is requested with Ctrl-B and is one fixed line of 17 characters (maker's table of the
+measured-value output): sign, ten characters of number, blank, unit, sorting, series, CR LF.  `ESC A....CR`
+reads the text of the display; such a reply begins with STX, a refusal is NAK.
 
-A number leaves this module only if every character of its line is as the table says, nothing
-else is on the line, and the display itself raises no doubt about it.
+A number leaves this module only if every character of its line is as in the table, nothing else is on the
+line, and the display itself indicates no fault.
 """
 
 from __future__ import annotations
@@ -58,9 +58,9 @@ class HeidenhainND(Readout):
     def __init__(
         self, url: str, *, name: str = "linear scale", timeout_s: float = 1.0, budget_s: float | None = None
     ) -> None:
-        """:param budget_s: for how long a question is repeated; by default three time-outs and half a second
+        """:param budget_s: time limit for repeated requests; by default three time-outs and half a second
 
-        :raises BadUrl: one sentence about what is wrong in `url`
+        :raises BadUrl: one sentence about the error in `url`
         """
         line = SerialLine(url, default_baud=9600, default_format="7E2", flow_control=True)
         super().__init__(line, name=name, timeout_s=timeout_s, budget_s=budget_s)
@@ -70,14 +70,14 @@ class HeidenhainND(Readout):
 
     @property
     def identity(self) -> tuple[str, ...]:
-        """Model and software lines the display answered at `connect`."""
+        """Model and software lines that the display returned at `connect`."""
         lines = self._identity_reply[1:].decode("ascii").split("\r\n")
         return tuple(line.strip() for line in lines if line.strip())
 
     def connect(self) -> None:
         """Open the line, read the model, and compare the value line with the value on the display.
 
-        :raises DeviceError: with what is wrong and what to check
+        :raises DeviceError: with the error and what to check
         """
         with self._lock:
             self._line.open()
@@ -96,14 +96,14 @@ class HeidenhainND(Readout):
         """The head's present value in mm.
 
         :raises DeviceFault: the display marks its value as faulty, or shows another unit or series
-        :raises GarbledReply: several lines in a row were not as the maker's table says
-        :raises LinkLost: nothing answers
+        :raises GarbledReply: several consecutive lines were not as in the maker's table
+        :raises LinkLost: there is no answer
         """
         with self._lock:
             return self._retried(self._ask_value)
 
     def indicators(self) -> dict[str, Indicator]:
-        """The display's status symbols by name; which there are depends on the model.
+        """The display's status symbols by name; they depend on the model.
 
         :raises DeviceError:
         """
@@ -111,7 +111,7 @@ class HeidenhainND(Readout):
             return self._retried(self._ask_indicators)
 
     def error_text(self) -> str | None:
-        """The error the display shows, None when it shows none.
+        """The error on the display, None if there is none.
 
         :raises DeviceError:
         """
@@ -119,11 +119,10 @@ class HeidenhainND(Readout):
             return self._retried(self._ask_error_text)
 
     def _prepare(self) -> None:
-        """Make sure that the next reply is the answer to the next question.
+        """Ensure that the next reply is the answer to the next request.
 
-        A reply that came too late would otherwise be taken for the following one, and the readings
-        would lag by one place.  The display answers in order: once it has told its model, nothing
-        older can follow.
+        A late reply would otherwise be taken for the following one, and the readings would lag by one
+        position. The display answers in order: after the answer with its model, nothing older can follow.
         """
         if not self._may_have_stale_bytes:
             self._line.drain(0)
@@ -186,7 +185,7 @@ class HeidenhainND(Readout):
         return text or "no error text is shown, look at head and cable"
 
     def _ask_identity(self) -> bytes:
-        """Some lines of ten characters; how many depends on the model, so silence ends them."""
+        """Some lines of ten characters; their number depends on the model, so silence ends them."""
         self._send_screen_command("A0000")
         reply = self._read_lines(1)
         while more := self._line.read_some(time.monotonic() + _PAUSE_S):
@@ -218,7 +217,7 @@ class HeidenhainND(Readout):
         return reply[1:-2].decode("ascii").strip()
 
     def _compare_values(self) -> None:
-        """The value line against A0200, which has no decimal point: unit, step and sign must agree."""
+        """Compare the value line with A0200, which has no decimal point: unit, step and sign must agree."""
         value_mm = self._ask_value()
         reply = self._ask_screen("A0200")
         match = _CURRENT_VALUE.fullmatch(reply)
@@ -265,14 +264,14 @@ class HeidenhainND(Readout):
         return reply
 
     def _refuse_echo(self, reply: bytes) -> None:
-        """The late reply to a screen command begins with the very character that asks for a value."""
+        """The late reply to a screen command begins with the same character that requests a value."""
         late = self._sent == _ASK_VALUE and reply[:1] == _STX and reply[1:2] not in (b"", b"+", b"-")
         if late:
             raise self._garbled(reply)
         self._line.refuse_echo(self._sent, reply)
 
     def _refuse_trailing_bytes(self) -> None:
-        """More bytes than one line means that some line is not the one asked for."""
+        """More bytes than one line means that some line is not the requested one."""
         surplus = self._line.read_some(time.monotonic())
         if surplus.strip(b"\r\n"):
             raise self._garbled(surplus)
@@ -295,7 +294,7 @@ def _make(settings: HeidenhainSettings) -> HeidenhainND:
 
 
 def in_words(data: bytes) -> str:
-    """What was sent or came, for whoever reads a wire log."""
+    """The meaning of sent or received bytes, for readers of a wire log."""
     match = _VALUE_LINE.fullmatch(data)
     if data == _ASK_VALUE:
         return "what is the value?"

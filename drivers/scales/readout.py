@@ -1,4 +1,4 @@
-"""What all readouts on a line of their own have in common: name, lock, life cycle, asking again."""
+"""The common base of all readouts on their own line: name, lock, life cycle, repeated requests."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ class Readout(OnLine, ABC):
     """Base of a `LinearScale`; may be called from any thread."""
 
     def __init__(self, line: SerialLine, *, name: str, timeout_s: float, budget_s: float | None) -> None:
-        """:param budget_s: how long a question is repeated; by default three time-outs and half a second"""
+        """:param budget_s: time limit for repeated requests; by default three time-outs and half a second"""
         super().__init__(line)
         self._name = name
         self._timeout_s = timeout_s
@@ -44,14 +44,14 @@ class Readout(OnLine, ABC):
 
     @abstractmethod
     def _prepare(self) -> None:
-        """Before a question: nothing older may answer it."""
+        """Called before a request: no older reply may answer it."""
 
     @abstractmethod
     def _has_failed(self) -> None:
         """A reply was late or malformed."""
 
     def _retried(self, ask: Callable[[], _T]) -> _T:
-        """`ask` again when its reply is late or malformed: reading twice changes nothing."""
+        """Call `ask` again when its reply is late or malformed: reading twice changes nothing."""
 
         def attempt() -> _T:
             try:

@@ -1,11 +1,12 @@
 """SIKO absolute reading heads MSA501, MSA510/1, MSAC501 with the SIKONETZ3 protocol on RS-485.
 
-A telegram is address, command, for some three bytes of data (low byte first), and the exclusive or of all
-before it.  The master's short telegrams have bit 7 of the address set.  Instead of a position the head
-answers error 83h if the gap to the tape is too large, the absolute value implausible, or the speed above
+A telegram is address, command, for some commands three bytes of data (low byte first), and the exclusive or
+of all previous bytes.  The master's short telegrams have bit 7 of the address set.  Instead of a position the
+head answers error 83h if the gap to the tape is too large, the absolute value implausible, or the speed above
 5 m/s.
 
-An exclusive or misses two flipped bits of one weight, so a position counts only if it is read twice.
+An exclusive or does not detect two flipped bits of one weight, so a position is accepted only if it is read
+twice.
 """
 
 from __future__ import annotations
@@ -36,11 +37,11 @@ _TYPES = {34: "MSA501", 23: "MSA510/1", 21: "MA501"}
 _WITH_RESOLUTION = 23
 _RESOLUTIONS_MM = {0: 10.0, 1: 1.0, 2: 0.1, 3: 0.01}
 _SILENCE_S = 0.03
-"""After a reply that did not come."""
+"""Silence after a missing reply."""
 _AGREEMENT_COUNTS = 2
 _MOST_READS = 5
 _STEADY_MM = 0.5
-"""How much the way between three reads of a moving head may change."""
+"""Maximum change of the motion between three reads of a moving head."""
 
 
 class SikoSettings(DriverSettings):
@@ -60,9 +61,9 @@ class SikoHead(Readout):
     def __init__(
         self, settings: SikoSettings, *, name: str = "linear scale", budget_s: float | None = None
     ) -> None:
-        """:param budget_s: for how long a question is repeated; by default three time-outs and half a second
+        """:param budget_s: time limit for repeated requests; by default three time-outs and half a second
 
-        :raises BadUrl: one sentence about what is wrong in the URL
+        :raises BadUrl: one sentence about the error in the URL
         """
         line = SerialLine(settings.url, default_baud=19200, default_format="8N1")
         super().__init__(line, name=name, timeout_s=settings.timeout_s, budget_s=budget_s)
@@ -73,13 +74,13 @@ class SikoHead(Readout):
 
     @property
     def identity(self) -> str:
-        """Type and firmware that the head answered at `connect`."""
+        """Type and firmware that the head returned at `connect`."""
         return self._identity
 
     def connect(self) -> None:
-        """Open the line, read the type, and compare the resolution where the head tells it.
+        """Open the line, read the type, and compare the resolution if the head reports it.
 
-        :raises DeviceError: with what is wrong and what to check
+        :raises DeviceError: with the error and what to check
         """
         with self._lock:
             self._line.open()
@@ -97,8 +98,8 @@ class SikoHead(Readout):
         """The head's present value in mm.
 
         :raises DeviceFault: the head reports that it cannot measure
-        :raises GarbledReply: no proper reply, or no two that agree
-        :raises LinkLost: nothing answers
+        :raises GarbledReply: there was no valid reply, or no two that agree
+        :raises LinkLost: there is no answer
         """
         with self._lock:
             counts = [self._position()]
@@ -133,7 +134,7 @@ class SikoHead(Readout):
         return self._retried(lambda: self._exchange(command))
 
     def _prepare(self) -> None:
-        """A late reply must not answer the next question."""
+        """Ensure that a late reply does not answer the next request."""
         self._line.drain(max(0.0, self._free_from_s - time.monotonic()))
 
     def _has_failed(self) -> None:
@@ -203,7 +204,7 @@ def with_check_byte(telegram: bytes) -> bytes:
 
 
 def in_words(data: bytes) -> str:
-    """What was sent or came, for whoever reads a wire log."""
+    """The meaning of sent or received bytes, for readers of a wire log."""
     if len(data) not in (_SHORT_LENGTH, _LONG_LENGTH) or with_check_byte(data[:-1]) != data:
         return f"bytes {data.hex(' ')}"
     command = _COMMANDS.get(data[1], f"command {data[1]:02X}h")

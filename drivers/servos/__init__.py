@@ -1,4 +1,4 @@
-"""Servo drives, one family a module."""
+"""Servo drives, one family per module."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ SERVOS: Mapping[str, ServoDriver[Any]] = {
     "leadshine-el7": leadshine_el7.DRIVER,
     "orientalmotor": orientalmotor_blvr.DRIVER,
 }
-"""By `[servo] profile` of the station file."""
+"""Drivers by `[servo] profile` of the station file."""
 
 __all__ = [
     "SERVOS",

@@ -1,4 +1,4 @@
-"""What every servo drive is asked, whoever made it: angles and speeds in its units, and refusals in words."""
+"""Common commands of all servo drives: angles and speeds in their units, and refusals in words."""
 
 from __future__ import annotations
 
@@ -14,20 +14,20 @@ _RPM_PER_DEG_S = 1 / 6
 
 @dataclass(frozen=True, slots=True)
 class JointCommands:
-    """Of one axis whose drive counts signed 32-bit pulses and can declare its own zero only."""
+    """Commands for one axis whose drive counts signed 32-bit pulses and can only declare its own zero."""
 
     name: str
     scaling: JointScaling
     max_rpm: int
-    """Of the motor."""
+    """Maximum speed of the motor."""
 
     @property
     def title(self) -> str:
-        """The axis at the beginning of a sentence."""
+        """Name of the axis for the beginning of a sentence."""
         return self.name[:1].upper() + self.name[1:]
 
     def pulses(self, theta_deg: float) -> int:
-        """:raises DeviceFault: not a number, or more pulses than the drive counts"""
+        """:raises DeviceFault: the angle is not a number, or has more pulses than the drive can count"""
         if not math.isfinite(theta_deg):
             raise DeviceFault(f"{self.title} was asked to move to {theta_deg}.")
         pulses = self.scaling.to_pulses(theta_deg)
@@ -40,7 +40,7 @@ class JointCommands:
     def rpm(self, speed_deg_s: float) -> int:
         """Motor speed: link speed times gear ratio, deg/s to revolutions per minute.
 
-        :raises DeviceFault: none at all, or faster than the motor
+        :raises DeviceFault: the speed is zero, or higher than that of the motor
         """
         rpm = speed_deg_s * self.scaling.ratio * _RPM_PER_DEG_S
         if not 0 < rpm <= self.max_rpm:
@@ -49,12 +49,12 @@ class JointCommands:
         return max(1, round(rpm))
 
     def refuse_on_alarm(self, status: AxisStatus) -> None:
-        """:raises DeviceFault: an alarm stands"""
+        """:raises DeviceFault: an alarm is active"""
         if status.alarm is not None:
             raise DeviceFault(f"{self.title} shows alarm {status.alarm:X}h; find its cause, then reset it.")
 
     def check_zero_angle(self, theta_deg: float) -> None:
-        """:raises DeviceFault: another angle than that of the drive's zero, by more than half a pulse"""
+        """:raises DeviceFault: the angle differs from that of the drive's zero by more than half a pulse"""
         if abs(theta_deg - self.scaling.zero_at_deg) * self.scaling.pulses_per_deg > 0.5:
             raise DeviceFault(
                 f"{self.title} can only be declared to stand at {self.scaling.zero_at_deg:g} deg,"

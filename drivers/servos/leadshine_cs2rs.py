@@ -1,7 +1,7 @@
 """Leadshine CS2RS and iEM-RS integrated steppers in PR mode: as EL7-RS, with other registers.
 
-They are switched on by a register of their own, tell "enabled" and "fault" in the motion status 1003h, and
-need neither a control mode nor functions of outputs.
+They are switched on by a separate register, report "enabled" and "fault" in the motion status 1003h, and need
+neither a control mode nor functions of outputs.
 """
 
 from __future__ import annotations

@@ -1,8 +1,8 @@
 """Leadshine EL7-RS servo drives in PR mode (positioning by register writes) on a `ModbusBus`.
 
-Registers are from the EL7-RS manual and field projects with it; the status register 0B05h is taken
-to have the bit layout documented for 1003h of the maker's CS2RS family.  32-bit values are high
-word first.  A move is one frame: the path-0 block 6200h..6207h, whose last word is the trigger.
+Registers are from the EL7-RS manual and field projects with it; the status register 0B05h is assumed to have
+the bit layout documented for 1003h of the maker's CS2RS family.  32-bit values are high word first.  A move
+is one frame: the path-0 block 6200h..6207h, whose last word is the trigger.
 """
 
 from __future__ import annotations
@@ -67,13 +67,13 @@ class LeadshineSettings(DriverSettings):
 
 @dataclass(frozen=True, slots=True)
 class FamilyRegisters:
-    """Where the maker's families differ."""
+    """Differences between the maker's families."""
 
     motion_status: int
     alarm: int
     alarm_reset: int
     switch_on: tuple[int, int]
-    """Where it is switched on, and what is written there."""
+    """Register and value that switch it on."""
 
 
 class LeadshineEL7(OnBus):
@@ -88,14 +88,14 @@ class LeadshineEL7(OnBus):
 
     @classmethod
     def on_line(cls, settings: LeadshineSettings, drives: Sequence[Drive]) -> tuple[Self, ...]:
-        """One axis a drive; nothing is opened yet.  :raises BadUrl:"""
+        """One axis per drive; nothing is opened yet. :raises BadUrl:"""
         bus = ModbusBus(settings.url, timeout_s=settings.timeout_s)
         return tuple(cls(bus, drive.unit, drive.scaling, name=drive.name) for drive in drives)
 
     def connect(self) -> None:
-        """Open the line, check that the drive is in PR mode, learn which output says "servo on".
+        """Open the line, check that the drive is in PR mode, and find the output for "servo on".
 
-        :raises DeviceError: with what is wrong and what to check
+        :raises DeviceError: with the error and what to check
         """
         self._target_pulses = None
         self._bus.open(self)
@@ -106,7 +106,7 @@ class LeadshineEL7(OnBus):
             raise
 
     def _check_settings(self) -> None:
-        """Right after the line was opened.  :raises DeviceError: with what is wrong and what to check"""
+        """Check directly after opening the line. :raises DeviceError: with the error and what to check"""
         mode = self._read(CONTROL_MODE)
         if mode != MODE_PR:
             raise DeviceFault(
@@ -123,7 +123,7 @@ class LeadshineEL7(OnBus):
         self._alarm_bit = 1 << functions.index(OUTPUT_IS_ALARM) if OUTPUT_IS_ALARM in functions else 0
 
     def _enabled_and_alarmed(self, motion: MotionStatus) -> tuple[bool, bool]:
-        """From the motion status, and from the outputs where they say it."""
+        """Read from the motion status, and from the outputs if they contain it."""
         outputs = self._read(OUTPUT_STATUS)
         alarmed = MotionStatus.FAULT in motion or bool(outputs & self._alarm_bit)
         return bool(outputs & self._servo_on_bit), alarmed
@@ -132,13 +132,13 @@ class LeadshineEL7(OnBus):
         self._bus.release(self)
 
     def enable(self) -> None:
-        """Power the axis and wait until it says so.
+        """Power the axis and wait until it confirms.
 
-        :raises DeviceFault: an alarm stands, or the drive does not switch on in time
-        :raises LinkLost: no reply
+        :raises DeviceFault: an alarm is active, or the drive does not switch on in time
+        :raises LinkLost: there is no reply
         """
         self._commands.refuse_on_alarm(self.status())
-        with suppress(UnansweredWrite):  # the wait below finds out whether it took
+        with suppress(UnansweredWrite):  # the wait below determines whether it was accepted
             self._bus.write_one(self._unit, *self._registers.switch_on)
         deadline_s = time.monotonic() + _ENABLE_TIMEOUT_S
         while not (status := self.status()).enabled:
@@ -152,9 +152,10 @@ class LeadshineEL7(OnBus):
     def move_to(self, theta_deg: float, speed_deg_s: float) -> None:
         """Start an absolute move and return at once (one frame on the wire).
 
-        It is sent again, once, only where its reply is missing and the drive does not hold its target.
+        It is sent again, once, only if its reply is missing and the drive does not have its target.
 
-        :raises DeviceFault: not enabled, in alarm, out of range, refused, or overtaken by a stop
+        :raises DeviceFault: the axis is not enabled or in alarm, or the move is out of range, refused, or
+        overtaken by a stop
         :raises LinkLost: the reply is missing and the state read back does not show the move
         """
         asked_at = self._bus.stops
@@ -196,10 +197,10 @@ class LeadshineEL7(OnBus):
     def reset_alarm(self) -> None:
         """Clear the present alarm.
 
-        :raises DeviceFault: it stays
-        :raises LinkLost: no reply
+        :raises DeviceFault: it remains
+        :raises LinkLost: there is no reply
         """
-        with suppress(UnansweredWrite):  # the alarm register tells
+        with suppress(UnansweredWrite):  # the alarm register shows the result
             self._bus.write_one(self._unit, self._registers.alarm_reset, RESET_PRESENT_ALARM)
         self._wait_for_reset()
 
@@ -207,17 +208,17 @@ class LeadshineEL7(OnBus):
         self._write_stop(TRIGGER, QUICK_STOP, look_at=self._registers.motion_status)
 
     def preset(self, theta_deg: float) -> None:
-        """Declare the present place to be `theta_deg`.
+        """Declare the present position to be `theta_deg`.
 
-        The drive can only declare its zero, so `theta_deg` must be the joint's `zero_at_deg`
-        (within half a pulse): move to where the arm truly stands at that angle, then preset.
+        The drive can only declare its zero, so `theta_deg` must be the joint's `zero_at_deg` (within half a
+        pulse): move the arm to that true angle, then preset.
 
-        :raises DeviceFault: another angle, moving, or read back different
-        :raises LinkLost: no reply
+        :raises DeviceFault: the angle is another, the axis moves, or the value reads back different
+        :raises LinkLost: there is no reply
         """
         self._commands.check_zero_angle(theta_deg)
         self._commands.refuse_while_moving(self.status())
-        with suppress(UnansweredWrite):  # the position read back tells
+        with suppress(UnansweredWrite):  # the position read back shows the result
             self._bus.write_one(self._unit, TRIGGER, DECLARE_ZERO)
         self._check_zero_taken()
 
@@ -228,7 +229,7 @@ class LeadshineEL7(OnBus):
         return values_of(self._bus.read(self._unit, FEEDBACK, 2))[0]
 
     def _holds_target(self, target: int) -> bool:
-        """After a lost reply: whether the drive got the move."""
+        """Whether the drive received the move, after a lost reply."""
         return values_of(self._bus.read(self._unit, PATH_0 + 1, 2)) == [target]
 
     def _runs_or_stands_at(self, target: int) -> bool:

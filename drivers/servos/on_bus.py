@@ -1,4 +1,4 @@
-"""What every drive on a Modbus line has in common, whatever its registers are."""
+"""The common base of all drives on a Modbus line, independent of their registers."""
 
 from __future__ import annotations
 
@@ -18,11 +18,11 @@ _IN_POSITION_PULSES = 20
 _RESET_TIMEOUT_S = 1.0
 POLL_S = 0.01
 _BUDGET_S = 0.4
-"""For one repetition: while a sensor is asked in motion, nothing else is watched."""
+"""Time limit for one repetition: while a sensor is queried in motion, nothing else is monitored."""
 
 
 class OnBus(OnLine, ABC):
-    """A drive on a bus; also a `RegisterReader` for what else is on it."""
+    """A drive on a bus; also a `RegisterReader` for other units on it."""
 
     def __init__(self, bus: ModbusBus, unit: int, scaling: JointScaling, *, name: str) -> None:
         super().__init__(bus.line)
@@ -32,7 +32,7 @@ class OnBus(OnLine, ABC):
         self._name = name
         self._commands = JointCommands(name, scaling, _MAX_RPM)
         self._target_pulses: int | None = None
-        """Of the latest move; None before it, and after a stop or a preset."""
+        """Target of the latest move; None before it, and after a stop or a preset."""
 
     @property
     def name(self) -> str:
@@ -40,7 +40,7 @@ class OnBus(OnLine, ABC):
 
     @abstractmethod
     def status(self) -> AxisStatus:
-        """One look at the drive; in position means: at the target of this object's latest move.
+        """The state of the drive; in position means: at the target of this object's latest move.
 
         :raises DeviceError:
         """
@@ -54,7 +54,7 @@ class OnBus(OnLine, ABC):
 
     @abstractmethod
     def _feedback_pulses(self) -> int:
-        """Where the encoder says that the motor stands."""
+        """Position of the motor by the encoder."""
 
     def feedback_deg(self) -> float:
         """The encoder's joint angle.  :raises DeviceError:"""
@@ -70,14 +70,14 @@ class OnBus(OnLine, ABC):
         return self._bus.read(unit, address, 1, budget_s=_BUDGET_S)[0]
 
     def _check_ready(self) -> None:
-        """Before a move.  :raises DeviceFault: an alarm stands, or the axis is not powered"""
+        """Check before a move. :raises DeviceFault: an alarm is active, or the axis is not powered"""
         status = self.status()
         self._commands.refuse_on_alarm(status)
         if not status.enabled:
             raise DeviceFault(f"{self._commands.title} is not switched on.")
 
     def _wait_for_reset(self) -> None:
-        """:raises DeviceFault: the alarm stays"""
+        """:raises DeviceFault: the alarm remains"""
         deadline_s = time.monotonic() + _RESET_TIMEOUT_S
         while (status := self.status()).alarm is not None:
             if time.monotonic() > deadline_s:
@@ -96,7 +96,7 @@ class OnBus(OnLine, ABC):
             ) from error
 
     def _check_zero_taken(self) -> None:
-        """After a preset.  :raises DeviceFault: the drive does not stand at its zero"""
+        """Check after a preset. :raises DeviceFault: the drive is not at its zero"""
         self._target_pulses = None
         pulses = self._feedback_pulses()
         if abs(pulses) > _IN_POSITION_PULSES:
@@ -108,6 +108,6 @@ class OnBus(OnLine, ABC):
         return abs(self._feedback_pulses() - target) <= _IN_POSITION_PULSES
 
     def _is_at_target(self) -> bool:
-        """What the drive says of itself may still be of the move before."""
-        target = self._target_pulses  # a stop may take it away meanwhile
+        """Checked against the target: the drive's own status may still be that of the previous move."""
+        target = self._target_pulses  # a stop may clear it meanwhile
         return target is not None and self._stands_at(target)

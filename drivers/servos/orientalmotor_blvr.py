@@ -1,9 +1,9 @@
 """Oriental Motor BLV-R drives in direct data operation on a `ModbusBus` (function manual HP-5142-6).
 
-Every item is 32 bits in two registers, upper half first, written together.  A move is one frame: the
-direct data 0058h..0067h, whose last item is the trigger.  Input bits are held by level, so a stop holds
-until the next move takes it back.  The drive has a communication watchdog: it is set, read back and fed, so
-a station that died or froze leaves the motor at standstill.
+Every item is 32 bits in two registers, upper half first, written together.  A move is one frame: the direct
+data 0058h..0067h, whose last item is the trigger.  Input bits act by level, so a stop is active until the
+next move clears it. The drive has a communication watchdog: it is set, read back and fed, so the motor stops
+if the station dies or freezes.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ class OrientalMotorBLVR(OnBus):
 
     @classmethod
     def on_line(cls, settings: OrientalMotorSettings, drives: Sequence[Drive]) -> tuple[Self, ...]:
-        """One axis a drive; nothing is opened yet.  :raises BadUrl:"""
+        """One axis per drive; nothing is opened yet. :raises BadUrl:"""
         bus = ModbusBus(settings.url, timeout_s=settings.timeout_s)
         return tuple(
             cls(bus, drive.unit, drive.scaling, name=drive.name, watchdog_ms=settings.watchdog_ms)
@@ -83,11 +83,11 @@ class OrientalMotorBLVR(OnBus):
     def connect(self) -> None:
         """Open the line, compare the resolution, set the watchdog and begin to feed it.
 
-        :raises DeviceError: with what is wrong and what to check
+        :raises DeviceError: with the error and what to check
         """
         self.close()
         self._target_pulses = None
-        self._stop_is_held = True  # whoever spoke to the drive before may have left it so
+        self._stop_is_held = True  # an earlier user of the drive may have left it active
         self._bus.open(self)
         try:
             numerator, denominator = values_of(self._bus.read(self._unit, RESOLUTION, 4))
@@ -105,7 +105,7 @@ class OrientalMotorBLVR(OnBus):
             self._feeder = _Feeder(self._feed, lambda: self._bus.silent_s(self._unit), period_s, self._name)
 
     def close(self) -> None:
-        """A drive that is no longer spoken to must not raise an alarm for that."""
+        """Close without an alarm: the drive's watchdog must not trip because communication ended."""
         if self._feeder is not None:
             self._feeder.close()
             self._feeder = None
@@ -114,13 +114,13 @@ class OrientalMotorBLVR(OnBus):
         self._bus.release(self)
 
     def enable(self) -> None:
-        """Power the axis and wait until it takes moves.
+        """Power the axis and wait until it accepts moves.
 
-        :raises DeviceFault: an alarm stands, its position is not known, or it does not switch on in time
-        :raises LinkLost: no reply
+        :raises DeviceFault: an alarm is active, its position is unknown, or it does not switch on in time
+        :raises LinkLost: there is no reply
         """
         self._commands.refuse_on_alarm(self.status())
-        with suppress(UnansweredWrite):  # the wait below finds out whether it took
+        with suppress(UnansweredWrite):  # the wait below determines whether it was accepted
             self._write(INPUTS, SERVO_ON)
         self._stop_is_held = False
         deadline_s = time.monotonic() + _ENABLE_TIMEOUT_S
@@ -139,9 +139,10 @@ class OrientalMotorBLVR(OnBus):
     def move_to(self, theta_deg: float, speed_deg_s: float) -> None:
         """Start an absolute move and return at once (one frame on the wire).
 
-        It is sent again, once, only where its reply is missing and the drive does not hold its target.
+        It is sent again, once, only if its reply is missing and the drive does not have its target.
 
-        :raises DeviceFault: not enabled, in alarm, out of range, refused, or overtaken by a stop
+        :raises DeviceFault: the axis is not enabled or in alarm, or the move is out of range, refused, or
+        overtaken by a stop
         :raises LinkLost: the reply is missing and the state read back does not show the move
         """
         asked_at = self._bus.stops
@@ -177,14 +178,14 @@ class OrientalMotorBLVR(OnBus):
     def reset_alarm(self) -> None:
         """Clear the present alarm.
 
-        :raises DeviceFault: it stays
-        :raises LinkLost: no reply
+        :raises DeviceFault: it remains
+        :raises LinkLost: there is no reply
         """
         self._edge(ALARM_RESET)
         self._wait_for_reset()
 
     def quick_stop(self) -> None:
-        """Stop now, ahead of any queued request on the line; the stop is held until the next move.
+        """Stop now, ahead of any queued request on the line; the stop is active until the next move.
 
         :raises DeviceError: no attempt was confirmed
         """
@@ -192,10 +193,10 @@ class OrientalMotorBLVR(OnBus):
         self._write_stop(INPUTS, words_of(SERVO_ON | QUICK_STOP), look_at=OUTPUTS)
 
     def preset(self, theta_deg: float) -> None:
-        """Declare the present place to be `theta_deg`, which must be the joint's `zero_at_deg`.
+        """Declare the present position to be `theta_deg`, which must be the joint's `zero_at_deg`.
 
-        :raises DeviceFault: another angle, moving, or read back different
-        :raises LinkLost: no reply
+        :raises DeviceFault: the angle is another, the axis moves, or the value reads back different
+        :raises LinkLost: there is no reply
         """
         self._commands.check_zero_angle(theta_deg)
         self._commands.refuse_while_moving(self.status())
@@ -203,8 +204,8 @@ class OrientalMotorBLVR(OnBus):
         self._check_zero_taken()
 
     def _set_watchdog(self, timeout_ms: int) -> None:
-        """:raises DeviceFault: the drive did not take it"""
-        with suppress(UnansweredWrite):  # what is read back decides
+        """:raises DeviceFault: the drive did not accept it"""
+        with suppress(UnansweredWrite):  # the value read back decides
             self._write(WATCHDOG, timeout_ms)
         if (set_ms := self._read(WATCHDOG)) != timeout_ms:
             raise DeviceFault(
@@ -212,7 +213,7 @@ class OrientalMotorBLVR(OnBus):
             )
 
     def _feed(self) -> None:
-        with suppress(DeviceError):  # whoever works with the drive finds out
+        with suppress(DeviceError):  # the user of the drive will detect it
             self._outputs()
 
     def _outputs(self) -> Output:
@@ -226,7 +227,7 @@ class OrientalMotorBLVR(OnBus):
         self._bus.write(self._unit, address, words_of(value), stops_seen=self._bus.stops)
 
     def _edge(self, address: int) -> None:
-        """Maintenance commands act on the change from 0 to 1; what is read back afterwards decides."""
+        """Maintenance commands act on the change from 0 to 1; the value read back afterwards decides."""
         for value in (0, 1):
             with suppress(UnansweredWrite):
                 self._write(address, value)
@@ -236,9 +237,9 @@ class OrientalMotorBLVR(OnBus):
 
 
 class _Feeder:
-    """Speaks to a drive often enough for its watchdog, until closed; dies and freezes with the process.
+    """Sends to a drive often enough for its watchdog, until closed; stops and freezes with the process.
 
-    Whoever works with the drive feeds it as well: it is spoken to only after it has been left alone.
+    Other requests to the drive feed it as well: this sends only after a pause without requests.
     """
 
     def __init__(

@@ -1,4 +1,4 @@
-"""Signed 32-bit values in pairs of registers, high word first, as both drive families keep them."""
+"""Signed 32-bit values in pairs of registers, high word first, as in both drive families."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The certificate of one run: one A4 page as HTML and PDF, and JSON, signed and checked."""
+"""The certificate of one run: one A4 page as HTML and PDF, and JSON, with signature and verification."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""What a reading of the scale is uncertain by: each contribution as the GUM wants it (GUM, 4 and 5.1).
+"""The uncertainty budget of a scale reading, with each contribution after the GUM (GUM, 4 and 5.1).
 
-The zero offsets get the scatter of the readings, and the tolerances of geometry and mounting, through the
-identification; this table says how good the readings are that it rests on.
+The identification propagates the scatter of the readings, and the tolerances of geometry and mounting, to the
+zero offsets; this table states the quality of the readings that it uses.
 """
 
 from __future__ import annotations
@@ -29,15 +29,15 @@ class Contribution(Record):
     evaluation: Literal["A", "B"]
     distribution: Distribution
     standard_um: float
-    """Standard uncertainty; of the correction to 20 degrees, which is not applied, its size."""
+    """Standard uncertainty; for the correction to 20 degrees, which is not applied, its size."""
     detail: dict[str, float]
-    """What it was computed from."""
+    """The data it was computed from."""
 
 
 def reading_budget(readings: Sequence[Reading], scale: ScaleCertificate | None) -> tuple[Contribution, ...]:
-    """Of one reading over the travel that was used; empty without readings.
+    """The budget of one reading over the travel used; empty without readings.
 
-    :param scale: None: only what the readings show is stated
+    :param scale: None: only contributions shown by the readings are stated
     """
     if not readings:
         return ()
@@ -71,7 +71,7 @@ def reading_budget(readings: Sequence[Reading], scale: ScaleCertificate | None) 
 
 
 def _repeatability(readings: Sequence[Reading]) -> list[Contribution]:
-    """Pooled over the readings: the samples of one of them were taken at rest (GUM, 4.2.4)."""
+    """Pooled over the readings: the samples of each were taken at standstill (GUM, 4.2.4)."""
     several = [np.array(reading.samples_mm) for reading in readings if len(reading.samples_mm) > 1]
     if not several:
         return []

@@ -1,4 +1,4 @@
-"""The certificate as JSON: what it states, the page that shows it, and the signature over both."""
+"""The certificate as JSON: its statements, the page that shows it, and the signature over both."""
 
 from __future__ import annotations
 
@@ -21,13 +21,13 @@ class PrintedLine(Record):
 
 
 class Page(Record):
-    """What one page shows."""
+    """The content of one page."""
 
     format: Literal["html", "pdf"]
     language: Language
     lines: tuple[PrintedLine, ...]
     sha256: str
-    """Of the page without this document."""
+    """Hash of the page without this document."""
 
 
 class CertificateDocument(Record):
@@ -37,17 +37,17 @@ class CertificateDocument(Record):
     page: Page | None = None
     """None in `certificate.json`."""
     digests: dict[str, str]
-    """Of every field of `certificate` and `page`."""
+    """Digests of every field of `certificate` and `page`."""
     signature: Signature
 
 
 def signed(facts: CertificateFacts, page: Page | None, key: Ed25519PrivateKey) -> CertificateDocument:
-    """Everything that is stated, with its signature."""
+    """All statements, with their signature."""
     digests = stated_digests(facts, page)
     return CertificateDocument(certificate=facts, page=page, digests=digests, signature=sign(key, digests))
 
 
 def stated_digests(facts: CertificateFacts, page: Page | None) -> dict[str, str]:
-    """As they have to be."""
+    """The correct digests of the statements."""
     fields = facts.model_dump(mode="json")
     return digests_of(fields if page is None else {**fields, "page": page.model_dump(mode="json")})

@@ -1,4 +1,4 @@
-"""What a certificate states, as data: taken from the record of one run, whatever its plan."""
+"""The statements of a certificate, as data: taken from the record of one run, whatever its plan."""
 
 from __future__ import annotations
 
@@ -39,20 +39,20 @@ class ExpandedQuantity(Record):
 
 
 class EffectFound(Record):
-    """An effect that the plain model lacked."""
+    """An effect that the base model lacked."""
 
     label: str
-    """As the diagnosis labels it: `backlash of joint 1`."""
+    """Label in the diagnosis: `backlash of joint 1`."""
     parameters: tuple[ExpandedQuantity, ...]
     probability: float | None
     remedy: str
 
 
 class PositionErrorStated(Record):
-    """Over the workspace, mm."""
+    """Position error over the workspace, mm."""
 
     before_max_mm: float | None
-    """Largest, as expected with the zeros that the drives had."""
+    """Largest expected error with the previous zeros of the drives."""
     bound_95_mm: float | None
     """With 95 % probability no position error is larger, with the zeros in the drives."""
     wanted_mm: float | None
@@ -61,7 +61,7 @@ class PositionErrorStated(Record):
 
 
 class Statement(Record):
-    """What the run says of the robot."""
+    """The result of the run for the robot."""
 
     verdict: Verdict | None
     outcome: Outcome | None
@@ -71,20 +71,20 @@ class Statement(Record):
 
 
 class ZerosInDrives(Record):
-    """What the drives held of the zero offsets when the certificate was issued."""
+    """The state of the zero offsets in the drives when the certificate was issued."""
 
     state: str
     verified: bool
     run: int | None
-    """The last run that wrote or took back zeros."""
+    """The last run that wrote or restored zeros."""
 
 
 class ChainedRecord(Record):
-    """Everything that is kept of the run, and its link in the chain of records."""
+    """The stored record of the run, and its link in the chain of records."""
 
     fields: dict[str, JsonValue]
     previous: str
-    """Hash of the run that ended before."""
+    """Hash of the run that ended before it."""
     hash: str
     """SHA-256 of `previous` and the canonical JSON (RFC 8785) of `fields`."""
 
@@ -115,7 +115,7 @@ class CertificateFacts(Record):
     method: str | None
     references: tuple[ReferenceUse, ...]
     reading_budget: tuple[Contribution, ...]
-    """Of one reading of the scale, um."""
+    """Uncertainty budget of one reading of the scale, um."""
     made_by: MadeBy | None
     error_map: ErrorMap | None
     record: ChainedRecord | None
@@ -125,12 +125,12 @@ class CertificateFacts(Record):
 def facts_of(
     store: Store, run: int, issued_at: datetime, joints: Sequence[JointSettings]
 ) -> CertificateFacts:
-    """From the record alone.
+    """The facts, from the record alone.
 
-    :param joints: how far each may be sent, for the map
+    :param joints: range of the commands of each joint, for the map
 
     :raises NotFound: no such run.
-    :raises NotApplicable: it has not ended, or it says nothing of a robot.
+    :raises NotApplicable: it has not ended, or it does not judge a robot.
     """
     calibration = store.calibration(run)
     if not calibration.state.ended:

@@ -1,4 +1,4 @@
-"""The certificate as one HTML page that needs nothing but itself and prints on one A4 sheet."""
+"""The certificate as one self-contained HTML page that prints on one A4 sheet."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ _END = "</body>"
 
 
 def html_page(sheet: Sheet, facts: CertificateFacts) -> str:
-    """Without the document."""
-    from station.certificate.qr import modules  # here, as the libraries for PDF: it is a part of one
+    """The page without the document."""
+    from station.certificate.qr import modules  # imported here, as for PDF: it is a part of that library
 
     drawing = drawing_of(facts.error_map) if facts.error_map else None
     side, dark = modules(facts.robot_serial)
@@ -37,18 +37,18 @@ def html_page(sheet: Sheet, facts: CertificateFacts) -> str:
 
 
 def html_sha256(bare: str) -> str:
-    """Of a page without the document."""
+    """Hash of a page without the document."""
     return hashlib.sha256(bare.encode()).hexdigest()
 
 
 def with_document(bare: str, document: str) -> str:
-    """The document stands at the end, where no browser runs or shows it."""
+    """The page with the document at its end, where no browser executes or shows it."""
     before, _, after = bare.rpartition(_END)
     return f"{before}{_OPEN}{document.replace('</', '<' + chr(92) + '/')}{_CLOSE}{_END}{after}"
 
 
 def split_document(page: str) -> tuple[str, str] | None:
-    """The page without the document, and the document; None where there is none."""
+    """The page without the document, and the document; None if there is none."""
     before, opened, rest = page.rpartition(_OPEN)
     document, closed, after = rest.partition(_CLOSE)
     if not (opened and closed):

@@ -1,4 +1,4 @@
-"""A certificate in the form that is asked for."""
+"""A certificate in the requested format."""
 
 from __future__ import annotations
 
@@ -44,11 +44,11 @@ def issue(
     joints: Sequence[JointSettings],
     language: Language = "en",
 ) -> Issued:
-    """The certificate of a run, made anew from its record and signed.
+    """The certificate of a run, generated from its record and signed.
 
-    :param joints: how far each may be sent, for the map
+    :param joints: range of the commands of each joint, for the map
     :raises NotFound: no such run.
-    :raises NotApplicable: there is nothing to certify; says why.
+    :raises NotApplicable: there is nothing to certify; the error states why.
     :raises InputRefused: the station's key cannot be used.
     """
     facts = facts_of(store, run, datetime.now(UTC).replace(microsecond=0), joints)
@@ -62,7 +62,7 @@ def issue(
             page = _page("html", sheet, html_sha256(bare))
             content = with_document(bare, _json(signed(facts, page, key)).decode()).encode()
         else:
-            # here, because libraries for PDF take a second to load and only this needs them
+            # imported here, because libraries for PDF take a second to load and only this needs them
             from station.certificate.pdf import content_sha256, pdf_page, with_attachment
 
             printed = pdf_page(sheet, facts)

@@ -1,8 +1,8 @@
 """The error maps as rectangles of one colour scale, for HTML and PDF alike.
 
-The colours go from dark to light in even steps of lightness (Viridis), so that they are told apart in grey
-and by the colour-blind; classes are evenly spaced in the logarithm, since before and after may differ a
-hundredfold.
+The colours go from dark to light in even steps of lightness (Viridis), so that they are distinguishable in
+grey and by colour-blind readers; classes are evenly spaced in the logarithm, since before and after may
+differ a hundredfold.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ COLOURS = (
 
 @dataclass(frozen=True, slots=True)
 class Cell:
-    """A rectangle of one colour; all between 0 and 1, y upward."""
+    """A rectangle of one colour; all coordinates between 0 and 1, y upward."""
 
     x: float
     y: float
@@ -42,18 +42,18 @@ class Drawing:
     after: tuple[Cell, ...]
     bound: tuple[Cell, ...]
     fresh: tuple[tuple[float, float], ...]
-    """Where fresh readings stood, between 0 and 1."""
+    """Positions of fresh readings, between 0 and 1."""
     edges_mm: tuple[float, ...]
-    """Of the classes, one more than there are colours."""
+    """Edges of the classes, one more than there are colours."""
 
     @property
     def maps(self) -> tuple[tuple[Cell, ...], ...]:
-        """In the order in which they are shown."""
+        """Maps in the order in which they are shown."""
         return self.before, self.after, self.bound
 
 
 def drawing_of(errors: ErrorMap) -> Drawing | None:
-    """None where the map has no value that can be drawn."""
+    """The drawing; None if the map has no value to draw."""
     grids = [_array(grid) for grid in (errors.before_mm, errors.after_mm, errors.after_95_mm)]
     values = np.concatenate([grid[np.isfinite(grid) & (grid > 0)] for grid in grids])
     if not len(values):
@@ -76,7 +76,7 @@ def drawing_of(errors: ErrorMap) -> Drawing | None:
 
 
 def significant(value_mm: float) -> int:
-    """Decimals that show two significant digits."""
+    """Number of decimals for two significant digits."""
     return max(0, 1 - math.floor(math.log10(value_mm))) if value_mm > 0 else 0
 
 

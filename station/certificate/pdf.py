@@ -31,11 +31,11 @@ _WIDTH, _HEIGHT = A4
 _MARGIN = 14 * mm
 _GAP = 6 * mm
 _SIZES = (9.0, 8.4, 7.8, 7.2, 6.6, 6.0)
-"""Of the text; the largest with which everything fits on the page."""
+"""Text sizes; the largest is used with which everything fits on the page."""
 _LABEL_SHARE = 0.42
 _QR = 20 * mm
 _LONG_WORD = 30
-"""Characters without a blank, above which a text is broken anywhere: a hash."""
+"""Number of characters without a blank above which a text is broken anywhere: a hash."""
 _INK, _QUIET = HexColor("#111111"), HexColor("#444444")
 
 
@@ -44,7 +44,7 @@ CHINESE_FONTS = (Path("/usr/share/fonts/truetype/wqy/wqy-microhei.ttc"),)
 
 
 def _fonts(language: Language) -> tuple[str, str]:
-    """Text and heading, embedded; for Chinese without such a font, the reader brings its own glyphs."""
+    """Fonts for text and heading, embedded; for Chinese without such a font, the reader's own are used."""
     if language == "zh":
         found = next((file for file in CHINESE_FONTS if file.is_file()), None)
         font = TTFont("Chinese", found) if found else UnicodeCIDFont("STSong-Light")  # Adobe-GB1
@@ -57,7 +57,7 @@ def _fonts(language: Language) -> tuple[str, str]:
 
 
 def pdf_page(sheet: Sheet, facts: CertificateFacts) -> bytes:
-    """Without the document."""
+    """The PDF without the document."""
     for size in _SIZES:
         out = BytesIO()
         canvas = Canvas(out, pagesize=A4, invariant=True, lang=sheet.language)
@@ -72,7 +72,7 @@ def pdf_page(sheet: Sheet, facts: CertificateFacts) -> bytes:
 
 
 class _Layout:
-    """Draws from the top down; `draw` says whether all of it found room."""
+    """Draws from the top down; `draw` returns whether everything fitted."""
 
     def __init__(
         self, canvas: Canvas, sheet: Sheet, serial: str, drawing: Drawing | None, size: float
@@ -193,7 +193,7 @@ def _balanced(blocks: tuple[Block, ...]) -> tuple[tuple[Block, ...], tuple[Block
 
 
 def content_sha256(pdf: bytes) -> str:
-    """Of everything that is drawn on the pages."""
+    """Hash of everything that is drawn on the pages."""
     digest = hashlib.sha256()
     for page in PdfReader(BytesIO(pdf)).pages:
         contents = page.get_contents()
@@ -203,9 +203,9 @@ def content_sha256(pdf: bytes) -> str:
 
 
 def attached(pdf: bytes) -> list[bytes]:
-    """The documents inside.
+    """The attached documents.
 
-    :raises ValueError: it is damaged.
+    :raises ValueError: the file is damaged.
     """
     try:
         return PdfReader(BytesIO(pdf)).attachments.get(ATTACHMENT, [])
@@ -214,12 +214,12 @@ def attached(pdf: bytes) -> list[bytes]:
 
 
 def shown_text(pdf: bytes) -> str:
-    """Everything that is written on the pages."""
+    """All text on the pages."""
     return "".join(page.extract_text() for page in PdfReader(BytesIO(pdf)).pages)
 
 
 def with_attachment(pdf: bytes, document: bytes) -> bytes:
-    """The document travels inside the file."""
+    """The PDF with the document attached."""
     writer = PdfWriter(clone_from=BytesIO(pdf))
     writer.add_attachment(ATTACHMENT, document)
     out = BytesIO()

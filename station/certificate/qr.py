@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from reportlab.graphics.barcode import qrencoder
 
 QUIET = 4
-"""Modules of white around it (ISO/IEC 18004)."""
+"""White margin around it, in modules (ISO/IEC 18004)."""
 
 
 def modules(text: str) -> tuple[int, list[tuple[int, int]]]:

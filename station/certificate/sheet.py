@@ -1,6 +1,6 @@
-"""What the page of a certificate says, line by line, in the reader's language.
+"""The text of a certificate's page, line by line, in the reader's language.
 
-HTML and PDF print the same lines; each names the field of `CertificateFacts` that it says.
+HTML and PDF print the same lines; each names the field of `CertificateFacts` that it states.
 """
 
 from __future__ import annotations
@@ -25,12 +25,12 @@ from station.messages import (
 from station.records import reason_in
 
 MOST_EFFECTS = 4
-"""One page has room for so many; the record has all."""
+"""Maximum number on one page; the record has all."""
 
 
 @dataclass(frozen=True, slots=True)
 class Line:
-    """A label and what is said beside it."""
+    """A label and its text."""
 
     field: str
     label: str
@@ -53,9 +53,9 @@ class Sheet:
     title: str
     statement: Line
     good: bool
-    """Whether the statement is that the robot may be used as it is."""
+    """Whether the statement permits use of the robot as it is."""
     emulated: str
-    """That no real machine was measured; empty where one was."""
+    """Note that no real machine was measured; empty for a real one."""
     blocks: tuple[Block, ...]
     notes: tuple[str, ...]
     """Uncertainty, method, and how to check the certificate."""
@@ -65,7 +65,7 @@ class Sheet:
 
     @property
     def lines(self) -> tuple[Line, ...]:
-        """All that is printed."""
+        """All printed lines."""
         return (self.statement, *(line for block in self.blocks for line in block.lines))
 
 

@@ -1,4 +1,4 @@
-"""Signing what a certificate states, field by field, so that a change is found by the name of the field.
+"""Signature over the statements of a certificate, field by field, so that a change is reported by field name.
 
 The digest of every field is listed, and the list is signed (Ed25519, RFC 8032) with a key that stays in the
 station's home folder.  Digests and signature are made from canonical JSON (RFC 8785).
@@ -30,11 +30,11 @@ from station.records import Record
 
 KEY_FILE = "certificate-key.pem"
 _DIGEST_CHARACTERS = 32
-"""128 bits: nobody finds a second value with the same ones."""
+"""128 bits: a second value with the same digest cannot be found."""
 
 
 class Signature(Record):
-    """Of the list of digests."""
+    """Signature over the list of digests."""
 
     algorithm: str = "Ed25519"
     public_key: str
@@ -44,9 +44,9 @@ class Signature(Record):
 
 
 def signing_key(home: Path) -> Ed25519PrivateKey:
-    """The station's own; made at the first certificate.
+    """The station's own key; made with the first certificate.
 
-    :raises InputRefused: its file cannot be read or written, or holds another kind of key.
+    :raises InputRefused: its file cannot be read or written, or contains another kind of key.
     """
     path = home / KEY_FILE
     try:
@@ -69,7 +69,7 @@ def signing_key(home: Path) -> Ed25519PrivateKey:
 def _make_key(path: Path) -> None:
     path.parent.mkdir(parents=True, exist_ok=True)
     text = Ed25519PrivateKey.generate().private_bytes(Encoding.PEM, PrivateFormat.PKCS8, NoEncryption())
-    # whole or not at all, and never over one that another process made in the meantime
+    # written atomically, and never over one that another process made in the meantime
     part = path.with_name(f"{path.name}.{os.getpid()}")
     with os.fdopen(os.open(part, os.O_WRONLY | os.O_CREAT | os.O_TRUNC, 0o600), "wb") as file:
         file.write(text)
@@ -84,13 +84,13 @@ def _make_key(path: Path) -> None:
 
 
 def public_key_pem(home: Path) -> str:
-    """What others check certificates with."""
+    """The public key for checking certificates."""
     key = signing_key(home).public_key()
     return key.public_bytes(Encoding.PEM, PublicFormat.SubjectPublicKeyInfo).decode()
 
 
 def station_key(home: Path) -> Ed25519PublicKey | None:
-    """The public key of the station at a home folder; None where it has made none.
+    """The public key of the station at a home folder; None if it has made none.
 
     :raises InputRefused: as `signing_key`.
     """
@@ -98,7 +98,7 @@ def station_key(home: Path) -> Ed25519PublicKey | None:
 
 
 def public_key_of(pem: bytes, what: str) -> Ed25519PublicKey:
-    """:raises InputRefused: it is no public key of a station."""
+    """:raises InputRefused: it is not a public key of a station."""
     try:
         key = load_pem_public_key(pem)
     except ValueError as error:
@@ -114,13 +114,13 @@ def raw(key: Ed25519PublicKey) -> str:
 
 
 def sign(key: Ed25519PrivateKey, digests: dict[str, str]) -> Signature:
-    """The list of digests."""
+    """Sign the list of digests."""
     value = key.sign(rfc8785.dumps(dict(digests)))
     return Signature(public_key=raw(key.public_key()), value=base64.b64encode(value).decode())
 
 
 def holds(signature: Signature, digests: dict[str, str]) -> bool:
-    """Whether the list of digests is the one that was signed with the key that the signature names."""
+    """Whether the list of digests was signed with the key in the signature."""
     try:
         key = Ed25519PublicKey.from_public_bytes(base64.b64decode(signature.public_key, validate=True))
         key.verify(base64.b64decode(signature.value, validate=True), rfc8785.dumps(dict(digests)))
@@ -130,12 +130,12 @@ def holds(signature: Signature, digests: dict[str, str]) -> bool:
 
 
 def digests_of(fields: JsonValue) -> dict[str, str]:
-    """By the path of each field, as `zero_offsets[0].value`."""
+    """Digests by the path of each field, as `zero_offsets[0].value`."""
     return {path: _digest(path, value) for path, value in leaves(fields)}
 
 
 def leaves(value: JsonValue, path: str = "") -> Iterator[tuple[str, JsonValue]]:
-    """Every field that holds no other; a list of plain values is one."""
+    """All fields without nested fields; a list of plain values is one."""
     if isinstance(value, dict) and value:
         for name, part in value.items():
             yield from leaves(part, f"{path}.{name}" if path else name)

@@ -1,4 +1,4 @@
-"""Whether a certificate says what the station certified, and what does not hold, by the name of the field."""
+"""Whether a certificate is as the station issued it, and the changed fields by name."""
 
 from __future__ import annotations
 
@@ -22,25 +22,25 @@ from station.store import Store, link_hash
 
 @dataclass(frozen=True, slots=True)
 class Verified:
-    """What became of it."""
+    """The result of a verification."""
 
     number: str
     run: int
     faults: tuple[str, ...]
-    """One sentence each; empty: nothing was changed."""
+    """One sentence for each fault; empty: nothing was changed."""
     by: str
-    """What it was checked against."""
+    """The reference for the verification."""
 
     @property
     def holds(self) -> bool:
-        """Nothing was changed."""
+        """Whether nothing was changed."""
         return not self.faults
 
 
 def verify_certificate(path: Path, store: Store | None, key: Ed25519PublicKey | None) -> Verified:
-    """Check a certificate against the station's history, or without one against its public key.
+    """Check a certificate against the station's history, or its public key if there is no history.
 
-    :raises InputRefused: the file is no certificate, or there is neither history nor key.
+    :raises InputRefused: the file is not a certificate, or there is neither history nor key.
     """
     if store is None and key is None:
         raise InputRefused(
@@ -68,7 +68,7 @@ def verify_certificate(path: Path, store: Store | None, key: Ed25519PublicKey | 
 def _opened(content: bytes, path: Path) -> tuple[str, str, str]:
     """Format, the document inside, and the page around it (HTML)."""
     if content.startswith(b"%PDF"):
-        from station.certificate import pdf  # here, as in `issuing`
+        from station.certificate import pdf  # imported here, as in `issuing`
 
         try:
             documents = pdf.attached(content)
@@ -111,7 +111,7 @@ def _document(fields: dict[str, JsonValue], path: Path) -> CertificateDocument:
 
 
 def _changed(fields: dict[str, JsonValue], document: CertificateDocument) -> Iterator[str]:
-    """Fields as they stand in the file, not as they are understood: 1.0 and 1.00 say the same."""
+    """Changed fields, compared as text in the file: 1.0 and 1.00 have the same meaning but differ here."""
     stated = fields.get("certificate")
     assert isinstance(stated, dict)
     page = fields.get("page")
@@ -133,7 +133,7 @@ def _signed(document: CertificateDocument, key: Ed25519PublicKey | None) -> Iter
 
 
 def _page_changed(form: str, content: bytes, page_text: str, page: Page | None) -> Iterator[str]:
-    """What people read, beside what was signed."""
+    """The differences of the readable text from the signed one."""
     if page is None or page.format != form:
         yield f"page is not that of {form.upper()}: the document inside belongs to another file."
         return
@@ -163,7 +163,7 @@ def _shown_html(text: str) -> dict[str, str]:
 
 
 class _Fields(HTMLParser):
-    """Text by the `data-field` of the element that it stands in."""
+    """Text by the `data-field` of its element."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -185,7 +185,7 @@ class _Fields(HTMLParser):
 
 
 def _bare(text: str) -> str:
-    """Without blanks, which a page may break where it likes."""
+    """The text without blanks, where a page may break lines."""
     return re.sub(r"\s", "", text)
 
 

@@ -1,4 +1,4 @@
-"""The closed loop on one set of readings, with or without fresh ones."""
+"""The closed loop on one set of readings, with or without fresh readings."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ def diagnose(
     fresh: Measurements | None = None,
     context: Context | None = None,
 ) -> AnyDiagnosis:
-    """A five-bar by the set of its explanations, an arm effect by effect.
+    """Diagnose a five-bar with the set of its explanations, and an arm effect by effect.
 
-    :raises MistakeRefused: a five-bar's file with a mistake that can be named.
-    :raises InputRefused: the readings are malformed or not enough to judge, with what is missing.
+    :raises MistakeRefused: a five-bar's file contains a mistake that can be named.
+    :raises InputRefused: the readings are malformed or too few; the error states what is missing.
     """
     if isinstance(robot, Robot):
         return weighed(robot, measurements, fresh, context)

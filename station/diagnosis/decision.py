@@ -1,6 +1,6 @@
 """The decision: the verdict, and the stage that parameters and commands are taken from.
 
-It rests on plain figures of each stage, so that it can be read, and tested, apart from how they came about.
+It uses only plain figures of each stage, so that it can be read and tested separately from their computation.
 """
 
 from __future__ import annotations
@@ -12,19 +12,19 @@ from dataclasses import dataclass
 from station.records import DiagnosisVerdict, Outcome
 
 GOOD_SHARE = 0.5
-"""An effect that takes less of the residual's square than this explains nothing by itself."""
+"""An effect that takes less of the residual's sum of squares than this explains nothing by itself."""
 
 
 @dataclass(frozen=True, slots=True)
 class StageFigures:
-    """What is known of one stage: the base model, or the model after a further effect."""
+    """The figures of one stage: the base model, or the model after a further effect."""
 
     adequate: bool
     """The model fits the readings."""
     fit_ratio: float
     """Mean square of the whitened residual (cost over degrees of freedom)."""
     confirmed: bool | None = None
-    """It predicts fresh readings; None without any."""
+    """Whether it predicts fresh readings; None without any."""
     fresh_rms_mm: float | None = None
     fresh_ratio: float | None = None
     """Mean square of the fresh residuals over their predicted variance."""
@@ -32,24 +32,24 @@ class StageFigures:
 
 @dataclass(frozen=True, slots=True)
 class Decision:
-    """What became of one residual."""
+    """The decision on one residual."""
 
     verdict: DiagnosisVerdict
     confirmed: bool | None
-    """Whether fresh readings confirm what was found; None without any."""
+    """Whether fresh readings confirm the finding; None without any."""
     trusted: int = 0
-    """Index of the stage that parameters and commands are taken from; a set of explanations has its own."""
+    """Index of the stage that parameters and commands are taken from; a set of explanations uses its own."""
     sd_factor: float = 1.0
-    """By which the uncertainty of the trusted stage is multiplied because it does not fit or predict."""
+    """Factor for the uncertainty of the trusted stage where it does not fit or predict."""
 
     @property
     def passed(self) -> bool:
-        """Whether what was found may be relied on: it fits, and nothing speaks against it."""
+        """Whether the finding can be relied on: it fits, and nothing contradicts it."""
         return self.verdict in ("adequate", "explained") and self.confirmed is not False
 
     @property
     def refuted(self) -> bool:
-        """Whether the effects of the last model are no more than an attempt."""
+        """Whether the effects of the last model are only an attempt."""
         if self.verdict == "partly_explained":
             return self.confirmed is False
         return self.verdict == "unexplained"
@@ -67,10 +67,10 @@ class Decision:
 
 
 def decide(stages: Sequence[StageFigures], *, alternative: bool, share: float) -> Decision:
-    """The decision on the stages of a search: the base model first, then one stage for each effect found.
+    """Decide on the stages of a search: the base model first, then one stage for each effect found.
 
     :param alternative: an unnamed dependence makes the readings about as probable as the effects found
-    :param share: of the base residual's square that the effects account for
+    :param share: share of the base residual's sum of squares that the effects account for
     """
     last = stages[-1]
     verdict = _verdict(last, len(stages) > 1, alternative, share)
@@ -90,7 +90,7 @@ def _verdict(last: StageFigures, found: bool, alternative: bool, share: float) -
 def _trusted(stages: Sequence[StageFigures], verdict: DiagnosisVerdict) -> int:
     """The last stage, unless fresh readings contradict it or nothing was explained.
 
-    Then the stage that predicts fresh readings best; without fresh readings the base model.
+    Otherwise the stage that predicts fresh readings best; without fresh readings, the base model.
     """
     if stages[-1].confirmed is False:
         rms = [math.inf if s.fresh_rms_mm is None else s.fresh_rms_mm for s in stages]

@@ -1,4 +1,4 @@
-"""How an error of the five-bar is named, what it is, what to do, and how to distinguish it from others."""
+"""The name of an error of the five-bar, its explanation, remedy, and how to distinguish it from others."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ ENTRY = {
 
 @dataclass(frozen=True)
 class Naming:
-    """What is said of one effect."""
+    """The texts about one effect."""
 
     label: str
     physics: str
@@ -54,7 +54,7 @@ UNNAMED_EXPERIMENT = "Measure again with something changed: the payload, the mou
 
 
 def named(key: PartKey, depends_on: str | None = None) -> Naming:
-    """Of an effect of the engine; an error without a name is described by what it depends on."""
+    """Texts of an effect of the engine; an unnamed error is described by what it depends on."""
     effect, joint, part = key
     if effect == "unnamed":
         label = f"unnamed error {DEPENDENCES[depends_on or 'reading']}"
@@ -72,13 +72,13 @@ def named(key: PartKey, depends_on: str | None = None) -> Naming:
 
 
 def name_record(key: PartKey) -> EffectName:
-    """As documents show it."""
+    """The name as documents contain it."""
     effect, joint, _ = key
     return EffectName(effect=effect, joint=joint, part=part_of(key))
 
 
 def part_of(key: PartKey) -> str | None:
-    """On which part an effect acts."""
+    """The part on which an effect acts."""
     effect, joint, part = key
     if part is not None:
         return part

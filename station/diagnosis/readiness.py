@@ -1,4 +1,4 @@
-"""Whether readings can be judged at all, before any search."""
+"""Whether readings are sufficient to be judged, before any search."""
 
 from __future__ import annotations
 
@@ -13,20 +13,20 @@ from station.mechanism import Mechanism
 from station.records import Index, Measurements
 
 FEWEST_READINGS = 30
-"""Thirteen unknowns and an effect leave too little of fewer readings to judge a residual by."""
+"""With fewer readings, thirteen unknowns and an effect leave too little to judge a residual."""
 FEWEST_OF_ARM = 24
-"""Readings of an arm: three quarters of 32."""
+"""Minimum number of readings of an arm: three quarters of 32."""
 
 
 def check_enough(mechanism: Mechanism, *, labelled: bool = True) -> None:
-    """:raises InputRefused: "not enough data to judge", with what is missing.
+    """:raises InputRefused: "not enough data to judge"; the error states what is missing.
 
-    :param labelled: whether the labels of positions can be trusted; without them there are no repeats
+    :param labelled: whether the labels of positions can be trusted; otherwise there are no repeats
     """
     measurements, unknowns = mechanism.measurements, len(mechanism.parameters)
     groups = measurements.repeat_group
     repeats = len(groups) - len(np.unique(groups))
-    # an arm has a tolerance for each unknown of its links, so fewer readings than unknowns are no hindrance
+    # an arm has a tolerance for each unknown of its links, so fewer readings than unknowns are acceptable
     fewest = max(FEWEST_READINGS, 2 * unknowns) if mechanism.needs_repeats else FEWEST_OF_ARM
     missing = []
     if len(measurements) < fewest:
@@ -40,9 +40,9 @@ def check_enough(mechanism: Mechanism, *, labelled: bool = True) -> None:
 
 
 def checked_fresh(mechanism: Mechanism, fresh: Measurements) -> Measurements:
-    """Fresh readings that can judge those of `mechanism`, mounts and set-ups numbered alike.
+    """Fresh readings to compare with those of `mechanism`, with the same numbers for mounts and set-ups.
 
-    :raises InputRefused: poses that cannot be, too few readings, or a mount or set-up that was not learned.
+    :raises InputRefused: impossible poses, too few readings, or a mount or set-up that was not learned.
     """
     learned = mechanism.measurements
     fresh = replace(

@@ -1,4 +1,4 @@
-"""Readings that follow one another in time: where several are off alike, something happened."""
+"""Readings in time order: several consecutive ones with similar deviations indicate an event."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ RUN = 3
 
 
 def in_runs(m: Measurements, alike: Callable[[Index], bool]) -> Flags:
-    """(K,) readings in a row of `RUN` or more, in the order of time.
+    """(K,) readings in runs of `RUN` or more, in time order.
 
-    :param alike: judges any `RUN` of them in a row, by their indices (RUN,)
+    :param alike: judges any `RUN` consecutive readings, by their indices (RUN,)
     """
     order = np.argsort(m.t_s, kind="stable")
     out = np.zeros(len(m), dtype=bool)

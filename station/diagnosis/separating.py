@@ -1,9 +1,10 @@
-"""Motion that distinguishes the explanations of a diagnosis: readings where they disagree most.
+"""Motion that distinguishes the explanations of a diagnosis: readings where they differ most.
 
-The most probable explanation and every other one predict the reading at every place of the workspace,
-approached from every side, later than the readings taken.  Chosen are the stops at which the predictions
-differ most beyond noise and the uncertainty of both.  What motion cannot distinguish needs another experiment
-(a payload, a second mount, a gauge); `experiments` of the document rates them.
+The most probable explanation and every other one predict the reading at every position of the workspace,
+approached from every side, later than the existing readings. The chosen stops are those at which the
+predictions differ most compared with noise and the uncertainty of both. Explanations that motion cannot
+distinguish need another experiment (a payload, a second mount, a gauge); `experiments` of the document rates
+them.
 """
 
 from __future__ import annotations
@@ -19,28 +20,28 @@ from station.five_bar import Robot, inverse
 from station.records import Real, Stop
 
 COUNTS = (40, 80, 160, 240)
-"""Stops; time effects need time to part, so that a longer sequence may do what a shorter one cannot."""
+"""Numbers of stops; effects of time need time, so a longer sequence may distinguish more."""
 WORTH, ENOUGH = 0.3, 0.9
-"""Probability to decide from which on a motion is offered, and from which on no longer one is planned."""
+"""Probability to decide from which a motion is offered, and above which no longer one is planned."""
 LEAST = 0.02
-"""Probability of an explanation that is worth distinguishing from the first."""
+"""Minimum probability of an explanation that is worth distinguishing from the first."""
 
 
 @dataclass(frozen=True)
 class Experiment:
-    """Stops in measuring order, and what they are for."""
+    """Stops in measuring order, and their purpose."""
 
     stops: tuple[Stop, ...]
     apart: tuple[str, ...]
     """Labels of the explanations that the readings should distinguish from the first, or confirm instead."""
     decides: float
-    """Probability that one explanation holds 0.95 afterwards."""
+    """Probability that one explanation reaches 0.95 afterwards."""
 
 
 def experiment(findings: Findings) -> Experiment | None:
-    """The shortest motion that separates all it can; None where there is no set or none is worth it.
+    """The shortest motion that distinguishes all it can; None without a set, or if no motion is worthwhile.
 
-    Nor is there one for effects that are not the cause, nor for a machine that is not the station's to move.
+    It is also None for effects that are not the cause, and for a machine that the station does not move.
     """
     if not isinstance(findings, WeighedFindings):
         return None

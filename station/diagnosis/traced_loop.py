@@ -1,6 +1,6 @@
 """The search effect by effect on one set of readings, with or without fresh ones (method.md section 3).
 
-Arms are diagnosed by it; a five-bar by the set of its explanations (`weighed_loop`).
+It is used for arms; a five-bar is diagnosed with the set of its explanations (`weighed_loop`).
 """
 
 from __future__ import annotations
@@ -36,16 +36,16 @@ from station.records import DiagnosisVerdict, Measurements
 FEWEST_NOISE_DOF = 10
 MOST_LEFT_OUT = 0.05
 USELESS = 0.6
-"""Fresh residual over that of the base model from which on an added effect predicts nothing worth having."""
+"""Fresh residual over that of the base model above which an added effect has no predictive value."""
 
 
 @dataclass(frozen=True)
 class TracedDiagnosis:
-    """What became of one residual."""
+    """The result for one residual."""
 
     robot: AnyRobot
     measurements: Measurements
-    """The readings that took part."""
+    """The readings that were used."""
     outliers: tuple[Outlier, ...]
     trace: Trace
     fresh: Measurements | None
@@ -53,10 +53,10 @@ class TracedDiagnosis:
     """One per stage; empty without fresh readings."""
     hints: tuple[Hint, ...]
     alternative: str | None
-    """A nameless dependence that makes the readings about as probable as the effects found."""
+    """An unnamed dependence that makes the readings about as probable as the effects found."""
 
     unnamed: UnnamedError | None = None
-    """A smooth error of the pose in what the last model leaves, where readings left out support it."""
+    """A smooth error of the pose in the last model's residual, where excluded readings support it."""
 
     @property
     def base(self) -> Fit:
@@ -68,7 +68,7 @@ class TracedDiagnosis:
 
     @property
     def explained_share(self) -> float:
-        """Of the square of the base model's error at readings that took no part: fresh ones, else blocks."""
+        """Share of the square of the base model's error at unused readings: fresh ones, otherwise blocks."""
         if self.confirmations:
             before, after = self.confirmations[0].rms_mm, self.confirmations[-1].rms_mm
         else:
@@ -98,7 +98,7 @@ def _figures(stage: Stage, check: Confirmation | None, base: Confirmation | None
     if check is None or base is None:
         return StageFigures(adequate, fit_ratio)
     fresh_ratio = float(np.mean((check.residual_mm / check.sd_mm) ** 2))
-    # effects that predict fresh readings worse than none do are refuted, whatever their uncertainty allows
+    # effects that predict fresh readings worse than no effect are refuted, whatever their uncertainty
     confirmed = check.confirmed and check.rms_mm <= base.rms_mm
     return StageFigures(adequate, fit_ratio, confirmed, check.rms_mm, fresh_ratio)
 
@@ -111,7 +111,7 @@ def traced(
 ) -> TracedDiagnosis:
     """Residual, cause, model, confirmation.
 
-    :raises InputRefused: the readings are malformed or not enough to judge, with what is missing.
+    :raises InputRefused: the readings are malformed or too few; the error states what is missing.
     """
     mechanism = mechanism_of(robot, measurements)
     mechanism.check()
@@ -148,7 +148,7 @@ def traced(
 
 
 def _confirmed(found: Trace, fresh: Measurements) -> tuple[Trace, tuple[Confirmation, ...]]:
-    """Every stage against the fresh readings; they also decide between causes that the sequence left open."""
+    """Every stage against the fresh readings; they also decide between undecided causes."""
     base = found.stages[0].fit
     mechanism = base.model.mechanism
     checks = tuple(_check(base, stage, fresh) for stage in found.stages)
@@ -187,7 +187,7 @@ def _trace(mechanism: AnyMechanism, effects: Sequence[Effect]) -> Trace:
 
 
 def _alternative(found: Trace, checks: Sequence[Confirmation]) -> str | None:
-    """Of the effects found, by all readings there are."""
+    """An alternative to the effects found, from all readings."""
     if checks:
         return checks[-1].alternative
     base, last = found.stages[0].fit, found.stages[-1].fit
@@ -198,14 +198,14 @@ def _alternative(found: Trace, checks: Sequence[Confirmation]) -> str | None:
 
 
 def _residual(found: Trace, checks: Sequence[Confirmation], stage: int) -> WhitenedResidual:
-    """What a stage leaves, of fresh readings too where there are any."""
+    """A stage's residual, including fresh readings where there are any."""
     if checks:
         return checks[stage].whitened
     return whitened_residual(found.stages[stage].fit)
 
 
 def _hopeless(found: Trace, checks: Sequence[Confirmation]) -> bool:
-    """The effects found take or predict so little that the residual is better described from the base on."""
+    """Whether the effects take or predict so little that the base model describes the residual better."""
     if checks:
         return checks[-1].rms_mm > USELESS * checks[0].rms_mm
     before = float(np.sum(found.stages[0].fit.residual_mm ** 2))

@@ -1,10 +1,9 @@
-"""What the last model leaves, as a smooth error of the pose without a name.
+"""The last model's residual as a smooth unnamed error of the pose.
 
-A Gaussian process over the joint angles with the exponential covariance exp(-d / length): it assumes
-continuity and nothing more (Rasmussen and Williams, Gaussian Processes for Machine Learning, 2006,
-sections 2.2 and 5.4.1).  Length and size are those that make the residual most probable.  It names no
-cause, and away from poses that were read it goes to zero by itself.  It counts only if it predicts
-blocks left out.
+A Gaussian process over the joint angles with the exponential covariance exp(-d / length): it assumes only
+continuity (Rasmussen and Williams, Gaussian Processes for Machine Learning, 2006, sections 2.2 and 5.4.1).
+Length and size are those that make the residual most probable. It names no cause, and goes to zero away from
+measured poses. It is used only if it predicts excluded blocks.
 """
 
 from __future__ import annotations
@@ -22,11 +21,11 @@ LENGTHS_RAD = (0.5, 1.0, 2.0, 4.0)
 SIZES = (0.1, 0.3, 1.0, 3.0)
 """Variance of the smooth error over that of noise."""
 MOST_LOOKED_AT = 600
-"""Readings, evenly spread, by which length and size are chosen,"""
+"""Number of readings, evenly spread, from which length and size are chosen,"""
 MOST = 2500
 """and from which the error is learned: time grows with their cube."""
 HELPFUL = 0.999
-"""Error of blocks left out over that without it, below which it counts."""
+"""Error of excluded blocks over that without it, below which it is used."""
 
 
 @dataclass(frozen=True)
@@ -40,9 +39,9 @@ class UnnamedError:
     length_rad: float
     size: float
     fitted_mm: Real
-    """(K, c) what is left at the readings learned on."""
+    """(K, c) residual at the readings learned on."""
     share: float
-    """RMS error of blocks left out over that without the smooth error."""
+    """RMS error of excluded blocks over that without the smooth error."""
 
     def at(self, theta: Real) -> Real:
         """(L, c) mm, at poses theta (L, n)."""
@@ -50,7 +49,7 @@ class UnnamedError:
 
 
 def unnamed_error(last: Fit) -> UnnamedError | None:
-    """Of what the last fit leaves; None where blocks left out are not predicted better for it."""
+    """The error in the last fit's residual; None if it does not improve predictions of excluded blocks."""
     mechanism = last.model.mechanism
     m = mechanism.measurements
     left = last.residual_mm.reshape(len(m), -1)
@@ -73,7 +72,7 @@ def unnamed_error(last: Fit) -> UnnamedError | None:
 
 
 def left_by(found: UnnamedError, fresh: Measurements, residual_mm: Real) -> Real:
-    """(K,) mm, size of what is left of the residual (R,) of fresh readings."""
+    """(K,) mm, length of the remaining residual (R,) of fresh readings."""
     left = residual_mm.reshape(len(fresh), -1) - found.at(fresh.theta)
     return np.asarray(np.linalg.norm(left, axis=1))
 

@@ -1,7 +1,7 @@
 """The set of explanations of a five-bar's readings, and the mistakes in its files (method.md section 4).
 
-Mistakes come first: readings or angles that are wrong are refused, a wrong label is left out.  Where the
-explanations do not settle the question, small wrong entries are looked for as well.
+Mistakes come first: wrong readings or angles are refused, a wrong label is ignored. Where the explanations do
+not account for the readings, small wrong entries are searched as well.
 """
 
 from __future__ import annotations
@@ -23,23 +23,23 @@ from station.records import DiagnosisVerdict, Measurements, phrase
 
 SURE = 0.95
 FEW_GLITCHES = 0.05
-"""Of the readings of a file; so many are left out by name and take nothing from the confirmation."""
+"""Share of the readings of a file that may be excluded by id without an effect on the confirmation."""
 
 Change = Callable[[Measurements], Measurements]
 
 
 @dataclass(frozen=True)
 class WeighedDiagnosis:
-    """What became of one residual."""
+    """The result for one residual."""
 
     robot: Robot
     measurements: Measurements
-    """The readings that took part, without the fresh ones."""
+    """The readings that were used, without the fresh ones."""
     fresh: Measurements | None
-    """The fresh readings that took part."""
+    """The fresh readings that were used."""
     found: ExplanationSet
     mistake: Mistake | None
-    """A wrong label, or glitches, that were left out."""
+    """A wrong label, or glitches, that were excluded."""
     entry: Mistake | None
     """A wrong entry of the size of an effect: reported with the effect."""
     outliers: tuple[Outlier, ...]
@@ -53,7 +53,7 @@ class WeighedDiagnosis:
 
     @property
     def spoilt(self) -> bool:
-        """Whether a mistake speaks against the file; any device gives a disturbed reading now and then."""
+        """Whether a mistake discredits the file; any device gives a disturbed reading occasionally."""
         if self.mistake is None:
             return False
         readings = self.measurements if self.mistake.file == "readings" else self.fresh
@@ -66,13 +66,13 @@ class WeighedDiagnosis:
 
     @property
     def confirmed(self) -> bool | None:
-        """Whether independent fresh readings agree with what was found; None without any."""
+        """Whether independent fresh readings agree with the finding; None without any."""
         return self.decision.confirmed
 
 
 @dataclass(frozen=True)
 class _Files:
-    """What is diagnosed: without columns or rows that are known to be wrong."""
+    """The files to diagnose, without columns or rows that are known to be wrong."""
 
     sequence: Measurements
     fresh: Measurements | None
@@ -80,7 +80,7 @@ class _Files:
     """Whether the labels of positions can be trusted."""
 
     def without(self, mistake: Mistake) -> _Files:
-        """The same files without what a mistake has spoiled."""
+        """The same files without the columns or rows that a mistake has spoiled."""
         match mistake.kind:
             case "position_labels" if mistake.file == "fresh":
                 return replace(self, fresh=_each(self.fresh, _unlabelled))
@@ -107,9 +107,9 @@ def weighed(
 ) -> WeighedDiagnosis:
     """Mistakes, explanations, decision.
 
-    :param context: what the files recorded; without it what the numbers show
+    :param context: what the files recorded; if omitted, it is inferred from the numbers
     :raises MistakeRefused: readings, angles or the robot file are wrong in a way that can be named.
-    :raises InputRefused: the readings are malformed or not enough to judge, with what is missing.
+    :raises InputRefused: the readings are malformed or too few; the error states what is missing.
     """
     context = context or Context.of(measurements)
     mistake = _mistake(robot, measurements, fresh, context, explained=True)
@@ -147,7 +147,7 @@ def weighed(
 def _mistake(
     robot: Robot, sequence: Measurements, fresh: Measurements | None, context: Context, *, explained: bool
 ) -> Mistake | None:
-    """:raises MistakeRefused: one that has to be put right first."""
+    """:raises MistakeRefused: the mistake has to be corrected first."""
     found = find_mistake(robot, sequence, fresh, context, explained=explained)
     if found is not None and found.severity == "refused":
         raise MistakeRefused(found)
@@ -155,9 +155,9 @@ def _mistake(
 
 
 def _explained(robot: Robot, files: _Files) -> tuple[ExplanationSet, _Files]:
-    """The explanations, and the files with their mounts numbered alike.
+    """The explanations, and the files with the same numbers for their mounts.
 
-    :raises InputRefused: files that cannot be judged.
+    :raises InputRefused: the files cannot be judged.
     """
     mechanism = FiveBar(robot, files.sequence)
     backwards = np.flatnonzero(np.diff(files.sequence.t_s) < 0)
@@ -179,7 +179,7 @@ def _explained(robot: Robot, files: _Files) -> tuple[ExplanationSet, _Files]:
 
 
 def _mistake_shown_by(found: ExplanationSet, files: _Files) -> Mistake | None:
-    """What was done to the machine between readings, as the explanations know it."""
+    """A change to the machine between readings, as the explanations show it."""
     fresh, validation = files.fresh, found.validation
     if fresh is None or validation is None or not found.explanations:
         return None
@@ -212,7 +212,7 @@ def _mistake_shown_by(found: ExplanationSet, files: _Files) -> Mistake | None:
 
 
 def _outliers(robot: Robot, sequence: Measurements, found: ExplanationSet) -> tuple[Outlier, ...]:
-    """Readings of the sequence that took no part, glitches included."""
+    """Readings of the sequence that were not used, glitches included."""
     held = set(found.weighing.mechanism.measurements.ids)
     out = np.array([i not in held for i in sequence.ids])
     if not out.any():
@@ -225,7 +225,7 @@ def _outliers(robot: Robot, sequence: Measurements, found: ExplanationSet) -> tu
 
 
 def _distinct(fresh: Measurements | None, sequence: Measurements) -> Measurements | None:
-    """Fresh readings under ids of their own."""
+    """Fresh readings with unique ids."""
     if fresh is None or not set(fresh.ids) & set(sequence.ids):
         return fresh
     return replace(fresh, ids=tuple(f"fresh {i}" for i in fresh.ids))
@@ -237,7 +237,7 @@ def _kept(m: Measurements, held: set[int | str]) -> Measurements:
 
 
 def _left(m: Measurements, mistake: Mistake) -> Measurements:
-    """Without the rows of a mistake."""
+    """The readings without the rows of a mistake."""
     rows = {*mistake.rows, *(f"fresh {i}" for i in mistake.rows)}
     return m.take(np.array([i not in rows for i in m.ids]))
 

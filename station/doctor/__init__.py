@@ -1,4 +1,4 @@
-"""`station doctor`: all devices examined at once, nothing moved."""
+"""`station doctor`: examination of all devices at once, without motion."""
 
 from __future__ import annotations
 

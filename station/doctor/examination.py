@@ -1,4 +1,4 @@
-"""All devices looked at, one after another, without moving anything."""
+"""Examination of all devices, one after another, without motion."""
 
 from __future__ import annotations
 
@@ -43,13 +43,13 @@ def _examined(
 
 
 def _examine_interlocks(settings: Settings, devices: Devices, robot: Robot, tree: Finding) -> None:
-    """Each with its limits; guard door and thermometer are read where the station file names them."""
+    """Each interlock with its limits; guard door and thermometer are read if they are configured."""
     branch = tree.add("interlocks")
     locks = Interlocks(settings.interlocks, settings.limits, devices.read_register)
     if settings.interlocks.reads_registers:
         drive, line = devices.axes[0], line_of(devices.axes[0])
         opened = line is None or not line.is_open
-        with suppress(DeviceError):  # the branch of the drive says why
+        with suppress(DeviceError):  # the branch of the drive states the cause
             if opened:
                 drive.connect()
             locks.look_at_guard_door()
@@ -67,7 +67,7 @@ def _examine_interlocks(settings: Settings, devices: Devices, robot: Robot, tree
 
 
 def _in_words(limits: dict[str, float]) -> str:
-    """Limits of an interlock with their units, as the page shows them."""
+    """Limits of an interlock with their units, in the form of the page."""
     window = [f"{limits['low_c']:g} to {limits['high_c']:g} °C"] if "low_c" in limits else []
     most = [(name, value) for name, value in limits.items() if name not in ("low_c", "high_c")]
     return ", ".join(
@@ -76,10 +76,10 @@ def _in_words(limits: dict[str, float]) -> str:
 
 
 def examine_in_service(settings: Settings, devices: Devices, robot: Robot) -> Finding:
-    """The same while a station works with its devices, by the thread that does.
+    """The same while a station uses its devices, on the thread that does.
 
-    What answers stays open, so that a stop never waits for a connection; only a device whose line is down
-    is examined from its port on, and closed again.
+    Devices that answer stay open, so that a stop never waits for a connection; only a device whose line is
+    down is examined from its port on, and closed again.
     """
     return _examined(settings, devices, robot, _examine_open)
 
@@ -103,7 +103,7 @@ def _examine_device(device: Device, branch: Finding, emulated: bool) -> float | 
     try:
         device.connect()
     except DeviceError as error:
-        branch.add(str(error), "trouble")  # a driver's sentence says what to check
+        branch.add(str(error), "trouble")  # a driver's sentence states what to check
         return None
     try:
         return _look(device, line, branch)

@@ -1,4 +1,4 @@
-"""What an examination finds: a tree of sentences, each with a state and what to do."""
+"""The result of an examination: a tree of sentences, each with a state and a remedy."""
 
 from __future__ import annotations
 
@@ -11,23 +11,23 @@ Condition = Literal["ok", "note", "trouble"]
 
 @dataclass
 class Finding:
-    """One sentence, and what it consists of."""
+    """One sentence, and its parts."""
 
     text: str
     condition: Condition = "ok"
-    """`note`: works, but should be looked at; `trouble`: does not work."""
+    """`note`: works, but needs attention; `trouble`: does not work."""
     do: str = ""
-    """What the reader should do about it."""
+    """The action for the reader."""
     parts: list[Finding] = field(default_factory=list)
 
     def add(self, text: str, condition: Condition = "ok", do: str = "") -> Finding:
-        """A part; returned so that it can have parts."""
+        """Add a part; it is returned so that it can have parts."""
         part = Finding(text, condition, do)
         self.parts.append(part)
         return part
 
     def all(self) -> Iterator[Finding]:
-        """This and everything below."""
+        """This finding and all below it."""
         yield self
         for part in self.parts:
             yield from part.all()

@@ -1,4 +1,4 @@
-"""What can be told of a port without speaking on it: its names, who holds it, whether it can be opened."""
+"""Information on a port without communication: its names, its users, whether it can be opened."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ _PSEUDO = "/dev/pts/"
 
 
 def examine_port(line: SerialLine, finding: Finding, *, emulated: bool = False, by_id: Path = BY_ID) -> bool:
-    """Add what is found of the port of a line; whether it can be opened.  The line is closed afterwards.
+    """Add findings on the port of a line; returns whether it can be opened.  The line is closed afterwards.
 
-    :param emulated: the other end is the rig's, which holds it open as well
+    :param emulated: the rig holds the other end open as well
     """
     address = line.address
     if isinstance(address, SerialAddress) and not emulated:
@@ -49,12 +49,12 @@ def examine_port(line: SerialLine, finding: Finding, *, emulated: bool = False, 
 
 
 def holders_of(port: Path) -> Iterator[str]:
-    """Other programs that have a device open, as far as this user may see them."""
+    """Other programs that have a device open, as far as visible to this user."""
     device = port.resolve()
     for process in Path("/proc").glob("[0-9]*"):
         if process.name == str(os.getpid()):
             continue
-        with suppress(OSError):  # gone meanwhile, or another user's
+        with suppress(OSError):  # closed meanwhile, or another user's
             if any(_is(link, device) for link in (process / "fd").iterdir()):
                 name = (process / "comm").read_text(encoding="utf-8").strip()
                 yield f"{name} (process {process.name})"
@@ -98,7 +98,7 @@ def _what_to_do(address: SerialAddress | NetAddress, by_id: Path) -> str:
 
 
 def _format(address: SerialAddress, finding: Finding) -> None:
-    """The port has been opened, so it took what was asked of it: `open` compares."""
+    """The port has been opened, so it accepted the format: `open` compares."""
     wanted = address.effective_format
     parity = "no parity" if wanted.parity == "N" else "parity is checked"
     text = f"runs with {address.baud} baud, {wanted}, {parity}"

@@ -1,4 +1,4 @@
-"""How long replies take, seen from the line."""
+"""Response times, measured at the line."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from drivers.lines import Happening, SerialLine
 
 
 class RoundTrips:
-    """From the end of sending to the first byte that came, for everything within the block."""
+    """From the end of sending to the first received byte, for all requests within the block."""
 
     def __init__(self, line: SerialLine) -> None:
         self._line = line
@@ -29,7 +29,7 @@ class RoundTrips:
 
     @property
     def text(self) -> str:
-        """For people; empty when nothing was answered."""
+        """The times in words; empty if there was no answer."""
         if not self._took_ms:
             return ""
         return (

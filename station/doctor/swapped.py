@@ -1,4 +1,4 @@
-"""Plugs and addresses exchanged: each device asked where the other one should be."""
+"""Exchanged plugs and addresses: each device is queried at the other one's address."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from station.settings import ScaleSettings, ServoSettings, Settings
 
 
 def lines_exchanged(settings: Settings) -> str:
-    """What answers on the other line than it should; empty when nothing does, or nothing can."""
+    """The device that answers on the other line; empty if there is none, or none can."""
     scale, servo = settings.scale, settings.servo
     if scale is None or servo is None:
         return ""
@@ -40,7 +40,7 @@ def lines_exchanged(settings: Settings) -> str:
 
 
 def axes_exchanged(settings: Settings, robot: Robot, theta_deg: Angles) -> bool:
-    """Whether the arm would stand within its workspace if each drive were the other joint's."""
+    """Whether the arm would be within its workspace if the drives' joints were exchanged."""
     first, second = (joint.scaling for joint in settings.joints)
     pulses = first.to_pulses(theta_deg[0]), second.to_pulses(theta_deg[1])
     exchanged = first.to_deg(pulses[1]), second.to_deg(pulses[0])
@@ -48,7 +48,7 @@ def axes_exchanged(settings: Settings, robot: Robot, theta_deg: Angles) -> bool:
 
 
 def _elsewhere(url: str, at: str) -> str | None:
-    """A URL with the port or host of another one, its own scheme and settings; None if that cannot be."""
+    """A URL with the port or host of another one, its own scheme and settings; None if impossible."""
     scheme, _, rest = url.partition("://")
     place, mark, options = rest.partition("?")
     other = at.partition("://")[2].partition("?")[0]

@@ -1,4 +1,4 @@
-"""The catalogue: one small unit an effect.
+"""The catalogue of effects: one small module per effect.
 
 A new effect is one new file and one line in the catalogue of each machine that can have it.
 """

@@ -1,4 +1,4 @@
-"""Play between a gear's output and its arm."""
+"""Backlash between a gear's output and its arm."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""What an effect is: where it acts, on what it depends, how it is written on a report.
+"""The definition of an effect: its place of action, its dependences, its form in a report.
 
 An effect adds `basis @ amplitudes` to one thing: a joint angle (rad), the reading (mm), or lengths
-(relative).  The basis depends on the conditions of each reading and on hidden parameters (a period,
-a moment) that are searched; amplitudes are fitted.
+(relative).  The basis depends on the conditions of each reading and on hidden parameters (a period, a moment)
+that are searched; amplitudes are fitted.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ Bounds = Mapping[str, tuple[float, float]]
 
 @dataclass(frozen=True)
 class Variants:
-    """V ways in which an effect may show, differing in hidden parameters only."""
+    """V variants of an effect that differ only in hidden parameters."""
 
     acts: Acts
     basis: Real
@@ -40,9 +40,9 @@ class Variants:
     hidden: tuple[Mapping[str, float], ...]
     """(V) hidden parameters of each."""
     trials: float
-    """Number of independent ways among them: the price of looking elsewhere."""
+    """Number of independent variants: the price of the search over them."""
     spread: Real | None = None
-    """(q,) what the amplitudes scatter by, where they are so many that they need a prior; to begin with."""
+    """(q,) initial scatter of the amplitudes, where they are so many that they need a prior."""
 
 
 def one(acts: Acts, basis: Real) -> Variants:
@@ -52,27 +52,27 @@ def one(acts: Acts, basis: Real) -> Variants:
 
 
 class Effect(ABC):
-    """One entry of the catalogue, at one place of the machine."""
+    """One entry of the catalogue, at one place of action on the machine."""
 
     id: ClassVar[str]
     physics: ClassVar[str]
     """One sentence."""
     remedy: ClassVar[str]
     experiment: ClassVar[str]
-    """What separates it from its aliases."""
+    """The experiment that distinguishes it from its aliases."""
     repeats: ClassVar[bool] = False
-    """Whether one place can have it more than once, with other hidden parameters."""
+    """Whether one place of action can have it more than once, with other hidden parameters."""
     by_approach: ClassVar[bool] = False
-    """Whether it moves the arm differently with the sense of the joint's last motion."""
+    """Whether its effect on the arm depends on the sense of the joint's last motion."""
     local: ClassVar[bool] = False
-    """Whether it says nothing of angles where its joint has not been."""
+    """Whether it is undefined at angles that its joint has not visited."""
     bounds: ClassVar[Bounds] = {}
-    """What physics allows: name of a quantity -> (least, most)."""
+    """Physical limits: name of a quantity -> (least, most)."""
     covers: ClassVar[tuple[str, ...]] = ()
-    """Effects of the same joint that are a part of this one."""
+    """Effects of the same joint that are part of this one."""
 
     joint: int | None = None
-    """1, 2, ... or None where the effect belongs to no joint."""
+    """1, 2, ... or None if the effect belongs to no joint."""
 
     @property
     def label(self) -> str:
@@ -80,7 +80,7 @@ class Effect(ABC):
 
     @abstractmethod
     def variants(self, c: Conditions) -> Variants | None:
-        """How it would show under these conditions; None when they cannot show it."""
+        """Its variants under these conditions; None if it cannot appear under them."""
 
     @abstractmethod
     def quantities(
@@ -89,7 +89,7 @@ class Effect(ABC):
         """Fitted amplitudes (q,) in the units of the catalogue, with sd."""
 
     def possible(self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real) -> bool:
-        """Whether every fitted quantity is one that physics allows, within two standard deviations."""
+        """Whether every fitted quantity is physically possible, within two standard deviations."""
         for q in self.quantities(hidden, amplitudes, covariance):
             least, most = self.bounds.get(q.name, (-np.inf, np.inf))
             if not least <= q.value + 2.0 * q.sd or not q.value - 2.0 * q.sd <= most:
@@ -97,7 +97,7 @@ class Effect(ABC):
         return True
 
     def bands(self, size: int) -> Index:
-        """(q,) amplitudes with the same number are alike in size; only of use with a spread."""
+        """(q,) band number of the amplitudes: equal for similar sizes; used only with a spread."""
         return np.zeros(size, dtype=np.intp)
 
     def refined(self, hidden: Mapping[str, float], c: Conditions) -> Mapping[str, tuple[float, float]]:
@@ -105,7 +105,7 @@ class Effect(ABC):
         return {}
 
     def doubtful(self, c: Conditions) -> Flags:
-        """(K,) readings under conditions in which it cannot be said how this effect acts."""
+        """(K,) readings under conditions in which its action is unknown."""
         return np.zeros(len(c), dtype=bool)
 
     def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
@@ -126,12 +126,12 @@ class JointEffect(Effect):
 
     @property
     def index(self) -> int:
-        """Of its joint, from 0."""
+        """Index of its joint, from 0."""
         return self.joint - 1
 
 
 def doubtful(effects: Iterable[Effect], c: Conditions) -> Flags:
-    """(K,) readings of which some of these effects can say nothing."""
+    """(K,) readings for which the action of one of these effects is unknown."""
     mask = np.zeros(len(c), dtype=bool)
     for effect in effects:
         mask |= effect.doubtful(c)
@@ -139,7 +139,7 @@ def doubtful(effects: Iterable[Effect], c: Conditions) -> Flags:
 
 
 def weight(acts: Acts, at: Observation, names: tuple[str, ...]) -> Real:
-    """(R,) what one unit of a basis does to each row of a prediction, mm."""
+    """(R,) effect of one unit of a basis on each row of a prediction, mm."""
     if acts.joint is not None:
         return at.by_joint[:, acts.joint]
     if acts.lengths is not None:
@@ -149,7 +149,7 @@ def weight(acts: Acts, at: Observation, names: tuple[str, ...]) -> Real:
 
 
 def signature(acts: Acts, basis: Real, at: Observation, names: tuple[str, ...], rows: Index) -> Real:
-    """(..., R, q) what a basis (..., K, q) does to the rows of a prediction; `rows` (R,) reading of row."""
+    """(..., R, q) effect of a basis (..., K, q) on the rows of a prediction; `rows` (R,) their reading."""
     return np.asarray(weight(acts, at, names)[:, None] * basis[..., rows, :])
 
 
@@ -161,7 +161,7 @@ def scaled(name: str, value: float, variance: float, factor: float, unit: str) -
 def amplitude_and_phase(
     name: str, unit: str, factor: float, amplitudes: Real, covariance: Real
 ) -> tuple[Quantity, Quantity]:
-    """Of a cos x (first) and b sin x (second) as amplitude sin(x + phase)."""
+    """The sum a cos x (first) + b sin x (second) as amplitude sin(x + phase)."""
     a, b = float(amplitudes[0]), float(amplitudes[1])
     size = float(np.hypot(a, b)) or 1e-300
     along = np.array([a, b]) / size

@@ -1,4 +1,4 @@
-"""Which effects each kind of machine can have, at every place where they can act."""
+"""The effects of each kind of machine, at every place where they can act."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ PER_JOINT = (Backlash, GearCyclic, EncoderEccentricity, TransmissionGain, Compli
 
 
 def five_bar_catalogue() -> tuple[Effect, ...]:
-    """Every effect at every place of a five-bar with its scale."""
+    """All effects at every place of action of a five-bar with its scale."""
     numbers = (1, 2)
     return (
         *(effect(joint) for effect in PER_JOINT for joint in numbers),
@@ -38,10 +38,10 @@ def five_bar_catalogue() -> tuple[Effect, ...]:
 def arm_catalogue(
     joints: int, *, by_range: bool, timed: bool = True, warmed: bool = True, sliding: Sequence[int] = ()
 ) -> tuple[Effect, ...]:
-    """Every effect at every joint of a serial arm; with distances also those of the instrument.
+    """All effects at every joint of a serial arm; with distances also those of the instrument.
 
-    timed: the log says when each reading was taken; warmed: it says how warm it was.
-    sliding: joints that slide; all that is in degrees cannot be theirs.
+    timed: the log contains the time of each reading; warmed: it contains temperatures. sliding: joints that
+    slide; effects in degrees do not apply to them.
     """
     effects = [e for e in (*PER_JOINT, GearCurve) if timed or e is not CountSlip]
     at_joints = tuple(

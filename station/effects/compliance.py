@@ -13,7 +13,7 @@ from station.mechanism import Conditions
 from station.records import Quantity, Real
 
 SPREAD_RAD = 1e-3
-"""Sag under each of several masses, to begin with."""
+"""Initial scatter of the sag under each of several masses."""
 
 
 class Compliance(JointEffect):
@@ -31,7 +31,7 @@ class Compliance(JointEffect):
         basis = self.at(known, c)
         if not np.ptp(basis, axis=0).any():
             return None
-        # several places where mass may sit are nearly alike: only a prior tells them apart
+        # several positions of a mass are nearly equivalent: only a prior distinguishes them
         spread = None if c.load[i].shape[1] == 1 else np.full(basis.shape[1], SPREAD_RAD)
         return Variants(Acts(joint=i), basis[None], (known,), 1.0, spread)
 
@@ -48,9 +48,9 @@ class Compliance(JointEffect):
     ) -> tuple[Quantity, ...]:
         names = (("deg_at_horizontal", "deg"), ("deg_at_horizontal_per_kg", "deg/kg"))
         if len(amplitudes) > 1 and "by_payload" not in hidden:
-            # where along the arm the weight sits is hardly seen; what it does together is
+            # the position of the weight along the arm is hardly visible; the sum of the effects is
             whole, variance = float(amplitudes.sum()), float(covariance.sum())
-            # the load of an arm is gravity's own moment about each axis: sag goes with it, not against it
+            # the load of an arm is gravity's own moment about each axis: sag has the sign of the moment
             return (scaled("deg_at_full_reach", whole, variance, 180.0 / np.pi, "deg"),)
         return tuple(
             scaled(name, a, covariance[k, k], -180.0 / np.pi, unit)

@@ -1,4 +1,4 @@
-"""A step of the joint that its feedback does not see."""
+"""A step of the joint that its feedback does not detect."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from station.mechanism import Conditions
 from station.records import Quantity, Real
 
 EDGE = 2
-"""A step with fewer readings on one side is a matter for the outliers."""
+"""A step with fewer readings on one side is treated as outliers."""
 
 
 MOST_MOMENTS = 200
-"""Of a long log not every reading is tried: a step's moment is then known to half a percent of it."""
+"""In a long log not every reading is tried: a step's moment is then known to half a percent of it."""
 
 
 class CountSlip(JointEffect):

@@ -1,4 +1,4 @@
-"""Errors that repeat with the joint's turning: encoder eccentricity and gear ripple."""
+"""Errors that are periodic in the joint's angle: encoder eccentricity and gear ripple."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from station.records import Quantity, Real
 
 SAME_STOP_RAD = 1e-3
 LEAST_STEP_RAD = 20.0 * SAME_STOP_RAD
-"""Finer steps cannot be told from any angles at all."""
+"""Finer steps cannot be distinguished from arbitrary angles."""
 FEWEST_STOPS, MOST_STOPS = 3, 60
-"""Of a joint: fewer are no grid, more are not set up by hand."""
+"""Number of stops of a joint: fewer are not a grid, more are not set up by hand."""
 OVERSAMPLING = 3.0
 """Search steps per independent frequency."""
 
@@ -26,7 +26,7 @@ def wave(angle: Real, per_turn: float) -> Real:
 
 
 def waves(angle: Real, first: float, step: float, count: int) -> Real:
-    """(V, K, 2) the same for the multiples first, first + step, ...: each turned on from the one before."""
+    """(V, K, 2) the same for the multiples first, first + step, ...: each rotated from the previous one."""
     turning = np.empty((count, len(angle)), dtype=complex)
     turning[0] = np.exp(1j * first * angle)
     turning[1:] = np.exp(1j * step * angle)
@@ -35,7 +35,7 @@ def waves(angle: Real, first: float, step: float, count: int) -> Real:
 
 
 def fastest_seen(angle: Real) -> float:
-    """Cycles a turn that readings at angles (K,), rad, tell from slower ones; inf where they are on no grid.
+    """Cycles per turn that readings at angles (K,), rad, distinguish from slower ones; inf without a grid.
 
     On a grid of step s a wave of n cycles looks like one of 2 pi / s - n (Nyquist).
     """

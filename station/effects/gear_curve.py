@@ -1,4 +1,4 @@
-"""The error of a reducer as a curve: many cycles a turn at once, where single ones do not suffice."""
+"""The error of a reducer as a curve: many cycles per turn at once, where single ones are not sufficient."""
 
 from __future__ import annotations
 
@@ -12,23 +12,23 @@ from station.mechanism import Conditions
 from station.records import Index, Quantity, Real
 
 HIGHEST = 64
-"""Cycles a turn."""
+"""Maximum number of cycles per turn."""
 FEWEST_READINGS = 3 * HIGHEST
 SPREAD_RAD = 3e-4
-"""Where the search for the spread of the amplitudes begins."""
+"""Start of the search for the spread of the amplitudes."""
 NAMED = 3
-"""Strongest waves that are named,"""
+"""Number of strongest waves that are reported,"""
 SLOWEST = 4
-"""from so many cycles a turn on."""
+"""from this number of cycles per turn on."""
 MARGIN_RAD = np.radians(30.0)
-"""A curve closes on itself so far beyond the visited range, where it means nothing."""
+"""Distance beyond the visited range over which a curve is closed; it has no meaning there."""
 KNOWN = 4.0
-"""Variance of a curve over its median beyond which it is a guess across a gap."""
+"""Variance of a curve over its median beyond which it is an extrapolation across a gap."""
 GRID = 720
 
 
 class GearCurve(JointEffect):
-    """As `gear_cyclic` with all cycles at once; how large those of each octave are is learned too."""
+    """As `gear_cyclic` with all cycles at once; the size of the amplitudes in each octave is learned too."""
 
     id = "gear_cyclic"
     physics = (
@@ -49,7 +49,7 @@ class GearCurve(JointEffect):
         i = self.index
         low, high = float(c.theta[:, i].min()), float(c.theta[:, i].max())
         if high <= low or fastest_seen(c.theta[:, i]) < np.inf:
-            return None  # between the stops of a grid nothing of a curve is seen
+            return None  # a curve is not visible between the stops of a grid
         hidden = {"from_deg": float(np.degrees(low)), "to_deg": float(np.degrees(high))}
         basis = self.at(hidden, c)
         spread = np.full(basis.shape[1], SPREAD_RAD)
@@ -59,13 +59,13 @@ class GearCurve(JointEffect):
         return curve_basis(c.theta[:, self.index], _size(hidden))
 
     def bands(self, size: int) -> Index:
-        """Octaves: 1 to 2, 2 to 4, 4 to 8, ... cycles a turn."""
+        """Octaves: 1 to 2, 2 to 4, 4 to 8, ... cycles per turn."""
         return np.asarray(np.repeat(np.floor(np.log2(_per_turn(size))), 2), dtype=np.intp)
 
     def quantities(
         self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
     ) -> tuple[Quantity, ...]:
-        """RMS where the curve is known, then amplitude and cycles a turn of its strongest waves."""
+        """RMS where the curve is known, then amplitude and cycles per turn of its strongest waves."""
         angle = np.radians(np.linspace(hidden["from_deg"], hidden["to_deg"], GRID))
         basis = curve_basis(angle, len(amplitudes))
         variance = np.einsum("ki,ki->k", basis @ covariance, basis)
@@ -88,13 +88,13 @@ class GearCurve(JointEffect):
 
 
 def _size(hidden: Mapping[str, float]) -> int:
-    """Number of amplitudes: two a wave, and whole numbers of waves over range and margin, to `HIGHEST`."""
+    """Number of amplitudes: two per wave, and whole numbers of waves over range and margin, to `HIGHEST`."""
     over = np.radians(hidden["to_deg"] - hidden["from_deg"]) + MARGIN_RAD
     return 2 * min(HIGHEST, int(np.ceil(HIGHEST * over / (2.0 * np.pi))))
 
 
 def _per_turn(size: int) -> Real:
-    """(size / 2,) cycles a turn of each wave."""
+    """(size / 2,) cycles per turn of each wave."""
     count = size // 2
     return np.arange(1, count + 1) * (HIGHEST / count)
 
@@ -111,9 +111,9 @@ def _columns(angle: Real, per_turn: Real) -> Real:
 
 
 def fast_basis(angle: Real, size: int) -> Real:
-    """(K, size) the same without what waves slower than `SLOWEST` make of it over these angles (K,).
+    """(K, size) the same without the part that waves slower than `SLOWEST` describe over these angles (K,).
 
-    Below four cycles a turn a curve is the arm's geometry as much as its gears.
+    Below four cycles per turn a curve cannot be distinguished from the arm's geometry.
     """
     basis = curve_basis(angle, size)
     slow = np.column_stack([_columns(angle, np.arange(1.0, SLOWEST)), np.ones(len(angle))])
@@ -121,7 +121,7 @@ def fast_basis(angle: Real, size: int) -> Real:
 
 
 def strongest_waves(angle: Real, curve: Real) -> list[tuple[float, Real]]:
-    """Of a curve (G,) over angles (G,): cycles a turn of its strongest waves, and what gives their size.
+    """The strongest waves of a curve (G,) over angles (G,): cycles per turn, and factors for their size.
 
     Least-squares periodogram, one wave taken out after another.  The second of each pair (2, G) times a curve
     is cosine and sine of that wave in it.

@@ -1,4 +1,4 @@
-"""Links beyond their tolerance, and play in the passive joints."""
+"""Links beyond their tolerance, and clearance in the passive joints."""
 
 from __future__ import annotations
 

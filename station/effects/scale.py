@@ -34,7 +34,7 @@ class ScaleBow(Effect):
     experiment = "Compare the scale with an interferometer over its travel."
 
     REACH_MM = 100.0
-    """Travel from the middle at which the size is stated, about the end of what the workspace uses."""
+    """Travel from the middle at which the size is stated, about the limit of the workspace."""
 
     def variants(self, c: Conditions) -> Variants | None:
         centres = (0.0, float(c.travel.min() + c.travel.max()) / 2.0)
@@ -109,7 +109,7 @@ class ScaleHysteresis(Effect):
         return (c.slider_direction if "last_motion" in hidden else c.slider_net)[:, None]
 
     def doubtful(self, c: Conditions) -> Flags:
-        """Where the slider turned round on the way, or the way is not known."""
+        """Readings where the slider reversed during the motion, or the motion is unknown."""
         return np.asarray((c.slider_direction != c.slider_net) | (c.slider_direction == 0))
 
     def quantities(

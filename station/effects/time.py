@@ -45,7 +45,7 @@ class ThermalGrowth(Effect):
     def variants(self, c: Conditions) -> Variants | None:
         if c.temperature_rise is not None:
             return self._stack(c, [({}, c.temperature_rise)], 3.0)
-        # without a thermometer: exponential in time, tau over two decades about the walk's duration
+        # without a thermometer: exponential in time, tau over two decades about the sequence's duration
         duration = float(np.ptp(c.t_s))
         if duration <= 0.0:
             return None

@@ -1,4 +1,4 @@
-"""A reducer or belt whose ratio is not what the drive counts with."""
+"""A reducer or belt whose ratio differs from the drive's setting."""
 
 from __future__ import annotations
 

@@ -13,20 +13,20 @@ from station.records import PositionError, Real
 
 
 def position_error_summary(mean: Real, jacobian: Real, covariance: Real) -> PositionError:
-    """rms over the grid of the position error field, and its largest value."""
+    """RMS of the position error field over the grid, and its largest value."""
     return rms_and_max(position_error_field(mean, jacobian, covariance))
 
 
 def rms_and_max(error_mm: Real) -> PositionError:
-    """Of position errors (G,), mm."""
+    """RMS and maximum of position errors (G,), mm."""
     return PositionError(rms=float(np.sqrt(np.mean(error_mm**2))), max=float(error_mm.max()))
 
 
 def position_error_field(mean: Real, jacobian: Real, covariance: Real) -> Real:
-    """(G,) sqrt(|mean|^2 + trace(J C J')) at each place of a grid, mm."""
+    """(G,) sqrt(|mean|^2 + trace(J C J')) at each position of a grid, mm."""
     finite = np.isfinite(np.diag(covariance))
     J, C = jacobian[:, :, finite], covariance[np.ix_(finite, finite)]
-    # as one flat product, and in place: of a long log they are large
+    # as one flat product, and in place: for a long log the arrays are large
     variance = (J.reshape(-1, len(C)) @ C).reshape(J.shape)
     variance *= J
     variance = variance.sum(axis=(1, 2))
@@ -34,31 +34,31 @@ def position_error_field(mean: Real, jacobian: Real, covariance: Real) -> Real:
 
 
 DRAWS = 2000
-"""The bound then has a standard error of 0.4 %."""
+"""With this number of draws the bound has a standard error of 0.4 %."""
 BLOCK = 8
-"""Places at once."""
+"""Number of positions computed at once."""
 
 
 @dataclass(frozen=True)
 class ErrorFields:
-    """Position errors at places (G,), mm."""
+    """Position errors at positions (G,), mm."""
 
     before: Real
-    """(G,) expected with the zeros that the drives had: the root of the mean square."""
+    """(G,) expected with the previous zeros of the drives: the root of the mean square."""
     after: Real
     """(G,) expected with the identified zeros in the drives."""
     after_95: Real
-    """(G,) 95 % bound at each place alone."""
+    """(G,) 95 % bound at each position separately."""
 
     def within(self, bound: float) -> Real:
-        """(G,) bounds in proportion to those of each place, the largest being the bound on all together."""
+        """(G,) bounds in proportion to those of each position; the largest equals the bound on all."""
         return np.asarray(self.after_95 * (bound / np.nanmax(self.after_95)))
 
 
 def largest_error_bound(mean: Real, jacobian: Real, covariance: Real) -> float:
-    """95 % of machines drawn from a posterior have no larger position error anywhere, mm.
+    """Bound on the position error anywhere for 95 % of machines drawn from a posterior, mm.
 
-    mean (G, 2) error at the posterior mean, jacobian (G, 2, P), covariance (P, P); what has no finite
+    mean (G, 2) error at the posterior mean, jacobian (G, 2, P), covariance (P, P); an unknown without finite
     variance must not move anything.
     """
     return largest_error_bounds((mean,), jacobian, covariance)[0]
@@ -67,7 +67,7 @@ def largest_error_bound(mean: Real, jacobian: Real, covariance: Real) -> float:
 def largest_error_bounds(means: Sequence[Real], jacobian: Real, covariance: Real) -> list[float]:
     """The same for several errors at the posterior mean, each (G, 2).
 
-    |m + a|^2 of all means m and draws a at a place is one product, (2 m, 1, |m|^2) (a, |a|^2, 1)'.
+    |m + a|^2 for all means m and draws a at a position is one product, (2 m, 1, |m|^2) (a, |a|^2, 1)'.
     """
     mean = np.stack(means, axis=1)
     of_means = np.dstack([2.0 * mean, np.ones(mean.shape[:2]), np.sum(mean**2, axis=2)])
@@ -89,13 +89,13 @@ def expected_largest_error_bound(means: Real, jacobian: Real, covariance: Real) 
 
 
 def error_bounds(mean: Real, jacobian: Real, covariance: Real) -> Real:
-    """(G,) the same for each place alone."""
+    """(G,) the same for each position separately."""
     squares = (_squares(mean[places], apart) for places, apart in _drawn(jacobian, covariance))
     return np.asarray(np.sqrt(np.concatenate([_quantile_95(of) for of in squares])))
 
 
 def _quantile_95(squares: Real) -> Real:
-    """(N,) of each row (N, DRAWS), interpolated; `np.quantile` takes five times as long."""
+    """(N,) 95 % quantile of each row (N, DRAWS), interpolated; `np.quantile` takes five times as long."""
     k, share = divmod(0.95 * (DRAWS - 1), 1.0)
     parted = np.partition(squares, (int(k), int(k) + 1), axis=1)
     below, above = parted[:, int(k)], parted[:, int(k) + 1]
@@ -103,25 +103,25 @@ def _quantile_95(squares: Real) -> Real:
 
 
 def _squares(mean: Real, apart: Real) -> Real:
-    """(B, DRAWS) squares of errors that differ from the mean (B, 2) by so much (B, 2, DRAWS)."""
+    """(B, DRAWS) squares of errors that differ from the mean (B, 2) by (B, 2, DRAWS)."""
     error = apart + mean[:, :, None]
     error *= error
     return np.asarray(np.add(error[:, 0], error[:, 1], out=error[:, 0]))
 
 
 def _drawn(jacobian: Real, covariance: Real) -> Iterator[tuple[slice, Real]]:
-    """By how much machines drawn from a posterior differ from its mean at some places (B, 2, DRAWS), block by
+    """Deviations from the mean of machines drawn from a posterior, at some positions (B, 2, DRAWS), block by
     block; always the same machines.
 
-    The largest of many correlated lengths has no closed form.  In blocks, because what is computed for one
-    stays in the processor's cache; the array is used again for the next.
+    The largest of many correlated lengths has no closed form. Blocks keep the intermediate arrays in the
+    processor's cache; the array is used again for the next block.
     """
     finite = np.isfinite(np.diag(covariance))
     sd = np.sqrt(np.diag(covariance)[finite])
     values, vectors = np.linalg.eigh(covariance[np.ix_(finite, finite)] / np.outer(sd, sd))
     root = sd[:, None] * vectors * np.sqrt(np.maximum(values, 0.0))
     errors = (jacobian[:, :, finite] @ root).reshape(-1, len(sd))
-    # the largest error is nearly a function of one direction: along the principal ones strata pay most
+    # the largest error is nearly a function of one direction: strata along the principal ones pay most
     by_draw = (errors @ np.linalg.eigh(errors.T @ errors)[1]).reshape(*jacobian.shape[:2], len(sd))
     standard = _standard_normal(len(sd))
     apart = np.empty((BLOCK, 2, DRAWS))
@@ -134,7 +134,7 @@ def _drawn(jacobian: Real, covariance: Real) -> Iterator[tuple[slice, Real]]:
 
 @lru_cache(maxsize=8)
 def _standard_normal(size: int) -> Real:
-    """(size, DRAWS), in each row one from each of DRAWS strata (Latin hypercube)."""
+    """(size, DRAWS) standard normal numbers, in each row one from each of DRAWS strata (Latin hypercube)."""
     strata = np.tile(np.arange(DRAWS), (size, 1))
     drawn = np.asarray(ndtri((np.random.default_rng(0).permuted(strata, axis=1) + 0.5) / DRAWS))
     drawn.setflags(write=False)

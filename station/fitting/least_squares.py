@@ -1,13 +1,13 @@
 """Whitened least squares by trust-region steps.
 
-The problem is to minimise |r(x)|^2 + |W (x - m)|^2, where r is already divided by its standard
-deviation and (m, W) is the prior.  A step is Gauss-Newton's where that is no longer than the trust
-radius, else Levenberg-Marquardt's of that length, bent along the valley it is in (More 1978; Transtrum
-and Sethna 2012).  The radius follows the gain ratio: actual over predicted reduction of the cost.
+The problem is to minimise |r(x)|^2 + |W (x - m)|^2, where r is already divided by its standard deviation and
+(m, W) is the prior.  A step is the Gauss-Newton step where that is no longer than the trust radius, otherwise
+the Levenberg-Marquardt step of that length, bent along its valley (More 1978; Transtrum and Sethna 2012).
+The radius follows the gain ratio: actual over predicted reduction of the cost.
 
-The iteration ends where a Gauss-Newton step would gain next to nothing.  How it ended is `status`, in
-words `message`, and what it left undone is `gain_left`.  A solution that stopped early is an answer
-too: its covariance is widened by the step that was not made.
+The iteration ends where a Gauss-Newton step would gain next to nothing.  `status` and `message` state how it
+ended, and `gain_left` the remaining reduction. A solution that stopped early is valid too: its covariance is
+widened by the step that was not made.
 """
 
 from __future__ import annotations
@@ -23,33 +23,33 @@ from scipy.linalg.lapack import dposv
 from station.records import Real
 
 TOLERANCE = 3e-8
-"""Length of the undamped step, in standard deviations, that counts as none."""
+"""Length of the undamped step, in standard deviations, that counts as zero."""
 NEGLIGIBLE = 1e-6
-"""Distance left, per standard deviation of misfit, that is not worth a slow approach."""
+"""Remaining distance, per standard deviation of misfit, that is not worth further slow steps."""
 MAX_STEPS = 250
 HUNDREDS = 1.0
-"""Length of the last step of hundreds of unknowns together: a twentieth of a standard deviation each."""
+"""Length of the last step for hundreds of unknowns together: a twentieth of a standard deviation each."""
 SLOW_AFTER = 5
-"""Steps before a slow approach is looked at."""
+"""Number of steps before slow convergence is checked."""
 SLOW = 0.3
-"""Length of a step over the one before, from which on Gauss-Newton lacks the curvature of large residuals."""
+"""Ratio of successive step lengths above which Gauss-Newton lacks the curvature of large residuals."""
 ROUNDING = 1e-7
-"""Share of the cost that double precision may get wrong: distances are known to 1e-13 mm of 600."""
+"""Rounding error of the cost in double precision, as a share: distances are known to 1e-13 mm of 600."""
 GOOD, POOR = 0.75, 0.25
 """Gain ratios above which steps may be longer, and below which they must be shorter,"""
 LONGER, SHORTER = 2.0, 0.5
 """by these factors."""
 NEAR = 0.2
-"""Share by which the length of a step may miss the radius."""
+"""Share by which the length of a step may differ from the radius."""
 MOST_ROUNDS = 30
 BEND = 0.1
 """Share of a step after which the residual's second derivative along it is taken."""
 MOST_BEND = 0.375
-"""Of a step's length, by which it may be bent."""
+"""Maximum bend of a step, as a share of its length."""
 MANY = 100
-"""Unknowns from which the shape of the minimum is taken from the normal matrix."""
+"""Number of unknowns from which the shape of the minimum is computed from the normal matrix."""
 BLIND = 1e-10
-"""Singular values below this share of the largest carry no information in double precision."""
+"""Singular values below this share of the largest contain no information in double precision."""
 
 Residuals = Callable[[Real], tuple[Real, Real]]
 """x (P,) -> whitened residual (R,) and its Jacobian (R, P)."""
@@ -70,7 +70,7 @@ class NotConvergedError(ArithmeticError):
 
 @dataclass(frozen=True)
 class Prior:
-    """What is known before the data: x ~ N(mean, inverse of root' root)."""
+    """The knowledge before the data: x ~ N(mean, inverse of root' root)."""
 
     mean: Real
     """(P,)"""
@@ -79,7 +79,7 @@ class Prior:
 
     @classmethod
     def independent(cls, mean: Real, sd: Real) -> Prior:
-        """One standard deviation each, inf for none."""
+        """A prior with one standard deviation for each unknown, inf for none."""
         held = np.flatnonzero(np.isfinite(sd))
         root = np.zeros((len(held), len(sd)))
         root[np.arange(len(held)), held] = 1.0 / sd[held]
@@ -87,7 +87,7 @@ class Prior:
 
     @property
     def free(self) -> int:
-        """Number of unknowns that the prior says nothing about."""
+        """Number of unknowns without a prior."""
         return len(self.mean) - len(self.root)
 
 
@@ -99,7 +99,7 @@ class Solution:
     covariance: Real
     """(P, P) posterior covariance; blind directions without a prior have infinite variance."""
     singular_values: Real
-    """(P,) of the stacked Jacobian with unit columns, descending."""
+    """(P,) singular values of the stacked Jacobian with unit columns, descending."""
     directions: Real
     """(P, P) rows: the matching directions in the scaled unknowns."""
     scale: Real
@@ -117,7 +117,7 @@ class Solution:
 
     @property
     def complete(self) -> bool:
-        """Whether the minimum was reached; else the covariance holds what was left undone."""
+        """Whether the minimum was reached; otherwise the covariance includes the missing step."""
         return self.status != "stopped"
 
     @property
@@ -129,7 +129,7 @@ class Solution:
         return f"{text}, after {self.steps} steps; the next would reduce the cost by {self.gain_left:.2g}"
 
     def ended(self, status: Status, undone: Real, length: float) -> Solution:
-        """The same, ended otherwise: before a step `undone` (P,) of `length` standard deviations."""
+        """The same solution with another end: before a step `undone` (P,) of `length` standard deviations."""
         covariance = self.covariance
         if status == "stopped":
             covariance = covariance + np.outer(undone, undone)
@@ -137,16 +137,16 @@ class Solution:
 
     @property
     def blind(self) -> int:
-        """Number of directions that neither data nor prior hold."""
+        """Number of directions that neither data nor prior determine."""
         return int(np.sum(self.singular_values <= BLIND * self.singular_values[0]))
 
 
 def solve(residuals: Residuals, start: Real, prior: Prior, most_steps: int = MAX_STEPS) -> Solution:
     """Minimise from `start` (P,), in `most_steps` at most.
 
-    Steps come from the normal equations with unit columns: their rounding only slows a step, the
-    residual and its gradient decide where the iteration ends.  The answer's shape comes from the
-    SVD of the stacked Jacobian itself.
+    Steps come from the normal equations with unit columns: their rounding only slows a step, since the
+    residual and its gradient decide where the iteration ends. The shape of the minimum comes from the SVD of
+    the stacked Jacobian itself.
 
     :raises NotConvergedError: the model is not a number at the start.
     """
@@ -169,7 +169,7 @@ def _solve(residuals: Residuals, start: Real, prior: Prior, most_steps: int) -> 
         full = _descend(normal, gradient)
         length = math.sqrt(max(float(full @ gradient), 0.0))
         if length < TOLERANCE:
-            # nothing that was evaluated at x is different there
+            # the evaluation at x is unchanged there
             return _shape(x - full, stacked, r, J, cost, step)
         rate, before = length / before, length
         curved = False
@@ -177,7 +177,7 @@ def _solve(residuals: Residuals, start: Real, prior: Prior, most_steps: int) -> 
             left = length / max(1.0 - rate, TOLERANCE)
             if left < NEGLIGIBLE * max(_misfit(cost, len(r)), 1.0):
                 return _shape(x, stacked, r, J, cost, step).ended("slow", full, length)
-            # with large residuals Gauss-Newton crawls: its matrix lacks their curvature
+            # with large residuals Gauss-Newton converges slowly: its matrix lacks their curvature
             curved = step % 2 == 1 and not ratio > GOOD
         if step > most_steps:
             break
@@ -195,13 +195,14 @@ def _solve(residuals: Residuals, start: Real, prior: Prior, most_steps: int) -> 
             new_stacked, new_target, new_r, new_J = _stack(residuals, x - along, prior)
             new_cost = float(new_target @ new_target)
             seen = ROUNDING * (1.0 + cost)
-            # rounding of the cost itself must not be mistaken for an uphill step
+            # rounding of the cost itself must not be mistaken for an increase
             ratio = 1.0 if abs(new_cost - cost) < seen else (cost - new_cost) / predicted
             if not ratio > POOR:
                 first = step == 1 and math.isinf(radius)
                 radius = SHORTER * trust.size(along)
                 if first:
-                    # a poor first step is made anew, no longer than the start is from the origin (More)
+                    # a poor first step is repeated, no longer than the start's distance from the origin
+                    # (More)
                     radius = min(radius, trust.size(x) or math.inf)
                     continue
             elif ratio > GOOD and math.isfinite(radius):
@@ -218,7 +219,7 @@ def _solve(residuals: Residuals, start: Real, prior: Prior, most_steps: int) -> 
 
 
 class _TrustRegion:
-    """Steps of one linearised problem that go no further than a radius."""
+    """Steps of one linearised problem that stay within a radius."""
 
     def __init__(self, normal: Real, gradient: Real, full: Real, extent: Real) -> None:
         self._normal, self._gradient, self._full, self._extent = normal, gradient, full, extent
@@ -226,7 +227,7 @@ class _TrustRegion:
         self._damping = 0.0
 
     def size(self, along: Real) -> float:
-        """Of a step (P,): in units of `extent`."""
+        """Length of a step (P,), in units of `extent`."""
         return float(np.linalg.norm(along * self._extent))
 
     def step(self, radius: float) -> tuple[Real, float]:
@@ -247,7 +248,7 @@ class _TrustRegion:
         return vectors @ part, float(part @ along + self._damping * (part @ part))
 
     def bend(self, gradient: Real, radius: float) -> Real:
-        """(P,) by how much the step is bent to stay in its valley; not at all where that is too much.
+        """(P,) bend of the step that keeps it in its valley; zero where that would be too large.
 
         gradient: J' times the residual's second derivative along the step.
         """
@@ -260,7 +261,7 @@ class _TrustRegion:
 
 
 def _damping(values: Real, along: Real, radius: float) -> float:
-    """By which a step gets the length `radius`: Newton on its reciprocal (More and Sorensen 1983)."""
+    """Damping that gives a step the length `radius`: Newton on its reciprocal (More and Sorensen 1983)."""
     damping = 0.0 if values[0] > 0.0 else float(np.linalg.norm(along)) / radius * TOLERANCE
     for _ in range(MOST_ROUNDS):
         part = along / (values + damping)
@@ -273,12 +274,12 @@ def _damping(values: Real, along: Real, radius: float) -> float:
 
 
 def _misfit(cost: float, rows: int) -> float:
-    """Standard deviations by which a row is off, RMS."""
+    """RMS misfit of the rows, in standard deviations."""
     return math.sqrt(cost / rows)
 
 
 def _hessian(residuals: Residuals, x: Real, gradient: Real, prior: Prior) -> Real:
-    """(P, P) of half the cost by differences of its gradient."""
+    """(P, P) Hessian of half the cost by differences of its gradient."""
     norms = np.linalg.norm(_stack(residuals, x, prior)[0], axis=0)
     columns = []
     for k, step in enumerate(1.0 / np.where(norms > 0.0, norms, 1.0)):
@@ -291,7 +292,7 @@ def _hessian(residuals: Residuals, x: Real, gradient: Real, prior: Prior) -> Rea
 
 
 def _descend(normal: Real, gradient: Real) -> Real:
-    """Solve normal step = gradient with unit columns; blind directions are left alone."""
+    """Solve normal step = gradient with unit columns; the step is zero along blind directions."""
     scale = np.sqrt(normal.diagonal())
     scale[scale == 0.0] = 1.0
     unit = normal / scale
@@ -320,8 +321,8 @@ def _shape(x: Real, stacked: Real, r: Real, J: Real, cost: float, steps: int) ->
 def _singular(stacked: Real, scale: Real) -> tuple[Real, Real]:
     """Singular values, descending, and right singular vectors of a matrix, its columns divided by scale (P,).
 
-    Of hundreds of columns by way of the normal matrix: it knows singular values to 1e-8 of the largest only,
-    but a fit of so many has priors that keep them above that, and takes seconds less.
+    Hundreds of columns are computed from the normal matrix: it resolves singular values only to 1e-8 of the
+    largest, but fits with so many columns have priors that keep them above that, and it saves seconds.
     """
     if stacked.shape[1] < MANY:
         _, sigma, Vt = np.linalg.svd(stacked / scale, full_matrices=False)
@@ -331,10 +332,10 @@ def _singular(stacked: Real, scale: Real) -> tuple[Real, Real]:
 
 
 def _stack(residuals: Residuals, x: Real, prior: Prior) -> tuple[Real, Real, Real, Real]:
-    """Rows of data above rows of prior: Jacobian (R + H, P), residual (R + H,), and the data's own."""
+    """Rows of data above rows of prior: Jacobian (R + H, P), residual (R + H,), and the data alone."""
     r, J = residuals(x)
     if not len(prior.root):
         return J, r, r, J
     stacked, target = np.concatenate([J, prior.root]), np.concatenate([r, prior.root @ (x - prior.mean)])
-    # views, so that the data's own are not kept twice
+    # views, so that the data's arrays are not stored twice
     return stacked, target, target[: len(r)], stacked[: len(r)]

@@ -1,4 +1,4 @@
-"""Linear systems that may be singular, as far as double precision lets them be solved."""
+"""Linear systems that may be singular, solved as far as double precision permits."""
 
 from __future__ import annotations
 
@@ -7,11 +7,11 @@ import numpy as np
 from station.records import Real
 
 POSITIVE = 1e-12
-"""Least eigenvalue of a matrix made positive definite, over the largest, with unit diagonal."""
+"""Smallest eigenvalue of a matrix made positive definite, over the largest, with unit diagonal."""
 
 
 def solved(matrix: Real, right: Real) -> Real:
-    """matrix^-1 right; of a singular matrix the shortest solution."""
+    """matrix^-1 right; for a singular matrix, the shortest solution."""
     try:
         return np.asarray(np.linalg.solve(matrix, right))
     except np.linalg.LinAlgError:
@@ -19,9 +19,10 @@ def solved(matrix: Real, right: Real) -> Real:
 
 
 def positive(matrix: Real) -> Real:
-    """The symmetric matrix itself where it is positive definite, else the nearest that is.
+    """The symmetric matrix itself where it is positive definite, otherwise the nearest such matrix.
 
-    Differences of nearly equal matrices (information less what other unknowns take up) lose it by rounding.
+    Differences of nearly equal matrices (information less the part that other unknowns take up) lose
+    definiteness by rounding.
     """
     scale = np.sqrt(np.maximum(np.diag(matrix), 0.0))
     scale[scale == 0.0] = 1.0

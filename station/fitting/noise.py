@@ -1,7 +1,7 @@
-"""How noisy the readings are, and whether the model fits within that noise.
+"""The noise of the readings, and whether the model fits within it.
 
-Pure error comes from readings alike in place, approach and mount: whatever the model lacks acts on
-all of them alike, so their scatter about their own mean is noise alone.
+Pure error comes from readings with the same position, approach and mount: a missing effect acts on all of
+them equally, so their scatter about their own mean is only noise.
 """
 
 from __future__ import annotations
@@ -16,22 +16,22 @@ from station.fitting.least_squares import Solution
 from station.records import Measurements, NoiseOfReadings, Real
 
 MINIMUM_DOF = 8
-"""Fewer repeats say less about the noise than the specification does."""
+"""Fewer repeats are weaker evidence on the noise than the specification."""
 FEWEST_REPEATS = 6
-"""Degrees of freedom; fewer repeats are no yardstick for a residual."""
+"""Degrees of freedom; fewer repeats are not a sufficient reference for a residual."""
 REFUSED_P = 1e-3
-"""A model that is true is refused by fresh readings this often."""
+"""Probability that fresh readings refuse a true model."""
 
 
 @dataclass(frozen=True)
 class Noise:
-    """The standard deviation of each row and where it comes from."""
+    """The standard deviation of each row, and its source."""
 
     row_sd: Real
     """(K,) mm."""
     source: Literal["repeats", "specification"]
     dof: int
-    """Degrees of freedom of the repeats; 0 for the specification."""
+    """Degrees of freedom of the repeats; 0 if the specification was used."""
 
     @property
     def sigma_mm(self) -> float:
@@ -44,7 +44,7 @@ class Noise:
         return float(stdtrit(self.dof, 0.975)) if self.dof else float(ndtri(0.975))
 
     def record(self) -> NoiseOfReadings:
-        """As documents show it."""
+        """The noise as documents contain it."""
         return NoiseOfReadings(sigma_mm=self.sigma_mm, source=self.source, dof=self.dof)
 
 
@@ -57,15 +57,16 @@ def pure_error(measurements: Measurements, whitened: Real) -> tuple[float, int]:
 
 
 def chance_of(square: float, count: int, dof: int) -> float:
-    """Probability of as large a sum of squares of `count` numbers, each by its standard deviation.
+    """Probability of a sum of squares at least this large of `count` numbers, over their standard deviations.
 
-    :param dof: degrees of freedom of the repeats that told the noise (F); 0: it is known (chi-square)
+    :param dof: degrees of freedom of the repeats that determined the noise (F); 0: the noise is known
+    (chi-square)
     """
     return float(fdtrc(count, dof, square / count)) if dof else float(chdtrc(count, square))
 
 
 def specified_noise(row_sd: Real) -> Noise:
-    """Of rows (R,) that scatter as specified."""
+    """Noise of rows (R,) that scatter as specified."""
     return Noise(row_sd, "specification", 0)
 
 
@@ -82,9 +83,9 @@ def lack_of_fit(
 ) -> tuple[float, float]:
     """p-value of the fit against the noise, and the ratio of residual scatter to noise (at least 1).
 
-    The posterior cost of a true model is chi-square with R - `free` degrees of freedom, `free`
-    being the unknowns without a prior.  Against repeats the pure error is taken out of it and the
-    quotient is F.
+    The posterior cost of a true model is chi-square with R - `free` degrees of freedom, `free` being the
+    unknowns without a prior.  With repeats the pure error is subtracted from it and the quotient is
+    F-distributed.
     """
     dof = len(solution.residual) - free
     ratio = float(np.sqrt(max(solution.cost / dof, 1.0)))

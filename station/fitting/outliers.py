@@ -1,8 +1,8 @@
-"""Readings that disagree with all others: found, named, left out with a reason, never silently.
+"""Readings that disagree with all others: found, listed by id, and excluded with a reason, never silently.
 
-A reading is an outlier only when it also disagrees with the other readings of its own place: an
-effect at a place (a dent, a cable) shows in all of them and must not be thrown away.  Nor are the first
-or the last few in time together outliers: there the machine was another one, and it must be said.
+A reading is an outlier only when it also disagrees with the other readings of its own position: an effect at
+a position (a dent, a cable) appears in all of them and must not be excluded. Nor are the first or the last
+few readings in time outliers: the machine was different then, and this must be reported.
 """
 
 from __future__ import annotations
@@ -20,12 +20,12 @@ from station.mechanism import Mechanism, axis_of_row
 from station.records import Index, Measurements, OutlierNote, Real
 
 SIGNIFICANCE = 1e-3
-"""For the whole set of readings (Bonferroni)."""
+"""Level for the whole set of readings (Bonferroni)."""
 LARGEST_SHARE = 0.1
 FEW = 40
-"""Below this many readings their own scatter cannot be trusted to be smaller than specified."""
+"""With fewer readings, a scatter smaller than specified is not reliable."""
 SUSPICIOUS = 1.5
-"""More scatter than specified may be gross readings in hiding."""
+"""Scatter above the specification by this factor may be caused by gross readings."""
 CAUCHY = 2.385
 """Tuning constant of the Cauchy weight, in standard deviations (95 % efficient for normal noise)."""
 ROBUST_STEPS = 12
@@ -33,7 +33,7 @@ ROBUST_STEPS = 12
 
 @dataclass(frozen=True)
 class Outlier:
-    """One reading left out."""
+    """One excluded reading."""
 
     reading: int | str
     residual_mm: float
@@ -44,7 +44,7 @@ class Outlier:
         return f"off by {self.residual_mm * 1e3:.0f} um, {self.times_sd:.0f} times the scatter of the others"
 
     def record(self) -> OutlierNote:
-        """As documents show it."""
+        """The outlier as documents contain it."""
         return OutlierNote(reading=self.reading, residual_mm=self.residual_mm, reason=self.reason)
 
 
@@ -53,10 +53,10 @@ Fit = Callable[[Real], Solution]
 
 
 def find_outliers(mechanism: Mechanism, fit: Fit, row_sd: Real) -> tuple[Outlier, ...]:
-    """The outlying readings against a robust fit; `row_sd` (R,) is what the rows should scatter by.
+    """The outlying readings against a robust fit; `row_sd` (R,) is the expected scatter of the rows.
 
-    Plain least squares bends towards gross readings until good ones look wrong, so the fit is
-    repeated with Cauchy weights until the majority alone decides.
+    Plain least squares follows gross readings until good ones look wrong, so the fit is repeated with Cauchy
+    weights until only the majority determines it.
     """
     solution = fit(row_sd)
     residual = -solution.residual
@@ -75,7 +75,7 @@ def find_outliers(mechanism: Mechanism, fit: Fit, row_sd: Real) -> tuple[Outlier
 
 
 def outliers_of_fit(mechanism: Mechanism, solution: Solution, row_sd: Real) -> tuple[Outlier, ...]:
-    """The outlying readings against a fit that the majority already decided."""
+    """The outlying readings against a fit that the majority already determines."""
     residual = -solution.residual
     t = residual / np.sqrt(_left(solution))
     return _named(mechanism, residual, t, _scale(t), row_sd)
@@ -86,7 +86,7 @@ def _limit(t: Real) -> float:
 
 
 def _named(mechanism: Mechanism, residual: Real, t: Real, scale: float, row_sd: Real) -> tuple[Outlier, ...]:
-    """Readings with a row beyond the limit, by the row that is furthest off."""
+    """Outliers with a row beyond the limit, by the row that is furthest off."""
     limit = _limit(t) * scale
     suspects = np.flatnonzero(np.abs(t) > limit)
     worst: dict[int, int] = {}
@@ -103,9 +103,10 @@ def _named(mechanism: Mechanism, residual: Real, t: Real, scale: float, row_sd: 
 
 
 def _at_an_end(measurements: Measurements, off: Mapping[int, float]) -> set[int]:
-    """Those of readings that are off that follow one another up to an end of the sequence in time.
+    """Those of the deviating readings that form a run up to an end of the sequence in time.
 
-    A slip or a step between readings leaves all of one side of it off; two to different sides are chance.
+    A slip or a step between readings makes all readings on one side of it deviate; two to different sides are
+    chance.
     """
     in_time = [int(k) for k in np.argsort(measurements.t_s, kind="stable")]
     found: set[int] = set()
@@ -135,7 +136,7 @@ def _scale(t: Real) -> float:
 
 
 def _apart(mechanism: Mechanism, residual: Real, k: int, suspects: Index) -> float:
-    """How far row k is from the same coordinate of the others of its place; inf when it is alone there."""
+    """Deviation of row k from the same coordinate of the others at its position; inf without others."""
     reading, axis = mechanism.reading_of_row, axis_of_row(mechanism)
     place = mechanism.measurements.position[reading]
     companions = np.flatnonzero((place == place[k]) & (axis == axis[k]))
@@ -147,12 +148,12 @@ def _apart(mechanism: Mechanism, residual: Real, k: int, suspects: Index) -> flo
 
 
 def few_enough(left_out: tuple[Outlier, ...], readings: int) -> bool:
-    """At most a tenth of the readings, or one: more are something that the model lacks."""
+    """Whether at most a tenth of the readings, or one, is excluded: more indicate a missing effect."""
     return len(left_out) <= max(1, int(LARGEST_SHARE * readings))
 
 
 def check_outlier_share(left_out: tuple[Outlier, ...], readings: int) -> None:
-    """:raises InputRefused: more than a tenth of the readings (at least one) would be left out."""
+    """:raises InputRefused: more than a tenth of the readings (at least one) would be excluded."""
     if not few_enough(left_out, readings):
         names = ", ".join(str(o.reading) for o in left_out)
         raise InputRefused(

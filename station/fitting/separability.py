@@ -1,8 +1,8 @@
-"""Which parameters the readings cannot tell apart, by name, and what ties them.
+"""Which parameters the readings cannot distinguish, by name, and the dependences between them.
 
-Each unknown is counted in its own tolerance.  Pivoted QR of the whitened Jacobian picks, one after another,
-the parameter that the readings say most of beside those picked before; the rest are tied by their tolerances,
-and each is named with the parameters that it cannot be told from.
+Each unknown is scaled by its own tolerance. Pivoted QR of the whitened Jacobian picks, one after another, the
+parameter that the readings determine best beside those picked before; the others are determined by their
+tolerances, and each is reported with the parameters that it cannot be distinguished from.
 """
 
 from __future__ import annotations
@@ -18,11 +18,11 @@ from station.mechanism import Mechanism
 from station.records import Real, WeakDirection
 
 TIED = 1.0
-"""Information of the readings on a parameter over that of its tolerance, below which the latter decides."""
+"""Information of the readings over that of the tolerance, below which the tolerance dominates."""
 FREE = 1e6
-"""An unknown without a tolerance may be off by so many of what the readings alone know of it."""
+"""Assumed tolerance of an unknown without one, over its standard deviation from the readings."""
 ALIKE = 0.3
-"""Cosine from which on a tied parameter is said to look like another."""
+"""Cosine from which a tied parameter is reported as similar to another."""
 MOST_NAMED = 3
 
 
@@ -32,7 +32,7 @@ class Tied:
 
     name: str
     looks_like: tuple[str, ...]
-    """Parameters that together do what it does, most alike first; none: the readings do not see it at all."""
+    """Parameters with the same effect, most similar first; empty: it has no effect on the readings at all."""
 
     @property
     def text(self) -> str:
@@ -46,7 +46,7 @@ def describe_separability(
 ) -> WeakDirection:
     """The zero offset that the readings determine least, and what tolerances alone determine.
 
-    sd_deg is the largest standard uncertainty of a zero offset that is not tied; `blind` names the tied.
+    sd_deg is the largest standard uncertainty of a zero offset that is not tied; `blind` names the tied ones.
     """
     tied = separate(mechanism, solution)
     names = {t.name for t in tied}
@@ -64,7 +64,7 @@ def describe_separability(
 
 
 def separate(mechanism: Mechanism, solution: Solution) -> tuple[Tied, ...]:
-    """The parameters that are held by tolerances alone, by name."""
+    """The parameters that only their tolerances determine, by name."""
     names = [p.name for p in mechanism.parameters]
     J = solution.jacobian[:, : len(names)]
     norms = np.linalg.norm(J, axis=0)

@@ -1,8 +1,8 @@
 """First-order errors of position and distance (paper section 3, eq. 9 to 20), in closed form.
 
-Parameter order everywhere: dtheta1, dtheta2 (rad), e1x, e1y, e2x, e2y, L1, L2, l1, l2, rMx, rMy (mm).
-These are deviations from the nominal geometry.  Everything follows from one line, eq. 11:
-w_i . dr = w_i . dB_i + dl_i, where dB_i is how the elbow moves.
+Parameter order everywhere: dtheta1, dtheta2 (rad), e1x, e1y, e2x, e2y, L1, L2, l1, l2, rMx, rMy (mm). These
+are deviations from the nominal geometry.  Everything follows from one line, eq. 11: w_i . dr = w_i . dB_i +
+dl_i, where dB_i is the motion of the elbow.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ def perturbed(nominal: Geometry, p: Real) -> Geometry:
 
 
 class Pose(NamedTuple):
-    """One evaluation of the linkage at K poses, with everything derivatives are made of."""
+    """One evaluation of the linkage at K poses, with all quantities that derivatives need."""
 
     r: Complex
     """(K,) position of P."""
@@ -56,7 +56,7 @@ def pose(geometry: Geometry, theta: Real) -> Pose:
 
 
 def link_shares(at: Pose) -> Real:
-    """(K, 2) alpha with direction = alpha_1 w_1 + alpha_2 w_2: what each limb's dB_i + dl_i does to rho."""
+    """(K, 2) alpha with direction = alpha_1 w_1 + alpha_2 w_2: effect of each limb's dB_i + dl_i on rho."""
     w1, w2 = at.w[:, 0], at.w[:, 1]
     conjugate = at.direction.conj()
     # the imaginary part of conj(a) b is the cross product a x b
@@ -106,4 +106,4 @@ def position_jacobian(geometry: Geometry, at: Pose) -> Real:
 
 
 KEPT = (0, 1, 10, 11)
-"""What eq. 28 keeps of the twelve: zero offsets and MAEMM."""
+"""Parameters that eq. 28 retains of the twelve: zero offsets and MAEMM."""

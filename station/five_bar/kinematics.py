@@ -28,7 +28,7 @@ class Geometry:
     l: Real  # noqa: E741 - the paper's symbol
     """(2,) distal lengths."""
     cd: complex | Complex
-    """c + d, one for all or (K,) one a pose: the distance sees only their sum (eq. 4)."""
+    """c + d, one for all or (K,) one per pose: the distance depends only on their sum (eq. 4)."""
 
 
 _ELBOW = np.array([1.0, -1.0])

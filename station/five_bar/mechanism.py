@@ -1,6 +1,6 @@
 """The five-bar as a mechanism: the measurement model (docs/explanation/method.md) with its derivatives.
 
-s_k = rho(theta_fb,k + dtheta; e, L, l, dr_M) - rho_0, one rho_0 and one dr_M a mount.
+s_k = rho(theta_fb,k + dtheta; e, L, l, dr_M) - rho_0, one rho_0 and one dr_M per mount.
 """
 
 from __future__ import annotations
@@ -37,9 +37,9 @@ from station.records import Complex, Index, Measurements, Real
 SCALE_SD_MM = (3.0 + 0.35) / 3.0 * 1e-3
 """Eq. 34 for the 350 mm scale."""
 UNKNOWN_MOUNT_SD_MM = 300.0
-"""Prior of c where the robot file does not say where a mount is."""
+"""Prior of c where the robot file does not state the position of a mount."""
 IMPOSSIBLE_SDS = 20.0
-"""A parameter this many tolerances from nominal is a wrong file or a missing effect, not a calibration."""
+"""A parameter this many tolerances from nominal indicates a wrong file or a missing effect."""
 GRID = (9, 7)
 """Points of the workspace at which position errors are predicted."""
 
@@ -92,18 +92,18 @@ class FiveBar:
         return "paper", tuple(p.name for p in self.parameters if p.role != "geometry")
 
     def of(self, measurements: Measurements) -> FiveBar:
-        """The same robot under other readings."""
+        """The same robot with other readings."""
         return FiveBar(self.robot, measurements)
 
     def check(self) -> None:
-        """:raises InputRefused: poses or distances that cannot be of this robot."""
+        """:raises InputRefused: poses or distances are impossible for this robot."""
         check_poses(self.robot, self.measurements)
         check_distances(self.robot, self.measurements)
 
     @cached_property
     def row_sd(self) -> Real:
-        """(K,) head noise (eq. 34), half a step of a coarse readout, and the half pulse that feedback
-        cannot tell, through d rho / d theta.
+        """(K,) head noise (eq. 34), half a step of a coarse readout, and the half pulse that feedback does
+        not resolve, through d rho / d theta.
         """
         joint_sd = np.radians(self.robot.joint_sd_deg)
         by_joint = distance_by_joint(pose(self.geometry_at(self.start), self.theta))
@@ -117,7 +117,7 @@ class FiveBar:
         return np.array([p.prior_mean for p in self.parameters])
 
     def geometry_at(self, p: Real) -> Geometry:
-        """The geometry at parameters p (P,); with several mounts c + d is (K,), one a reading."""
+        """The geometry at parameters p (P,); with several mounts c + d is (K,), one per reading."""
         geometry = perturbed(self.nominal, p[:SIZE])
         if not self._extra:
             return geometry
@@ -147,14 +147,14 @@ class FiveBar:
         return np.hstack([jacobian[:, :10], drm, offset])
 
     def _by_mount(self, by_drm: Real) -> tuple[Real, Real]:
-        """Spread d rho / d dr_M and d s / d rho_0 over the columns of each reading's own mount."""
+        """Assign d rho / d dr_M and d s / d rho_0 to the columns of each reading's own mount."""
         mounts = 1 + self._extra
         own = self._mount[:, None] == np.arange(mounts)
         drm = (own[:, :, None] * by_drm[:, None, :]).reshape(len(by_drm), 2 * mounts)
         return drm, -own.astype(float)
 
     def conditions(self, p: Real, reference: Reference, *, first: bool) -> Conditions:
-        """Under what the readings were taken; `first` when the model is being learned on them."""
+        """The conditions of the readings; `first` when the model is being learned from them."""
         m = self.measurements
         theta = m.theta + p[:2]
         at = pose(perturbed(self.nominal, p[:SIZE]), theta)
@@ -177,7 +177,7 @@ class FiveBar:
         )
 
     def places(self, p: Real) -> Real:
-        """(K, 2) where P stood at each reading, mm."""
+        """(K, 2) position of P at each reading, mm."""
         r = pose(perturbed(self.nominal, p[:SIZE]), self.theta + p[:2]).r
         return np.column_stack([r.real, r.imag])
 
@@ -187,7 +187,7 @@ class FiveBar:
         return self.robot.workspace_grid(*GRID)
 
     def implausible(self, p: Real) -> str:
-        """A link 3 mm off is a wrong robot file or a wrong column, not a calibration; names the parameter."""
+        """Why a parameter is implausible, by name: a link 3 mm off is a wrong robot file or column."""
         offset = np.array(
             [abs(x - q.prior_mean) / q.prior_sd for x, q in zip(p, self._by_tolerance, strict=True)]
         )
@@ -199,7 +199,7 @@ class FiveBar:
         return f"{q.name} would be {p[worst] * q.shown:.3f} {q.unit}, {offset[worst]:.0f} times its tolerance"
 
     def position_errors(self, p: Real) -> tuple[Real, Real]:
-        """Over the workspace grid, commanded by nominal inverse position and zero offsets uncompensated.
+        """Errors over the workspace grid, commanded by nominal inverse position, zero offsets uncompensated.
 
         Position at p less the commanded one (G, 2), and d (x, y) / d p (G, 2, P).
         """
@@ -208,7 +208,7 @@ class FiveBar:
     def position_errors_at(self, p: Real, target: Complex) -> tuple[Real, Real]:
         """The same at other commanded positions (G,), mm.
 
-        :raises Unreachable: naming the first out of reach.
+        :raises Unreachable: naming the first position out of reach.
         """
         theta = inverse(self.nominal, target)
         geometry = perturbed(self.nominal, p[:SIZE])
@@ -225,7 +225,7 @@ def lengths(robot: Robot) -> dict[str, float]:
 
 
 def load(theta: Real) -> tuple[Real, ...]:
-    """(K, 1) a joint: gravity's moment on its proximal link, 1 when horizontal."""
+    """(K, 1) per joint: gravity's moment on its proximal link, 1 when horizontal."""
     return tuple(np.cos(theta[:, [i]]) for i in range(theta.shape[1]))
 
 

@@ -1,4 +1,4 @@
-"""Readings that cannot be of this robot: wrong units, exchanged columns, rows of another pose.
+"""Readings that are impossible for this robot: wrong units, exchanged columns, rows of another pose.
 
 A refusal names the reading and the column.
 """
@@ -13,17 +13,17 @@ from station.five_bar.robot_file import Robot
 from station.records import Measurements
 
 ZERO_OFFSETS = 5.0
-"""Zero offsets beyond this many tolerances are taken for a mistake."""
+"""Zero offsets beyond this many tolerances count as a mistake."""
 OUTSIDE_MM = 80.0
-"""A platform further outside the workspace than zero offsets of a few degrees explain."""
+"""Distance of the platform outside the workspace that zero offsets of a few degrees cannot explain."""
 MISMATCH_MM = 100.0
-"""A distance further from what the joint angles say, the common offset taken out, than they explain."""
+"""Deviation of a distance from the joint angles, without the common offset, that they cannot explain."""
 FEWEST_PLACES = 5
 """Four unknowns and the reading offset (paper, section 5)."""
 
 
 def check_poses(robot: Robot, measurements: Measurements) -> None:
-    """:raises InputRefused: naming the first reading whose angles or distance cannot be."""
+    """:raises InputRefused: naming the first reading whose angles or distance are impossible."""
     theta = measurements.theta
     if np.abs(np.degrees(theta)).max() < 2.0 * np.pi:
         raise InputRefused(
@@ -67,7 +67,7 @@ def check_distances(robot: Robot, measurements: Measurements) -> None:
         c = robot.mount_of(measurements.mounts[mount])
         if c is None:
             if mount:
-                continue  # where this mount is, is for the identification to find
+                continue  # the position of this mount is left to the identification
             c = robot.c
         own = np.flatnonzero(measurements.mount == mount)
         if not len(own):
@@ -86,7 +86,7 @@ def check_distances(robot: Robot, measurements: Measurements) -> None:
 
 
 def check_places(measurements: Measurements) -> None:
-    """:raises InputRefused: too few distinct places."""
+    """:raises InputRefused: there are too few distinct positions."""
     places = len(set(map(tuple, np.round(np.degrees(measurements.theta), 1).tolist())))
     if places < FEWEST_PLACES:
         raise InputRefused(

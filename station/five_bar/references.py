@@ -1,7 +1,7 @@
-"""References as measurements of single unknowns: what they say, and what is known with them.
+"""References as measurements of single unknowns: their values, and the knowledge that results from them.
 
-A reference y of an unknown x with standard uncertainty s is one more row (y - x) / s of the fit.  Where x is
-known beforehand independently of the rest, that is the product of two normal distributions (GUM, H.2).
+A reference y of an unknown x with standard uncertainty s is one more row (y - x) / s of the fit.  Where the
+prior of x is independent of the other unknowns, that is the product of two normal distributions (GUM, H.2).
 """
 
 from __future__ import annotations
@@ -19,14 +19,14 @@ from station.records import AnyReference, JointAngle
 def measured_value(reference: AnyReference, robot: Robot) -> tuple[float, float]:
     """Value and standard uncertainty of the unknown that a reference measures, rad or mm."""
     if isinstance(reference, JointAngle):
-        # feedback, which the reference is counted from, leaves something open of its own
+        # the reference is counted from the feedback, which has an uncertainty of its own
         sd_deg = float(np.hypot(reference.sd_deg, robot.joint_sd_deg))
         return float(np.radians(reference.offset_deg)), float(np.radians(sd_deg))
     return reference.value_mm, reference.sd_mm
 
 
 def with_references(parameters: Sequence[Parameter], robot: Robot) -> tuple[Parameter, ...]:
-    """The unknowns of a robot with what its references say of them."""
+    """The unknowns of a robot, updated with its references."""
     if not robot.references:
         return tuple(parameters)
     out = {p.name: p for p in parameters}

@@ -43,21 +43,21 @@ from station.records import (
 Pair = tuple[float, float]
 FIVE_BAR_MODEL = "five-bar"
 INSET_MM = 4.0
-"""Kept free of the workspace's edge by what is measured, for the overshoot of an approach."""
+"""Margin from the workspace's edge for measured positions, for the overshoot of an approach."""
 MOST_ZERO_OFFSET = 4.0
-"""Tolerances of a zero offset."""
+"""Maximum zero offset, in tolerances."""
 MOST_MOUNTING_SDS = 20.0
-"""Standard deviations of the mounting error; more is a wrong entry."""
+"""Maximum mounting error, in standard deviations; more is a wrong entry."""
 SECOND = "second"
 ASIDE_MM = 200.0
-"""Where the second mounting point is, if the robot file names none."""
+"""Displacement of the second mounting point, if the robot file does not define one."""
 FRESH_INSET_MM = 15.0
-"""Kept free of it by fresh positions, which are predicted: the fit is surest in the interior."""
+"""Margin from the edge for fresh positions, which are predicted: the fit is most certain in the interior."""
 
 
 @dataclass(frozen=True, slots=True)
 class Tolerances:
-    """Standard deviations of what is not known better."""
+    """Standard deviations of the nominal values."""
 
     e_mm: float = 0.03
     link_mm: float = 0.03
@@ -66,7 +66,7 @@ class Tolerances:
 
 @dataclass(frozen=True)
 class Robot:
-    """One robot with its mechanism, as its file says; without a file the paper's Table 1."""
+    """One robot with its mechanism, as in its file; without a file, the paper's Table 1."""
 
     model: ClassVar[str] = FIVE_BAR_MODEL
     serial: str
@@ -78,15 +78,15 @@ class Robot:
     drm: Pair = (1.0, 0.5)
     """Expected MAEMM ("about 1 mm and 0.5 mm", paper section 6.1)."""
     drm_sd: Pair = (0.2, 0.2)
-    """How well that is known: "roughly measured", and within 0.16 mm of what Table 8 found."""
+    """Standard deviation of the MAEMM: "roughly measured", and within 0.16 mm of the result in Table 8."""
     mounts: dict[str, Pair] = field(default_factory=dict, hash=False)
-    """c of further mounting places of the mechanism, by the `mount` id of the measurement file."""
+    """c of further mounting points of the mechanism, by the `mount` id of the measurement file."""
     references: tuple[AnyReference, ...] = ()
-    """What was measured of the mechanism and, in one run, of the joints, by other instruments."""
+    """Measurements of the mechanism and, in one run, of the joints, by other instruments."""
     type: str | None = None
-    """Type designation: robots of one type learn from each other, and are judged together; None: alone."""
+    """Type designation: robots of one type share a prior and are evaluated together; None: alone."""
     accuracy_mm: float | None = None
-    """Largest position error that is wanted of a calibration; None where nobody said."""
+    """Required accuracy of a calibration: largest position error; None if not specified."""
     tolerances: Tolerances = field(default_factory=Tolerances)
     workspace_x: Pair = (-240.0, 240.0)
     workspace_y: Pair = (-782.0, -632.0)
@@ -95,7 +95,7 @@ class Robot:
     zero_at_deg: Pair = (0.0, 180.0)
     sign: tuple[int, int] = (1, 1)
     feedback_sd_deg: float | None = None
-    """What feedback leaves open of a joint's true angle; None is the unresolved part of one pulse."""
+    """Uncertainty of a joint's true angle from feedback; None is the unresolved part of one pulse."""
 
     @classmethod
     def default(cls, serial: str = "unnamed") -> Robot:
@@ -106,7 +106,8 @@ class Robot:
     def from_toml(cls, path: Path) -> Robot:
         """Read a robot file.
 
-        :raises InputRefused: missing, not TOML, or a value out of place, with the section and key.
+        :raises InputRefused: the file is missing, is not TOML, or contains an invalid value; the error gives
+        section and key.
         """
         robot = cls.from_dict(read_sections(path), source=str(path))
         checked_serial(robot.serial)
@@ -114,7 +115,7 @@ class Robot:
 
     @classmethod
     def from_dict(cls, data: Sections, *, source: str = "robot") -> Robot:
-        """From the robot file's sections (also what the store keeps).  :raises InputRefused:"""
+        """From the robot file's sections (also those in the store). :raises InputRefused:"""
         try:
             content = RobotFile.model_validate(data)
         except ValidationError as error:
@@ -123,7 +124,7 @@ class Robot:
 
     def to_json(self) -> Sections:
         """The sections of the robot file; `from_dict` reads them back."""
-        # what is not given is left out: the file of a robot without it stays what it was
+        # missing values are omitted: the file of a robot without them is unchanged
         references = [r.model_dump() for r in self.references if isinstance(r, MountingError)]
         return {
             "robot": {
@@ -173,7 +174,7 @@ class Robot:
         return JointScaling(self.counts_per_rev, self.ratio, self.zero_at_deg[i], self.sign[i])
 
     def mount_of(self, label: str) -> Pair | None:
-        """c of a mounting point; None where that is not known."""
+        """c of a mounting point; None if unknown."""
         if not label:
             return self.c
         return self.mounts.get(label, self.second_mount[1] if label == SECOND else None)
@@ -182,7 +183,7 @@ class Robot:
     def second_mount(self) -> tuple[str, Pair]:
         """Label and c of the mounting point that plan `two_mounts` uses beside the first one.
 
-        The first of the robot file's, else one that much aside.
+        The first one of the robot file, otherwise one displaced by `ASIDE_MM`.
         """
         for label, c in self.mounts.items():
             return label, c
@@ -195,7 +196,7 @@ class Robot:
 
     @property
     def joint_sd_deg(self) -> float:
-        """Standard deviation of a joint angle read from feedback: by default of a uniform pulse."""
+        """Standard deviation of a joint angle read from feedback; by default that of a uniform pulse."""
         return self.pulse_deg / np.sqrt(12.0) if self.feedback_sd_deg is None else self.feedback_sd_deg
 
     def workspace_grid(self, nx: int, ny: int) -> Complex:
@@ -203,9 +204,9 @@ class Robot:
         return _grid(self.workspace_x, self.workspace_y, nx, ny)
 
     def informed(self, references: Sequence[AnyReference]) -> Robot:
-        """The same robot, with references that hold for one run beside those of its file.
+        """The same robot, with references for one run in addition to those of its file.
 
-        :raises InputRefused: one that is beyond what its tolerance allows.
+        :raises InputRefused: a reference exceeds its tolerance.
         """
         for reference in references:
             if isinstance(reference, JointAngle):
@@ -223,13 +224,13 @@ class Robot:
         return replace(self, references=(*self.references, *references))
 
     def with_mechanism(self, drm: Pair, sd: Pair) -> Robot:
-        """The same robot with the MAEMM known as given."""
+        """The same robot with the given MAEMM."""
         return replace(self, drm=drm, drm_sd=sd)
 
 
 @lru_cache(maxsize=64)
 def _grid(across: Pair, along: Pair, nx: int, ny: int) -> Complex:
-    """Asked for many times a run."""
+    """Cached, since it is requested many times per run."""
     x, y = np.linspace(*across, nx), np.linspace(*along, ny)
     grid = np.asarray((x[:, None] + 1j * y[None, :]).ravel())
     grid.setflags(write=False)
@@ -237,7 +238,7 @@ def _grid(across: Pair, along: Pair, nx: int, ny: int) -> Complex:
 
 
 def read_sections(path: Path) -> Sections:
-    """The tables of a robot file.  :raises InputRefused: missing or not TOML."""
+    """The tables of a robot file.  :raises InputRefused: the file is missing or is not TOML."""
     return sections_of_toml(content_of(path, "Robot file"), f"Robot file {path}")
 
 
@@ -316,7 +317,7 @@ class RobotFile(Section):
     joints: _JointsSection = _JointsSection()
 
     def to_robot(self, source: str) -> Robot:
-        """:raises InputRefused: limits of the workspace out of order or out of reach."""
+        """:raises InputRefused: limits of the workspace are out of order or out of reach."""
         for axis, (low, high) in (("x", self.workspace.x), ("y", self.workspace.y)):
             if low >= high:
                 raise InputRefused(f"{source}: [workspace.{axis}] must be [lower, upper] with lower < upper.")

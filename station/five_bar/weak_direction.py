@@ -1,8 +1,8 @@
-"""The direction that the data hold least, in words, and what would hold it.
+"""The direction that the data determine least, in words, and the measurements that would determine it.
 
-The distance leaves three directions exactly blind (both base joints and the mechanism shifted
-together in x or y; the whole robot turned about O_1) and the remains of the third weak: both arms
-together with a sideways error of the mechanism.
+The distance leaves three directions exactly blind (both base joints and the mechanism shifted together in x
+or y; the whole robot turned about O_1) and the remainder of the third weak: both arms together with a
+sideways error of the mechanism.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from station.five_bar.error_model import KEPT, distance_jacobian, pose
 from station.five_bar.mechanism import FiveBar
 from station.records import Real, Remedy, WeakDirection
 
-if TYPE_CHECKING:  # who lists runs needs robot files, and no solver, which takes long to load
+if TYPE_CHECKING:  # modules that list runs need robot files, but no solver, which takes long to load
     from station.fitting import Solution
 
 BLIND = (
@@ -25,17 +25,17 @@ BLIND = (
     "the whole robot turned about the mechanism's joint on the base",
 )
 KNOWN_DRM_SD_MM = 0.02
-"""What a careful measurement of the mechanism reaches."""
+"""Uncertainty that a careful measurement of the mechanism achieves."""
 SECOND_MOUNT_MM = 200.0
 
 
 @dataclass(frozen=True)
 class Posterior:
-    """What a fit knows of a five-bar."""
+    """The posterior of a five-bar fit."""
 
     mechanism: FiveBar
     row_sd: Real
-    """(K,) mm, what the readings scatter by, lack of fit included."""
+    """(K,) mm, scatter of the readings, lack of fit included."""
     dtheta: Real
     """(2,) rad"""
     covariance: Real
@@ -45,10 +45,10 @@ class Posterior:
 def describe_weak_direction(
     mechanism: FiveBar, solution: Solution, row_sd: Real, sd_factor: float
 ) -> WeakDirection:
-    """The contract's `weak_direction`, effects in the model or not.
+    """The contract's `weak_direction`, with or without effects in the model.
 
-    sd_deg is the standard uncertainty of the zero offsets along the weak direction; each remedy
-    comes with the sd_deg that it would bring.
+    sd_deg is the standard uncertainty of the zero offsets along the weak direction; each remedy includes the
+    resulting sd_deg.
     """
     size = len(mechanism.parameters)
     fit = Posterior(
@@ -82,7 +82,7 @@ def singular_ratio(fit: Posterior) -> float:
 
 
 def _words(fit: Posterior) -> str:
-    """Read off the principal axis of the zero offsets' posterior and what moves with it."""
+    """The description, from the principal axis of the zero offsets' posterior and its correlations."""
     C = fit.covariance
     axis = np.linalg.eigh(C[:2, :2])[1][:, -1]
     together = axis[0] * axis[1] > 0
@@ -100,7 +100,7 @@ def _words(fit: Posterior) -> str:
 
 
 def remedies(fit: Posterior) -> tuple[Remedy, ...]:
-    """What would tie the weak direction down, with the sd of the common mode it would bring."""
+    """Measurements that would determine the weak direction, with the resulting sd of the common mode."""
     finite = np.isfinite(np.diag(fit.covariance))
     information = np.linalg.inv(fit.covariance[np.ix_(finite, finite)])
     known = information.copy()
@@ -121,7 +121,7 @@ def remedies(fit: Posterior) -> tuple[Remedy, ...]:
 def with_second_mount(mechanism: FiveBar, row_sd: Real, dtheta: Real, information: Real) -> Real:
     """(P + 3, P + 3) covariance after the same readings from a second mount with its own dr_M and rho_0.
 
-    row_sd (K,) mm, dtheta (2,) rad, information (P, P) of what is known before.
+    row_sd (K,) mm, dtheta (2,) rad, information (P, P) of the prior.
     """
     size = len(information)
     geometry = mechanism.nominal

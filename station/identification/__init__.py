@@ -1,4 +1,4 @@
-"""Zero offsets and geometry identified from readings, verified by fresh ones, remembered for the next run."""
+"""Zero offsets and geometry identified from readings, verified by fresh ones, and stored for the next run."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""What would make a calibration better, by how much, and how long it takes: millimetres and minutes.
+"""Measures that would improve a calibration, with gain and duration: millimetres and minutes.
 
-Each is information added to the posterior, linear about the fit.  What does not help is not named.
+Each is information added to the posterior, linear about the fit. Measures without a benefit are not listed.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from station.records import Advice, Real
 
 LEVEL_SD_DEG = 0.005
 LEAST_SHARE = 0.03
-"""Of the bound; a smaller gain is not worth a sentence."""
+"""Share of the bound; a smaller gain is not reported."""
 READING_S = 0.4
 MINUTES = {"joint_angle": 3.0, "drm_x": 10.0, "second_mount": 15.0}
 
@@ -33,7 +33,7 @@ def advice_of(found: Identification[FiveBar]) -> tuple[Advice, ...]:
 
 
 def _possible(found: Identification[FiveBar]) -> Iterator[tuple[str, str, int | None, float, Real]]:
-    """Kind, text, joint, minutes, and the covariance (P, P) that it would leave."""
+    """Kind, text, joint, minutes, and the resulting covariance (P, P)."""
     information = np.linalg.inv(found.covariance)
     names = [p.name for p in found.mechanism.parameters]
     readings = len(found.measurements)
@@ -69,7 +69,7 @@ def _told(information: Real, index: int, sd: float) -> Real:
 
 
 def _bound(found: Identification[FiveBar], covariance: Real) -> float:
-    """With the zeros in the drives only: what is learned of the geometry later moves nothing."""
+    """The bound with the zeros in the drives only: later knowledge of the geometry changes nothing."""
     p = found.p.copy()
     p[:2] = 0.0
     return expected_bound_mm(*found.mechanism.position_errors(p), found.covariance, covariance)

@@ -1,4 +1,4 @@
-"""The 95 % bound on the largest position error over the workspace, and whether it is what was wanted."""
+"""The 95 % bound on the largest position error over the workspace, and whether the requirement is met."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from station.records import AccuracyReached, CalibrationResult, Real, because
 
 PLAN_ENDED = "the plan has ended"
 GEOMETRY = slice(2, 10)
-"""Where it stands among the unknowns."""
+"""Indices of the geometry among the unknowns."""
 LEARNED = 8
-"""Draws of what may be learned, each taken both ways."""
+"""Number of draws of the possible new knowledge, each used with both signs."""
 
 
 def bounds_mm(found: Identification[FiveBar], zeros: Real | None = None) -> tuple[float, float]:
-    """With the zeros in the drives only, and with the commands of the identified model.
+    """The bounds with the zeros in the drives only, and with the commands of the identified model.
 
     :param zeros: (2,) rad, taken out of the drives; by default as identified
     """
@@ -31,7 +31,8 @@ def bounds_mm(found: Identification[FiveBar], zeros: Real | None = None) -> tupl
 def expected_bound_mm(error: Real, jacobian: Real, now: Real, later: Real) -> float:
     """The bound that further measurements are expected to leave, zeros in the drives only.
 
-    It is the mean over what may be learned: the geometry as identified moves by what its covariance loses.
+    It is the mean over the possible outcomes: the identified geometry moves by the part that its covariance
+    loses.
 
     :param error: (G, 2) over the workspace with the zeros taken out, mm
     :param jacobian: (G, 2, P)
@@ -52,7 +53,7 @@ def accuracy_of(
     stopped: str = PLAN_ENDED,
     zeros: Real | None = None,
 ) -> AccuracyReached:
-    """What a fit promises, beside the wish."""
+    """The predicted accuracy of a fit, with the required accuracy."""
     by_drives, by_model = bounds_mm(found, zeros)
     return AccuracyReached.of(by_drives, by_model, wanted_mm, stopped)
 
@@ -60,9 +61,9 @@ def accuracy_of(
 def with_accuracy(
     result: CalibrationResult, accuracy: AccuracyReached, possible_mm: float | None = None
 ) -> CalibrationResult:
-    """The result, no pass where the wish is not met: what nobody could compute is not met either.
+    """The result, without a pass if the requirement is not met, or the bound cannot be computed.
 
-    :param possible_mm: what further readings could reach; by default what was reached
+    :param possible_mm: bound that further readings could reach; by default the bound that was reached
     """
     result = result.model_copy(update={"accuracy": accuracy})
     if result.verdict != "pass" or accuracy.reached is not False:

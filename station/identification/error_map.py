@@ -11,10 +11,10 @@ from station.records import Complex, FreshReading, Measurements, Real
 
 
 def error_fields(found: Identification[FiveBar], zeros: Real, places: Complex) -> ErrorFields:
-    """At places (G,), mm, commanded by nominal inverse position.
+    """Errors at positions (G,), mm, commanded by nominal inverse position.
 
-    :param zeros: (2,) rad, what the drives take out afterwards
-    :raises Unreachable: naming the first place out of reach.
+    :param zeros: (2,) rad, taken out by the drives afterwards
+    :raises Unreachable: naming the first position out of reach.
     """
     mechanism, covariance = found.mechanism, found.covariance
     after = found.p.copy()
@@ -30,7 +30,7 @@ def error_fields(found: Identification[FiveBar], zeros: Real, places: Complex) -
 def fresh_readings(
     found: Identification[FiveBar], fresh: Measurements, residual_mm: Real
 ) -> tuple[FreshReading, ...]:
-    """Readings that took no part in the fit with their residuals (K,), where the platform stood."""
+    """Readings that were not used in the fit, with their residuals (K,) and the positions of the platform."""
     places = FiveBar(found.mechanism.robot, fresh).places(found.p)
     return tuple(
         FreshReading(reading=int(i), x_mm=float(x), y_mm=float(y), residual_mm=float(r))

@@ -1,7 +1,7 @@
-"""Identification at the limit of the data: one fit of the measurement model, with everything said about it.
+"""Identification from all data: one fit of the measurement model, with all results derived from it.
 
-The same function serves the browser, REST and a file, and every kind of machine.  In: a robot, readings,
-optionally what earlier runs know.  Out: parameters with uncertainty, residuals, noise, lack of fit.
+The same function serves the browser, REST and a file, and every kind of machine. In: a robot, readings,
+optionally the knowledge from earlier runs. Out: parameters with uncertainty, residuals, noise, lack of fit.
 """
 
 from __future__ import annotations
@@ -52,7 +52,7 @@ M_co = TypeVar("M_co", bound=AnyMechanism, covariant=True)
 
 @dataclass(frozen=True, slots=True)
 class Gate:
-    """Whether what earlier calibrations know took part, and how well the readings agree with it."""
+    """Whether the knowledge from earlier calibrations was used, and how well the readings agree with it."""
 
     used: bool
     p_value: float
@@ -63,25 +63,25 @@ class Identification(Generic[M_co]):
     """One converged fit of the measurement model."""
 
     mechanism: M_co
-    """Under the readings that took part; outliers are gone."""
+    """The machine with the readings that were used; outliers are removed."""
     fit: Fit
     noise: Noise
     sd_factor: float
-    """By which the uncertainty is multiplied because the model does not fit (1 when it does)."""
+    """Factor on the uncertainty where the model does not fit (1 when it does)."""
     lack_of_fit_p: float
     outliers: tuple[Outlier, ...]
     gate: Gate | None
-    """Of what earlier calibrations know; None when nothing was known."""
+    """Test of the knowledge from earlier calibrations; None without any."""
     references: tuple[ReferenceUse, ...] = ()
-    """What other instruments measured, beside the rest."""
+    """References measured by other instruments, compared with the other data."""
     remembered: tuple[MountingError, ...] = ()
-    """Measurements of the mounting that the memory holds."""
+    """Measurements of the mounting that the memory contains."""
     fleet: FleetPrior | None = None
-    """What other robots of the type had told, where that took part."""
+    """The prior from other robots of the type, where it was used."""
 
     @property
     def measurements(self) -> Measurements:
-        """The readings that took part."""
+        """The readings that were used."""
         return self.mechanism.measurements
 
     @property
@@ -110,12 +110,12 @@ class Identification(Generic[M_co]):
 
     @property
     def errors_mm(self) -> Real:
-        """(K,) size of each reading's residual."""
+        """(K,) length of each reading's residual."""
         return by_reading(self.mechanism, self.residual_mm)
 
     @property
     def adequate(self) -> bool:
-        """Whether the model fits; a fit that stopped early has not shown it."""
+        """Whether the model fits; False for a fit that stopped early."""
         return self.lack_of_fit_p >= LACK_OF_FIT_P and self.solution.complete
 
     @property
@@ -133,7 +133,7 @@ class Identification(Generic[M_co]):
 
     @property
     def lasting(self) -> Memory:
-        """What this calibration leaves to the next one."""
+        """The knowledge that this calibration leaves to the next one."""
         parameters = self.mechanism.parameters
         kept = [i for i, parameter in enumerate(parameters) if parameter.lasting]
         names = tuple(parameters[i].name for i in kept)
@@ -145,7 +145,8 @@ class Identification(Generic[M_co]):
     def quantities(self) -> tuple[Quantity, ...]:
         """Every parameter in shown units with its standard uncertainty.
 
-        Without repeats everything grows by the misfit, so what a tolerance alone determines stays at it.
+        Without repeats all uncertainties grow with the misfit, so a parameter that only its tolerance
+        determines retains it.
         """
         sd = np.sqrt(np.diag(self.covariance))
         if not self.mechanism.needs_repeats:
@@ -168,8 +169,8 @@ class Identification(Generic[M_co]):
     def position_error(self, compensated: bool) -> PositionError | None:
         """Predicted position error over the workspace, mm; None for a machine without a declared one.
 
-        Uncompensated: the identified error itself with its uncertainty.  Compensated: the zero
-        offsets taken out exactly as identified; the rest of the geometry stays as it is.
+        Uncompensated: the identified error itself with its uncertainty. Compensated: the zero offsets taken
+        out exactly as identified; the other parameters of the geometry unchanged.
         """
         field = self.position_error_field(compensated)
         return None if field is None else rms_and_max(field)
@@ -194,12 +195,13 @@ def identify(
 def identify(
     robot: AnyRobot, measurements: Measurements, memory: Memory | None = None
 ) -> Identification[Any]:
-    """Fit the measurement model to readings, outlying ones found, named and left out.
+    """Fit the measurement model to readings; outliers are found, listed and excluded.
 
-    `memory`, already aged, is what earlier calibrations of this robot and mechanism know; readings that
-    contradict it drop it.
+    `memory`, already aged, is the knowledge from earlier calibrations of this robot and mechanism; it is
+    dropped if the readings contradict it.
 
-    :raises InputRefused: readings that cannot be of this robot, too few positions, too many outliers, no
+    :raises InputRefused: readings that are impossible for this robot, too few positions, too many outliers,
+    no
         convergence, or an impossible result, with the reading or parameter at fault.
     """
     mechanism = mechanism_of(robot, measurements)
@@ -214,14 +216,14 @@ def _identify(everything: M, memory: Memory | None) -> Identification[M]:
     plain = _fit(everything, prior, specified)
     left_out = find_outliers(
         everything,
-        # that fit is made once: most readings have no outliers, and it is the answer's own beginning
+        # this fit is computed once: most readings have no outliers, and it is the start of the result
         lambda sd: (plain if sd is specified else _fit(everything, prior, sd)).solution,
         specified,
     )
     if everything.needs_repeats:
         check_outlier_share(left_out, len(everything.measurements))
     elif not few_enough(left_out, len(everything.measurements)):
-        left_out = ()  # its uncertainty grows by what the model leaves
+        left_out = ()  # its uncertainty grows by the residual
     mechanism, first = everything, plain
     if left_out:
         mechanism = _without(everything, left_out)
@@ -241,7 +243,7 @@ def _identify(everything: M, memory: Memory | None) -> Identification[M]:
 
 
 def _remembering(alone: Identification[M], memory: Memory) -> Identification[M]:
-    """The same with what earlier calibrations know, unless the readings contradict that."""
+    """The same with the knowledge from earlier calibrations, unless the readings contradict it."""
     mechanism, held, reference_p = alone.mechanism, memory.references, 1.0
     if isinstance(mechanism, FiveBar):
         memory, reference_p = memory.informed(mechanism.robot)

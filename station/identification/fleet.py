@@ -1,9 +1,10 @@
-"""What robots of one type teach about the next one: their spread becomes its prior.
+"""A prior for the next robot of a type: the spread of the geometry over the robots of the type.
 
 Hierarchical: a deviation g_i of a robot is normal about the type's mean m_i with spread s_i; before any robot
-is known, the normal-inverse-gamma prior of m_i and s_i is as wide as the tolerance of the robot file.
-What a robot's readings say of its geometry is its posterior divided by the prior that it started from.  Drawn
-by Gibbs sampling, with the conditional moments averaged (Gelman et al., Bayesian Data Analysis, 11.6).
+is known, the normal-inverse-gamma prior of m_i and s_i is as wide as the tolerance of the robot file. The
+information of a robot's readings on its geometry is its posterior divided by the prior that it started from.
+The posterior is drawn by Gibbs sampling, with the conditional moments averaged (Gelman et al., Bayesian Data
+Analysis, 11.6).
 """
 
 from __future__ import annotations
@@ -18,17 +19,17 @@ from station.records import FleetPrior, LastingParameters, Real, from_readings
 
 SWEEPS, BURN_IN = 1500, 100
 SHAPE = 3.0
-"""Of the inverse gamma: that of a spread told by six robots."""
+"""Shape of the inverse gamma: that of a spread determined by six robots."""
 SHARED = 0.5
-"""Share of the tolerance's variance that robots of a type have in common, before any is known."""
+"""Share of the tolerance's variance that is common to robots of a type, before any is known."""
 
 
 @dataclass(frozen=True)
 class Told:
-    """What one robot's readings say of its geometry."""
+    """The information of one robot's readings on its geometry."""
 
     information: Real
-    """(G, G) of the likelihood, 1/mm^2; singular where readings say nothing."""
+    """(G, G) of the likelihood, 1/mm^2; singular where the readings have no information."""
     score: Real
     """(G,) information times the best value."""
 
@@ -36,7 +37,7 @@ class Told:
 def fleet_prior(
     kind: str, robot: Robot, others: Sequence[tuple[Robot, LastingParameters]]
 ) -> FleetPrior | None:
-    """Of a robot's geometry, from what others of its type left; None without others."""
+    """Prior of a robot's geometry from the results of other robots of its type; None without others."""
     names, tolerance = geometry_of(robot)
     told = [_told(names, mate, left) for mate, left in others if set(names) <= set(left.names)]
     if not told:
@@ -52,7 +53,7 @@ def fleet_prior(
 
 
 def _kept(values: Real) -> tuple[float, ...]:
-    """With the digits of a stored result, so that the run can be fitted again from it to the bit."""
+    """The prior with the digits of a stored result, so that the run can be refitted to the bit."""
     return tuple(float(f"{value:.6g}") for value in values)
 
 
@@ -63,7 +64,7 @@ def geometry_of(robot: Robot) -> tuple[tuple[str, ...], Real]:
 
 
 def _told(names: tuple[str, ...], robot: Robot, left: LastingParameters) -> Told:
-    """Posterior over prior; what ageing has made wider than the prior says nothing."""
+    """Posterior over prior; knowledge that ageing has made wider than the prior has no information."""
     kept = [left.names.index(name) for name in names]
     mean, covariance = np.array(left.mean)[kept], np.array(left.covariance)[np.ix_(kept, kept)]
     before_mean, before = np.zeros(len(names)), np.diag(geometry_of(robot)[1] ** 2)

@@ -2,8 +2,8 @@
 
 Lost counts of the readout shift every later reading by the same amount, a slipped joint every later angle; a
 collision may do it to both joints, or twice.  The smooth model takes up part of that, and repeats before and
-after it make the noise look large, so a run may look well; jumps at one or few readings, beside the model,
-then explain what is left over far better.
+after it make the noise look large, so a run may look correct; jumps at one or a few readings, beside the
+model, then explain the residual far better.
 """
 
 from __future__ import annotations
@@ -20,41 +20,41 @@ from station.five_bar import FiveBar, Robot
 from station.records import CalibrationResult, JumpNote, Reading, Real, Reason, because, from_readings
 
 LEAST_MM = 0.03
-"""What a jump shifts the readings by, root mean square; less may be creep or warming."""
+"""RMS shift of the readings by a jump; a smaller one may be creep or warming."""
 READOUT = 0
-"""Beside joints 1 and 2."""
+"""Number of the readout, beside joints 1 and 2."""
 THINGS = (READOUT, 1, 2)
 JOINTS: dict[int, Literal["joint 1", "joint 2"]] = {1: "joint 1", 2: "joint 2"}
 MOST_MOMENTS = 3
 _SIZE_SD = np.array([10.0, np.radians(10.0), np.radians(10.0)])
-"""Of what jumps, mm and rad: keeps those in bounds of which the readings say nothing."""
+"""Prior of the jumps, mm and rad: it limits those about which the readings have no information."""
 _ITERATIONS = 8
 _SETTLED_SDS = 1e-3
-"""A step that changes no row by more is the last."""
+"""A step that changes no row by more than this is the last one."""
 _DOUBT_P = 1e-3
 _LEAST_GAIN = 30.0
-"""Of chi-square, by a jump."""
+"""Minimum gain in chi-square by a jump."""
 _FITS = 4.0
 """Largest chi-square per degree of freedom that jumps may leave."""
 _FEW = 40
-"""Readings; of fewer, several jumps at once explain almost anything."""
+"""Number of readings; with fewer, several jumps at once explain almost anything."""
 _AS_WELL = 20.0
-"""Of chi-square: another thing that jumped explains it as well."""
+"""Difference in chi-square below which a jump of another quantity explains the readings as well."""
 
 
 @dataclass(frozen=True, slots=True)
 class Jump:
-    """What jumped between two readings."""
+    """A jump between two readings."""
 
     index: int
-    """Of the first reading after it; of the first jump, if there are several."""
+    """Index of the first reading after it; after the first jump, if there are several."""
     thing: int | None
-    """`READOUT` or the joint; None: several, or the readings do not say which."""
+    """`READOUT` or the joint; None: several, or the readings do not determine which."""
     size: float
-    """mm of the readout, rad of the joint."""
+    """Size in mm for the readout, rad for the joint."""
 
     def reason(self, reading: int | str, position: str) -> Reason:
-        """In words, for a first reading after it with this number and position."""
+        """The jump in words, for a first reading after it with this number and position."""
         if self.thing is None:
             return because("something_jumped", reading=reading, position=position)
         if self.thing == READOUT:
@@ -66,7 +66,7 @@ class Jump:
         )
 
     def note(self, reading: int | str) -> JumpNote:
-        """As documents show it."""
+        """The jump as documents contain it."""
         if self.thing is None:
             text = f"Something jumped at reading {reading}: the readout or a joint."
             return JumpNote(reading=reading, thing=None, text=text)
@@ -79,20 +79,20 @@ class Jump:
 
 
 Jumps = tuple[tuple[int, tuple[int, ...]], ...]
-"""First reading after each jump, and the things that may have jumped there."""
+"""First reading after each jump, and the quantities that may have jumped there."""
 
 
 @dataclass(frozen=True)
 class _Fitted:
-    """The model with all that is known of the machine, and jumps beside it."""
+    """The model with all knowledge of the machine, and with jumps."""
 
     jumps: Jumps
     left: Real
-    """(K + Q,) what is left of readings and of what is known, in standard deviations."""
+    """(K + Q,) residual of the readings and of the prior knowledge, in standard deviations."""
     by_parameter: Real
-    """(K + Q, P) derivatives, of what jumps last."""
+    """(K + Q, P) derivatives; the jumps come last."""
     sizes: Real
-    """(J,) of what jumps, mm and rad."""
+    """(J,) sizes of the jumps, mm and rad."""
 
     @property
     def square(self) -> float:
@@ -100,7 +100,7 @@ class _Fitted:
 
 
 def find_jump(mechanism: FiveBar) -> Jump | None:
-    """The jump that readings contradict the model by; None when they do not, or not by jumps.
+    """The jump that explains why readings contradict the model; None if they do not, or not because of jumps.
 
     The geometry is free within its tolerances, the noise is that of the robot file.
     """
@@ -137,7 +137,7 @@ def without_jump(result: CalibrationResult, robot: Robot, readings: Sequence[Rea
 
 
 def _single(mechanism: FiveBar, without: _Fitted, limit: float) -> Jump | None:
-    """One jump of one thing, if it leaves a chi-square below `limit`."""
+    """One jump of one quantity, if it leaves a chi-square below `limit`."""
     last = len(mechanism.row_sd) - 1
     best = []
     for thing in THINGS:
@@ -159,7 +159,7 @@ def _anything_at(moments: Sequence[int]) -> Jumps:
 
 
 def _settled(mechanism: FiveBar, moments: tuple[int, ...]) -> tuple[int, ...]:
-    """Each moment looked for again beside the others."""
+    """Each moment searched again beside the others."""
     for i in range(len(moments) if len(moments) > 1 else 0):
         others = moments[:i] + moments[i + 1 :]
         again = _moment(mechanism, _fitted(mechanism, _anything_at(others)))
@@ -168,7 +168,7 @@ def _settled(mechanism: FiveBar, moments: tuple[int, ...]) -> tuple[int, ...]:
 
 
 def _moment(mechanism: FiveBar, found: _Fitted, things: tuple[int, ...] = THINGS) -> int:
-    """First reading after the jump that would gain most, linear about a fit."""
+    """First reading after the jump with the largest gain, linear about a fit."""
     count = len(mechanism.row_sd)
     basis, _ = np.linalg.qr(found.by_parameter)
     later = np.tril(np.ones((count, count)))
@@ -185,7 +185,7 @@ def _moment(mechanism: FiveBar, found: _Fitted, things: tuple[int, ...] = THINGS
 
 
 def _shift_mm(mechanism: FiveBar, found: _Fitted, moment: int) -> float:
-    """Root mean square of what the jump at this moment does to the readings after it."""
+    """RMS effect of the jump at this moment on the readings after it."""
     at = np.cumsum([0, *(len(things) for _, things in found.jumps)])
     n = [index for index, _ in found.jumps].index(moment)
     first = found.by_parameter.shape[1] - at[-1] + at[n]
@@ -195,7 +195,7 @@ def _shift_mm(mechanism: FiveBar, found: _Fitted, moment: int) -> float:
 
 
 def _fitted(mechanism: FiveBar, jumps: Jumps) -> _Fitted:
-    """The best fit with these jumps; its square is not finite where there is none."""
+    """The best fit with these jumps; its sum of squares is not finite where there is none."""
     p, things = mechanism.start, [(index, thing) for index, some in jumps for thing in some]
     sizes = np.zeros(len(things))
     prior_sd = np.array([parameter.prior_sd for parameter in mechanism.parameters])

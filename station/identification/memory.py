@@ -1,8 +1,8 @@
-"""What outlasts a calibration: geometry and mechanism, as the prior of the same machine's next one.
+"""The lasting results of a calibration: geometry and mechanism, as the prior of the machine's next one.
 
-Zero offsets do not last (a collision changes them) and neither does the reading offset, so both are
-left out.  What is left is widened for its age and gated: readings that contradict it (the mechanism
-was mounted anew) drop it.
+Zero offsets do not last (a collision changes them) and neither does the reading offset, so both are omitted.
+The others are widened for their age and tested: if the readings contradict them (the mechanism was
+remounted), they are dropped.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ from station.mechanism import Parameter
 from station.records import FleetPrior, LastingParameters, MountingError, Real
 
 WIDENED_PER_ROOT_YEAR = 0.3
-"""Share of a parameter's tolerance by which it may have wandered in a year (random walk)."""
+"""Share of a parameter's tolerance by which it may have drifted in a year (random walk)."""
 GATE_P = 0.02
-"""A right memory is dropped this often; dropping costs accuracy, keeping a wrong one costs truth."""
+"""Probability that a correct memory is dropped; that costs accuracy, a wrong one gives wrong results."""
 INFORMATIVE = 0.3
-"""Directions in which the readings say less than this share of what the memory says cannot contradict it."""
+"""Directions with less than this share of the memory's information cannot contradict it."""
 
 
 @dataclass(frozen=True)
@@ -36,14 +36,14 @@ class Memory:
     covariance: Real
     """(M, M)"""
     noise_ratio: float = 1.0
-    """Noise of a reading over its specification, as repeats showed it."""
+    """Noise of a reading over its specification, determined from repeats."""
     references: tuple[MountingError, ...] = ()
-    """Measurements of the mounting that it holds already; what is measured once counts once."""
+    """Measurements of the mounting that it contains already; each measurement counts once."""
     fleet: FleetPrior | None = None
-    """What it had started from, where other robots of the type were known."""
+    """The prior that it started from, where other robots of the type were known."""
 
     def record(self) -> LastingParameters:
-        """As the store keeps it."""
+        """The memory as the store contains it."""
         covariance = tuple(tuple(row) for row in self.covariance.tolist())
         return LastingParameters(
             names=self.names,
@@ -56,17 +56,17 @@ class Memory:
 
     @classmethod
     def of(cls, kept: LastingParameters) -> Memory:
-        """From what the store kept."""
+        """The memory from its stored form."""
         mean, covariance = np.array(kept.mean), np.array(kept.covariance)
         return cls(kept.names, mean, covariance, kept.noise_ratio, kept.references, kept.fleet)
 
     @classmethod
     def of_fleet(cls, prior: FleetPrior) -> Memory:
-        """Of a robot that was never measured, as others of its type let expect it."""
+        """The expectation for a robot that was never measured, from others of its type."""
         return cls(prior.names, np.array(prior.mean), np.array(prior.covariance), fleet=prior)
 
     def aged(self, parameters: tuple[Parameter, ...], years: float) -> Memory:
-        """The same, less sure by what may have changed since."""
+        """The same, with more uncertainty for changes since."""
         tolerance = {p.name: p.prior_sd for p in parameters}
         wander = np.array([tolerance.get(name, 0.0) for name in self.names]) * WIDENED_PER_ROOT_YEAR
         wider = self.covariance + np.diag(wander**2 * max(years, 0.0))
@@ -75,13 +75,13 @@ class Memory:
     def informed(self, robot: Robot) -> tuple[Memory, float]:
         """With the robot's references of the mounting that are new, and the p-value of the least likely one.
 
-        Rank-one updates: each is one more measurement of an unknown that is remembered.
+        Rank-one updates: each is one more measurement of a remembered unknown.
         """
         known, p_value = self, 1.0
         for reference in robot.references:
             if not isinstance(reference, MountingError) or reference in self.references:
                 continue
-            if reference.parameter not in known.names:  # then it informs the tolerances
+            if reference.parameter not in known.names:  # then it adds information to the tolerances
                 continue
             i = known.names.index(reference.parameter)
             value, sd = measured_value(reference, robot)
@@ -98,7 +98,7 @@ class Memory:
         return known, p_value
 
     def about(self, names: Collection[str]) -> Memory:
-        """Only what is remembered of these: the rest is no unknown of the run at hand."""
+        """Only the memory of these parameters: the others are not unknowns of the current run."""
         kept = [k for k, name in enumerate(self.names) if name in names]
         return replace(
             self,
@@ -108,7 +108,7 @@ class Memory:
         )
 
     def prior(self, parameters: tuple[Parameter, ...]) -> Prior:
-        """Prior of all parameters: remembered ones as remembered, the rest by their tolerance."""
+        """Prior of all parameters: from the memory where it contains them, otherwise from their tolerance."""
         order = {p.name: i for i, p in enumerate(parameters)}
         known = [(k, order[name]) for k, name in enumerate(self.names) if name in order]
         mine, theirs = [k for k, _ in known], [i for _, i in known]
@@ -124,10 +124,10 @@ class Memory:
 
 
 def contradiction_p(solution: Solution, prior: Prior, parameters: tuple[Parameter, ...]) -> float:
-    """p-value of the readings under the memory, in the directions in which they can tell.
+    """p-value of the readings under the memory, in the directions that they determine.
 
-    The zero offsets and reading offsets, about which the memory says nothing, are projected out; in each
-    remaining direction the misfit of the memory has variance 1 (noise) plus what the memory allows.
+    The zero offsets and reading offsets, which the memory does not contain, are projected out; in each
+    remaining direction the misfit of the memory has variance 1 (noise) plus that of the memory.
     """
     lasting = [i for i, p in enumerate(parameters) if p.lasting]
     passing = [i for i in range(len(parameters)) if i not in lasting]

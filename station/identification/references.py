@@ -1,4 +1,4 @@
-"""Whether references and everything else agree: each is compared with what is known without it."""
+"""Whether references agree with all other data: each is compared with the result without it."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from station.five_bar import FiveBar, measured_value
 from station.records import AnyReference, MountingError, ReferenceUse
 
 ALONE = 1e-9
-"""Share of what is known of an unknown below which nothing but the reference says anything of it."""
+"""Share of the information on an unknown below which only the reference determines it."""
 CONTRADICTS_P = 1e-4
-"""A right reference is refused this often."""
+"""Probability that a correct reference is refused."""
 
 
 def reference_uses(
     mechanism: FiveBar, solution: Solution, remembered: tuple[MountingError, ...] = ()
 ) -> tuple[ReferenceUse, ...]:
-    """Each reference of the mechanism's robot against the fit that it took part in.
+    """Each reference of the mechanism's robot against the fit that it was used in.
 
-    :param remembered: those that came by way of the memory, which cannot be told from it any more
+    :param remembered: those that the memory contains, which cannot be separated from it any more
     """
     uses = [
         _use(mechanism, solution, reference)
@@ -31,7 +31,7 @@ def reference_uses(
 
 
 def _use(mechanism: FiveBar, solution: Solution, reference: AnyReference) -> ReferenceUse:
-    """The difference from the rest follows from the posterior: information adds up."""
+    """The difference from the other data follows from the posterior: information is additive."""
     names = [p.name for p in mechanism.parameters]
     i = names.index(reference.parameter)
     value, sd = measured_value(reference, mechanism.robot)
@@ -52,6 +52,6 @@ def _use(mechanism: FiveBar, solution: Solution, reference: AnyReference) -> Ref
 
 
 def contradicted(uses: tuple[ReferenceUse, ...]) -> ReferenceUse | None:
-    """The reference that agrees least with the rest, if it is beyond belief."""
+    """The reference that agrees least with the other data, if it is not credible."""
     doubtful = [use for use in uses if use.p_value is not None and use.p_value < CONTRADICTS_P]
     return min(doubtful, key=lambda use: use.p_value or 0.0, default=None)

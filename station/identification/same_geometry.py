@@ -1,8 +1,8 @@
-"""By how much the zeros of one machine differ between two fits whose geometry is the same.
+"""The difference of one machine's zeros between two fits with the same geometry.
 
-Most of what a zero offset is uncertain by comes from the geometry, and that is the same in both.  Given the
-geometry g, a fit says dtheta = dtheta^ + S (g - g^) with S the regression of the zeros on it and V what
-covariance is left; both fits are read at the geometry of the later one.
+Most of the uncertainty of a zero offset comes from the geometry, which is the same in both. Given the
+geometry g, a fit gives dtheta = dtheta^ + S (g - g^) with S the regression of the zeros on it and V the
+remaining covariance; both fits are evaluated at the geometry of the later one.
 """
 
 from __future__ import annotations
@@ -19,7 +19,7 @@ def zero_difference(
 ) -> tuple[Real, Real]:
     """Earlier less later zero offsets (2,), rad, and their covariance (2, 2).
 
-    :param same_mounting: the mechanism was not mounted anew between them, so its mounting error is the same
+    :param same_mounting: the mechanism was not remounted between them, so its mounting error is the same
     """
     roles = ("geometry", "mechanism") if same_mounting else ("geometry",)
     known = {p.name for p in later.mechanism.parameters}
@@ -39,7 +39,7 @@ def _places(fit: Identification[FiveBar], names: list[str]) -> list[int]:
 
 
 def _given(fit: Identification[FiveBar], kept: list[int]) -> tuple[Real, Real]:
-    """(2, M) regression of the zeros on what is kept, and (2, 2) what is left open given it."""
+    """(2, M) regression of the zeros on the common parameters, and (2, 2) the remaining covariance."""
     C = fit.covariance
     by_kept = np.linalg.solve(C[np.ix_(kept, kept)], C[kept, :2]).T
     return by_kept, C[:2, :2] - by_kept @ C[kept, :2]

@@ -1,6 +1,6 @@
-"""Reading after reading: each is predicted before it is used, and the prediction is its verification.
+"""Reading by reading: each is predicted before it is used, and the prediction is its verification.
 
-The next position is chosen by what one more reading would do to the covariance (rank-one update), so hundreds
+The next position is chosen by the effect of one more reading on the covariance (rank-one update), so hundreds
 of candidates cost microseconds each.
 """
 
@@ -22,36 +22,36 @@ from station.model import Model, fit
 from station.records import Complex, MountingError, Reading, Real, from_readings
 
 FLAT_PRIOR_SD_MM = 1e3
-"""Stands for "nothing is known" of the reading offset while predicting; wider loses digits."""
+"""Prior of an unknown reading offset while predicting; a wider one loses digits."""
 
 
 @dataclass(frozen=True)
 class Innovation:
-    """One reading less what was predicted of it before it was used."""
+    """One reading less its prediction before it was used."""
 
     residual_mm: float
     sd_mm: float
-    """Of the prediction, with noise."""
+    """Standard deviation of the prediction, including noise."""
 
 
 @dataclass(frozen=True)
 class Known:
-    """What is known of a robot after some readings, none included."""
+    """The knowledge of a robot after some readings, or none."""
 
     robot: Robot
     readings: tuple[Reading, ...] = ()
     memory: Memory | None = None
     innovations: tuple[Innovation, ...] = ()
     samples: int = 1
-    """Of a further reading."""
+    """Number of samples of a further reading."""
 
     def absorb(self, reading: Reading) -> Known:
-        """With one more reading, predicted first."""
+        """The knowledge with one more reading, which is predicted first."""
         innovations = (*self.innovations, self._innovation(reading))
         return replace(self, readings=(*self.readings, reading), innovations=innovations)
 
     def without_memory(self) -> Known:
-        """The same readings, one after another, as if nothing had been remembered."""
+        """The same readings, one after another, without the memory."""
         known = Known(self.robot, samples=self.samples)
         for reading in self.readings:
             known = known.absorb(reading)
@@ -59,17 +59,17 @@ class Known:
 
     @property
     def measured_before(self) -> bool:
-        """Whether a run of this robot left what is remembered, and not others of its type."""
+        """Whether the memory comes from a run of this robot, and not from others of its type."""
         return self.memory is not None and "rMx" in self.memory.names
 
     @cached_property
     def noise_ratio(self) -> float:
-        """Noise of a reading over its specification, as the run found it that left the memory."""
+        """Noise of a reading over its specification, from the run that left the memory."""
         return self.memory.noise_ratio if self.memory else 1.0
 
     @cached_property
     def found(self) -> Identification[FiveBar]:
-        """The fit of all readings.  Only where there is one."""
+        """The fit of all readings; only where there is one."""
         mechanism = FiveBar(self.robot, from_readings(self.readings))
         prior = self._prior(mechanism)
         row_sd = mechanism.row_sd * self.noise_ratio
@@ -84,7 +84,7 @@ class Known:
             fit=result,
             noise=specified_noise(row_sd),
             sd_factor=1.0,
-            # the squares of the innovations add up to the cost (Kalman), but for curvature
+            # the squares of the innovations add up to the cost (Kalman), apart from curvature
             lack_of_fit_p=float(chdtrc(len(row_sd) - prior.free, result.cost)) if len(row_sd) > 1 else 1.0,
             outliers=(),
             gate=gate,
@@ -100,7 +100,7 @@ class Known:
 
     @cached_property
     def estimate(self) -> Real:
-        """(P,) parameters as known now, mm and rad."""
+        """(P,) current estimate of the parameters, mm and rad."""
         return self.found.p if self.readings else self._prior(self._nowhere).mean
 
     @cached_property
@@ -115,14 +115,14 @@ class Known:
         return np.asarray(np.linalg.inv(information))
 
     def rows(self, places: Complex) -> Real:
-        """(N, P) whitened derivatives of one reading at each of places (N,), commanded as known now."""
+        """(N, P) whitened derivatives of one reading at each of positions (N,), at the current estimate."""
         theta = inverse(self.robot.geometry, places) - self.estimate[:2]
         mechanism = self._at(theta)
         at = mechanism.observe(self.estimate, theta)
         return np.asarray(at.by_parameter / (mechanism.row_sd * self.noise_ratio)[:, None])
 
     def position_jacobian(self) -> tuple[Real, Real]:
-        """Over the workspace: errors (G, 2) with the zeros taken out, derivatives (G, 2, P)."""
+        """Position errors over the workspace: (G, 2) with the zeros taken out, derivatives (G, 2, P)."""
         p = self.estimate.copy()
         p[:2] = 0.0
         return self._nowhere.position_errors(p)

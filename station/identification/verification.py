@@ -35,7 +35,7 @@ FRESH_PLACES = 8
 def fresh_stops(
     fit: Identification[FiveBar], count: int = FRESH_PLACES, seed: int | None = None, label: str = "V"
 ) -> tuple[Stop, ...]:
-    """Interior places that no plan visits, commands compensated by what was identified.
+    """Interior positions that no plan visits; the commands are compensated by the identified offsets.
 
     :param count: a power of two
     """
@@ -49,7 +49,7 @@ def fresh_stops_of(
     """The same for zero offsets (2,) rad, however they were identified."""
     low = np.array([robot.workspace_x[0], robot.workspace_y[0]]) + FRESH_INSET_MM
     high = np.array([robot.workspace_x[1], robot.workspace_y[1]]) - FRESH_INSET_MM
-    # a new set each run, so that no place is ever learned by heart
+    # a new set each run, so that no position can be learned by repetition
     points = low + _spread(seed, count) * (high - low)
     places = points[:, 0] + 1j * points[:, 1]
     theta = np.degrees(inverse(robot.geometry, places) - dtheta)
@@ -61,15 +61,15 @@ def fresh_stops_of(
 
 @lru_cache(maxsize=64)
 def _spread(seed: int, count: int) -> Real:
-    """(count, 2) points spread evenly over the unit square; studies ask for the same ones again and again."""
-    from scipy.stats import qmc  # here, because it takes a second to load and only a run needs it
+    """(count, 2) points spread evenly over the unit square; cached, since studies repeat the request."""
+    from scipy.stats import qmc  # imported here because it takes a second to load and only a run needs it
 
     return np.asarray(qmc.Sobol(2, rng=seed).random(count))
 
 
 @dataclass(frozen=True)
 class Verification:
-    """Fresh readings against the frozen model."""
+    """Fresh readings compared with the fixed model."""
 
     residual_mm: Real
     """(K,) measured less predicted."""
@@ -87,7 +87,7 @@ class Verification:
 
 
 def verify(fit: Identification[FiveBar], fresh: Measurements, *, offset_known: bool = True) -> Verification:
-    """Predict fresh readings with everything frozen; chi-square with the prediction covariance.
+    """Predict fresh readings with all parameters fixed; chi-square with the prediction covariance.
 
     :param offset_known: False when the readout may have been switched off or zeroed since the fit
     """
@@ -107,7 +107,7 @@ def verify(fit: Identification[FiveBar], fresh: Measurements, *, offset_known: b
 def result_of(
     fit: Identification[FiveBar], readings: list[Reading], fresh: list[Reading]
 ) -> CalibrationResult:
-    """Zero offsets with uncertainty, before and after, and a verdict that fails closed."""
+    """Zero offsets with uncertainty, before and after, and a verdict that is a fail in case of doubt."""
     check = verify(fit, from_readings(fresh, fit.measurements.mounts))
     result = _result(
         fit, readings, _misfit(fit, check), because("fresh_readings_agree", rms_um=check.rms_mm * 1e3)
@@ -162,7 +162,7 @@ def _result(
 
 
 def residuals_of(fit: Identification[FiveBar], readings: list[Reading]) -> tuple[Residual, ...]:
-    """Measured less predicted of each reading, beside its limit; also of readings that were left out."""
+    """Residual of each reading with its limit, including excluded readings."""
     return _residuals(fit, readings, FiveBar(fit.mechanism.robot, from_readings(readings)))
 
 
@@ -174,9 +174,9 @@ def _residuals(
 
 
 def not_identified(refusal: str) -> CalibrationResult:
-    """Of readings that no machine within the tolerances gives.
+    """The result for readings that no machine within the tolerances can give.
 
-    The station took them itself: the model lacks something, or the robot file is of another machine.
+    The station took them itself: the model lacks an effect, or the robot file is of another machine.
     """
     return CalibrationResult(
         verdict="fail",
@@ -205,7 +205,7 @@ def prediction_fault(check: Verification) -> Reason | None:
 
 
 def reference_contradicted(use: ReferenceUse) -> Reason:
-    """Why a result that rests on this reference cannot be believed."""
+    """Why a result that depends on this reference is not credible."""
     return because(
         "reference_contradicted",
         reference=use.reference.words,
@@ -216,7 +216,7 @@ def reference_contradicted(use: ReferenceUse) -> Reason:
 
 
 def _not_finite(fit: Identification[FiveBar]) -> Reason | None:
-    """Why nothing can be said of the run; None when all numbers are finite."""
+    """Why the run cannot be evaluated; None when all numbers are finite."""
     sd = np.sqrt(np.diag(fit.covariance)[:2])
     if not (np.isfinite(sd).all() and np.isfinite(fit.p).all()):
         return because("not_finite")
@@ -224,7 +224,7 @@ def _not_finite(fit: Identification[FiveBar]) -> Reason | None:
 
 
 def _misfit(fit: Identification[FiveBar], check: Verification) -> Reason | None:
-    """What the model does not account for, in the readings or in the fresh ones; None when it fits."""
+    """The misfit of the model in the readings or in the fresh ones; None when it fits."""
     if worst := contradicted(fit.references):
         return reference_contradicted(worst)
     if not fit.adequate:

@@ -1,4 +1,4 @@
-"""What identification and diagnosis need of a machine, and under which conditions its readings were taken."""
+"""The interface of a machine for identification and diagnosis, and the conditions of its readings."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Under what readings were taken, for the catalogue to work on."""
+"""The conditions under which readings were taken, as input of the catalogue."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ import numpy as np
 from station.records import Flags, Measurements, Real
 
 WARMED_BY_K = 0.05
-"""A temperature column that moves less shows no warming."""
+"""A temperature column with a smaller range shows no warming."""
 SAME_PLACE_RAD = 1e-6
 RUN_UP_RAD = np.radians(0.5)
-"""Run-up of a joint, as the station makes it unless its file says another."""
+"""Run-up of a joint, as the station makes it unless its file specifies another."""
 SHORT_MM = 0.2
-"""A slider that moved less may hang on either side or between."""
+"""After a smaller motion the slider may be on either side of its play or in between."""
 
 
 @dataclass(frozen=True)
 class Conditions:
-    """Of K readings of a machine with n joints."""
+    """Conditions of K readings of a machine with n joints."""
 
     t_s: Real
     """(K,)"""
@@ -32,29 +32,30 @@ class Conditions:
     approach: Real
     """(K, n) sign of each joint's last motion, 0 unknown."""
     travel: Real
-    """(K,) where the slider stands on the scale, mm: what a perfect scale would read."""
+    """(K,) position of the slider on the scale, mm: the reading of a perfect scale."""
     slider_direction: Real
     """(K,) sign of the slider's last motion, 0 unknown."""
     slider_by_joint: Real
     """(K, n) the same if that joint alone arrives last, 0 unknown."""
     slider_net: Real
-    """(K,) sign of the change of reading since the reading before, 0 unknown: what counts where the slider
-    follows late or the way between is not known."""
+    """(K,) sign of the change since the previous reading, 0 unknown: relevant where the slider lags or the
+    motion in between is unknown.
+    """
     temperature_rise: Real | None
-    """(K,) since the first reading, K; None where nothing was recorded or nothing changed."""
+    """(K,) temperature rise since the first reading, K; None if not recorded or constant."""
     payload_kg: Real | None
     lengths: Mapping[str, float]
     """Nominal lengths by parameter name, mm."""
     pull: Real
-    """(K, n) sign of the load along each distal link: +1 pulled."""
+    """(K, n) sign of the load along each distal link: +1 in tension."""
     load: tuple[Real, ...]
-    """(K, q) a joint: gravity's moment about it, one column a place where mass may sit, 1 when horizontal."""
+    """(K, q) per joint: gravity's moment about it, one column for each mass, 1 when horizontal."""
 
     def __len__(self) -> int:
         return len(self.t_s)
 
     def take(self, rows: Flags) -> Conditions:
-        """Of these readings only, mask (K,)."""
+        """The conditions of these readings only, mask (K,)."""
         taken: dict[str, Any] = {
             f.name: value[rows]
             for f in fields(self)
@@ -65,17 +66,17 @@ class Conditions:
 
 @dataclass(frozen=True)
 class Reference:
-    """What later readings (the fresh ones) are counted from."""
+    """The reference that later readings (the fresh ones) are counted from."""
 
     temperature_c: float | None
     theta: Real
-    """(n,) where the joints stood last."""
+    """(n,) last angles of the joints."""
     travel: float
-    """What was measured there, mm."""
+    """Distance measured there, mm."""
 
 
 def reference_of(measurements: Measurements) -> Reference:
-    """Of the readings a model is learned on; `theta` is where they ended."""
+    """The reference of the readings a model is learned from; `theta` is their last pose."""
     temperature = measurements.temperature_c
     warmed = temperature is not None and float(np.ptp(temperature)) > WARMED_BY_K
     return Reference(
@@ -86,7 +87,7 @@ def reference_of(measurements: Measurements) -> Reference:
 
 
 def temperature_rise(m: Measurements, reference: Reference) -> Real | None:
-    """(K,) K above the reference; None where none was recorded then or now."""
+    """(K,) K above the reference; None where none was recorded at the reference or in these readings."""
     if reference.temperature_c is None or m.temperature_c is None:
         return None
     return np.asarray(m.temperature_c - reference.temperature_c)
@@ -102,10 +103,10 @@ def readings_before(m: Measurements, reference: Reference | None) -> Real:
 
 
 def last_way(m: Measurements, came_from: Real) -> tuple[Real, Flags]:
-    """(K, n) by what each joint came to its reading, rad, NaN where unknown; and (K,) where by a run-up.
+    """(K, n) motion of each joint before its reading, rad, NaN if unknown; (K,) whether it was a run-up.
 
-    That is so where the recorded approach is not that of the way from the reading before, or the way is
-    shorter than a run-up.
+    It was a run-up where the recorded approach differs from that of the motion from the previous reading, or
+    that motion is shorter than a run-up.
     """
     way = m.theta - came_from[:, :-1]
     way[np.abs(way) < SAME_PLACE_RAD] = 0.0
@@ -116,11 +117,11 @@ def last_way(m: Measurements, came_from: Real) -> tuple[Real, Flags]:
 
 def last_motion(m: Measurements, by_joint: Real, came_from: Real) -> tuple[Real, Real]:
     """(K,) sign in which the distance last changed, and (K, n) by each joint alone; 0 unknown or too short to
-    be sure.
+    be certain.
 
-    By the run-up where the recorded approach says that the last motion was another than the way from the
-    reading before, else by that way; a slider that turned round on it is not known, for the joints do not
-    arrive quite together.
+    It is that of the run-up where the recorded approach shows that the last motion was not the motion from
+    the previous reading, otherwise of that motion; it is unknown for a slider that reversed during it, as the
+    joints do not arrive exactly together.
     """
     last, run_up = last_way(m, came_from)
     each = np.nan_to_num(by_joint * last)

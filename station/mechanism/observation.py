@@ -1,4 +1,4 @@
-"""Unknowns of a mechanism and what it would show, with derivatives."""
+"""Unknowns of a mechanism and its predicted readings, with derivatives."""
 
 from __future__ import annotations
 
@@ -8,30 +8,31 @@ from typing import Literal, NamedTuple
 from station.records import Real
 
 Role = Literal["zero_offset", "geometry", "mechanism", "placement", "reading_offset"]
-"""What a parameter belongs to: a joint's zero, the robot, the measuring mechanism, where robot and target
-are placed, or the readout."""
+"""The owner of a parameter: a joint's zero, the robot, the measuring mechanism, the placement of robot and
+target, or the readout.
+"""
 
 
 @dataclass(frozen=True, slots=True)
 class Parameter:
-    """One unknown.  Value and prior are in mm or rad; `shown` times that is in `unit`."""
+    """One unknown.  Value and prior are in mm or rad; multiplied by `shown` they are in `unit`."""
 
     name: str
     role: Role
     unit: str
     prior_mean: float
     prior_sd: float
-    """Standard deviation of what is known beforehand; inf when nothing is."""
+    """Standard deviation of the prior; inf without one."""
     shown: float = 1.0
 
     @property
     def lasting(self) -> bool:
-        """Whether it stays from one calibration to the next: a collision changes zeros, not links."""
+        """Whether it is valid from one calibration to the next: a collision changes zeros, not links."""
         return self.role not in ("zero_offset", "reading_offset")
 
 
 class Observation(NamedTuple):
-    """What the machine would show: R rows for P parameters and n joints."""
+    """The predicted readings: R rows for P parameters and n joints."""
 
     value: Real
     """(R,) mm."""

@@ -1,7 +1,7 @@
-"""What identification and diagnosis need to know of a machine, and nothing else.
+"""The interface of a machine for identification and diagnosis.
 
-A mechanism turns joint angles and parameters into what is measured, with derivatives.  Rows are
-single numbers: a distance is one row a reading, a tracker position three.
+A mechanism computes the measured quantities from joint angles and parameters, with derivatives. Rows are
+single numbers: a distance is one row per reading, a tracker position three.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ class Mechanism(Protocol):
 
     @property
     def model(self) -> str:
-        """Which kind of machine it is: `model` of its robot file."""
+        """Kind of machine: `model` of its robot file."""
         ...
 
     @property
@@ -38,27 +38,27 @@ class Mechanism(Protocol):
 
     @property
     def start(self) -> Real:
-        """(P,) from where a fit begins."""
+        """(P,) start of a fit."""
         ...
 
     @property
     def needs_repeats(self) -> bool:
-        """Whether a residual is judged by repeats only; else the specification will do without them."""
+        """Whether only repeats can judge a residual; otherwise the specification is sufficient."""
         ...
 
     @property
     def simplest(self) -> tuple[str, tuple[str, ...]]:
-        """The simplest model of this machine: what it is called, and the parameters that are free in it."""
+        """The simplest model of this machine: its name, and the parameters that are free in it."""
         ...
 
     @property
     def measured(self) -> Real:
-        """(R,) what was measured, mm."""
+        """(R,) measured values, mm."""
         ...
 
     @property
     def reading_of_row(self) -> NDArray[np.intp]:
-        """(R,) index of the reading each row belongs to; rows of one reading stand together."""
+        """(R,) index of the reading each row belongs to; rows of one reading are adjacent."""
         ...
 
     @property
@@ -68,27 +68,27 @@ class Mechanism(Protocol):
 
     @property
     def row_sd(self) -> Real:
-        """(R,) standard deviation by specification, mm: instrument, and what feedback leaves open."""
+        """(R,) standard deviation by specification, mm: instrument, and unresolved feedback."""
         ...
 
     def of(self, measurements: Measurements) -> Self:
-        """The same machine under other readings."""
+        """The same machine with other readings."""
         ...
 
     def check(self) -> None:
-        """:raises InputRefused: readings that cannot be of this machine, by reading and column."""
+        """:raises InputRefused: readings are impossible for this machine, by reading and column."""
         ...
 
     def observe(self, p: Real, theta: Real) -> Observation:
-        """Predict all rows at parameters p (P,) and joint angles theta (K, n); NaN where it cannot be."""
+        """Predict all rows at parameters p (P,) and joint angles theta (K, n); NaN for impossible poses."""
         ...
 
     def conditions(self, p: Real, reference: Reference, *, first: bool) -> Conditions:
-        """Under what the readings were taken, at p; `first` when the model is being learned on them."""
+        """The conditions of the readings, at p; `first` when the model is being learned from them."""
         ...
 
     def implausible(self, p: Real) -> str:
-        """Why parameters p (P,) cannot be those of a calibrated machine; empty when they can."""
+        """Why parameters p (P,) are impossible for a calibrated machine; empty when they are possible."""
         ...
 
     @property
@@ -97,24 +97,24 @@ class Mechanism(Protocol):
         ...
 
     def position_errors(self, p: Real) -> tuple[Real, Real] | None:
-        """At the workspace's positions: error (G, 2), mm, of a machine with parameters p that is commanded
+        """Errors (G, 2) at the workspace's positions, mm, at parameters p under nominal commands.
 
-        as if nominal, and its derivative (G, 2, P).  None where no workspace is declared.
+        Also their derivative (G, 2, P). None where no workspace is declared.
         """
         ...
 
     def places(self, p: Real) -> Real:
-        """(K, d) mm, where the end of the machine stood at each reading."""
+        """(K, d) mm, position of the end of the machine at each reading."""
         ...
 
 
 def by_reading(mechanism: Mechanism, rows: Real) -> Real:
-    """(K,) size of each reading's error from those of its rows (R,): of several coordinates the length."""
+    """(K,) length of each reading's error from its rows (R,), over all coordinates."""
     return np.sqrt(np.bincount(mechanism.reading_of_row, rows**2))
 
 
 def axis_of_row(mechanism: Mechanism) -> NDArray[np.intp]:
-    """(R,) which coordinate of its reading each row is."""
+    """(R,) index of the coordinate of each row."""
     return axes(mechanism.reading_of_row)
 
 

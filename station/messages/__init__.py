@@ -1,8 +1,8 @@
-"""What people read: display names, explanations and reasons, in one file for each language (`en.json`);
-sentences that are put together of parts in another (`en-phrases.json`), what only the report on a diagnosis
-says in a third (`en-report.json`), and what a diagnosis says in English only in `de-sentences.json`.
+"""Texts for people: display names, explanations and reasons, in one file for each language (`en.json`);
+sentences composed of parts in another (`en-phrases.json`), texts of the diagnosis report in a third
+(`en-report.json`), and translations of the diagnosis's English sentences in `de-sentences.json`.
 
-The page reads the same files; what travels over REST is a code with parameters beside the English sentence.
+The page reads the same files; REST returns a code with parameters beside the English sentence.
 """
 
 from __future__ import annotations

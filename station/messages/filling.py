@@ -1,4 +1,4 @@
-"""Templates of reasons, phrases and reports with their values, as a language writes them."""
+"""Templates of reasons, phrases and reports filled with their values, formatted for a language."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ from station.messages.sentences import in_words, labels_in_words, number_in_word
 from station.messages.texts import Language, dependence_name, reason_template, report_template
 
 _SHARE = re.compile(r"(?P<labels>.+) \((?P<percent>\d+) %\)")
-"""As a reason names an explanation among others: `backlash of joint 1 and drift (12 %)`."""
+"""An explanation among others in a reason: `backlash of joint 1 and drift (12 %)`."""
 
 
 def reason_text(code: str, params: dict[str, float | int | str], language: Language = "en") -> str:
-    """A reason in a sentence.  :raises KeyError: an unknown code, or a parameter that its sentence needs."""
+    """A reason as a sentence. :raises KeyError: the code is unknown, or a parameter is missing."""
     return filled(reason_template(code, language), params, language)
 
 
@@ -24,12 +24,12 @@ def report_text(key: str, language: Language, **values: float | int | str) -> st
 
 
 def filled(template: str, params: dict[str, float | int | str], language: Language) -> str:
-    """With the values as the language writes them.  :raises KeyError: a value is missing."""
+    """The template with its values in the format of the language. :raises KeyError: a value is missing."""
     return template.format_map(params) if language == "en" else _Local(language).vformat(template, (), params)
 
 
 class _Local(Formatter):
-    """Numbers, identifiers and what is said in English only as the language has them."""
+    """Numbers, identifiers and English sentences in the form of the language."""
 
     def __init__(self, language: Language) -> None:
         self._language: Language = language

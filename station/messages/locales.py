@@ -1,4 +1,4 @@
-"""Numbers, dates and times as a language writes them."""
+"""Numbers, dates and times in the format of a language."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ _UNITS = {"deg": "°", "deg/kg": "°/kg", "um/m": "µm/m", "um/m/K": "µm/(m K)"
 
 
 def local_number(value: float, digits: int, language: Language) -> str:
-    """To so many decimals, with a real minus sign; a dash for what is not a number."""
+    """A number with this many decimals and a real minus sign; a dash if it is not a number."""
     if not math.isfinite(value):
         return "–"
     text = f"{value:.{digits}f}"
@@ -23,7 +23,7 @@ def local_number(value: float, digits: int, language: Language) -> str:
 
 
 def unit_name(unit: str) -> str:
-    """As people write it."""
+    """A unit in its usual form."""
     return _UNITS.get(unit, unit)
 
 
@@ -44,7 +44,7 @@ def local_date(day: date, language: Language) -> str:
 
 
 def local_time(moment: datetime, language: Language) -> str:
-    """To the minute, at this computer's place, with the difference from UTC."""
+    """A time to the minute, in this computer's zone, with the difference from UTC."""
     here = moment.astimezone()
     offset = here.strftime("%z")
     return f"{here.strftime(_DATE[language])} {here.strftime('%H:%M')} UTC{offset[:3]}:{offset[3:5]}"

@@ -1,7 +1,7 @@
-"""What a diagnosis says in English only, in another language: whole sentences, by what they are in English.
+"""Translations of a diagnosis's English texts: whole sentences, by their English form.
 
 The page has the same sentences from the same files. `{}` stands for a number, `{name}` for words and
-`{name_text}` for whole sentences; a value may be something that is said itself.
+`{name_text}` for whole sentences; a value may be a text to translate itself.
 """
 
 from __future__ import annotations
@@ -36,9 +36,9 @@ class _Sentence:
 
 
 def in_words(text: str, language: Language) -> str:
-    """A text whose sentences are known in this language; a sentence that is not stays in English.
+    """A text with its sentences translated; an unknown sentence remains in English.
 
-    Several sentences that are known as one are translated as one.
+    Several sentences that are known as one are translated together.
     """
     if language == "en":
         return text
@@ -58,7 +58,7 @@ def in_words(text: str, language: Language) -> str:
 
 
 def labels_in_words(labels: str, language: Language) -> str:
-    """Effects by their labels, named or not, with "and" between them."""
+    """Effects by their labels, named or unnamed, with "and" between them."""
     if language == "en":
         return labels
     joint = certificate_text("and", language)
@@ -66,7 +66,7 @@ def labels_in_words(labels: str, language: Language) -> str:
 
 
 def number_in_words(text: str, language: Language) -> str:
-    """A number that is a text already, with the decimal sign of the language."""
+    """A formatted number, with the decimal sign of the language."""
     return text.replace(".", ",") if language in DECIMAL_COMMA else text
 
 
@@ -86,7 +86,7 @@ def _whole(text: str, language: Language) -> str | None:
 
 
 def _value(text: str, language: Language) -> str:
-    """Again something that is said, or identifiers of parameters."""
+    """A text to translate, or identifiers of parameters."""
     said = in_words(text, language)
     if said != text:
         return said
@@ -95,7 +95,7 @@ def _value(text: str, language: Language) -> str:
 
 @cache
 def _known(language: Language) -> tuple[_Sentence, ...]:
-    """Those with most words of their own first."""
+    """Templates with the most fixed words first."""
     content = templates(language, "sentences")
     by_letters = sorted(content, key=lambda english: -len(_PLACE.sub("", english)))
     return tuple(_Sentence(_form(one), tuple(_PLACE.findall(one)), content[one]) for one in by_letters)

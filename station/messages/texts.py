@@ -21,7 +21,7 @@ _LABEL = re.compile(
     r"(?P<effect>\w+?)(?P<curve> curve)?"
     r"(?: of joint (?P<joint>\d+)| of the (?P<part>links|mounting)| (?P<link>[Ll]\d+))?"
 )
-"""As the diagnosis labels an effect: `gear_cyclic of joint 1`, `link_length L1`."""
+"""The diagnosis's label of an effect: `gear_cyclic of joint 1`, `link_length L1`."""
 
 
 @cache
@@ -34,7 +34,7 @@ def _texts(language: Language) -> dict[str, dict[str, _Entry]]:
 
 @cache
 def templates(language: Language, of: Literal["phrases", "report", "sentences"]) -> dict[str, str]:
-    """Those of one file, by code; sentences by what they are in English."""
+    """The templates of one file, by code; sentences by their English form."""
     content: dict[str, str] = json.loads(
         files("station.messages").joinpath(f"{language}-{of}.json").read_text(encoding="utf-8")
     )
@@ -47,13 +47,13 @@ def display_name(group: Group, id: str, language: Language = "en") -> str:
 
 
 def explanation(group: Group, id: str, language: Language = "en") -> str:
-    """What it is, in one sentence.  :raises KeyError:"""
+    """Its explanation in one sentence. :raises KeyError:"""
     entry = _texts(language)[group][id]
     return "" if isinstance(entry, str) else entry["text"]
 
 
 def certificate_text(key: str, language: Language) -> str:
-    """A label or sentence of the certificate, with places for values.  :raises KeyError:"""
+    """A label or sentence of the certificate, with placeholders. :raises KeyError:"""
     return _text("certificate", key, language)
 
 
@@ -63,32 +63,32 @@ def reasons(language: Language = "en") -> dict[str, str]:
 
 
 def reason_template(code: str, language: Language = "en") -> str:
-    """The sentence of a reason, with places for values.  :raises KeyError:"""
+    """The sentence of a reason, with placeholders. :raises KeyError:"""
     return _text("reasons", code, language)
 
 
 def report_template(key: str, language: Language) -> str:
-    """A label or sentence of the report on a diagnosis, with places for values.  :raises KeyError:"""
+    """A label or sentence of the report on a diagnosis, with placeholders. :raises KeyError:"""
     return templates(language, "report")[key]
 
 
 def parameter_name(id: str, language: Language) -> str:
-    """Also of one that has a number or an axis; the identifier itself where there is no name."""
+    """The name of a parameter, also with a number or an axis; the identifier itself if it has no name."""
     return _open_name("parameters", id, language)
 
 
 def part_name(id: str, language: Language) -> str:
-    """The part on which an effect acts, in the middle of a sentence."""
+    """The part on which an effect acts, for the middle of a sentence."""
     return _open_name("parts", id, language)
 
 
 def dependence_name(id: str, language: Language) -> str:
-    """What a residual depends on, in the middle of a sentence."""
+    """The quantity that a residual depends on, for the middle of a sentence."""
     return _open_name("dependences", id, language)
 
 
 def effect_name(label: str, language: Language) -> str:
-    """Of an effect by its label, `backlash of joint 1` for instance."""
+    """The name of an effect by its label, for instance `backlash of joint 1`."""
     known = _LABEL.fullmatch(label)
     entry = _texts(language)["effects"].get(known["effect"]) if known else None
     if known is None or entry is None:

@@ -1,7 +1,7 @@
-"""The machine as identified: where P stands for joint commands, and the commands that bring it to a place.
+"""The identified machine: the position of P for joint commands, and the commands for a position.
 
-Effects on joints and links take part; effects on the reading move nothing.  Effects of time are taken
-as at the end of the readings learned on, effects of temperature at the rise given.
+Effects on joints and links are included; effects on the reading move nothing. Effects of time have their
+value at the end of the readings learned from, effects of temperature that at the given rise.
 """
 
 from __future__ import annotations
@@ -36,23 +36,23 @@ MOST_STEPS = 60
 
 
 class NotInvertible(ArithmeticError):
-    """The joint effects are so steep that no command reaches the place."""
+    """The joint effects are so steep that no command reaches the position."""
 
 
 @dataclass(frozen=True)
 class Situation:
-    """In what the machine is asked to stand somewhere, K times."""
+    """The conditions of K motions of the machine."""
 
     approach: Real
-    """(K, n) sign of each joint's last motion; 0 takes the middle of a play."""
+    """(K, n) sign of each joint's last motion; 0 uses the middle of the backlash."""
     temperature_rise: Real
-    """(K,) K, above the first reading learned on."""
+    """(K,) K, above the first reading learned from."""
     payload_kg: Real
     """(K,)"""
 
     @classmethod
     def plain(cls, count: int, joints: int = 2) -> Situation:
-        """No approach, no warming, no payload."""
+        """No approach, no temperature rise, no payload."""
         return cls(np.zeros((count, joints)), np.zeros(count), np.zeros(count))
 
 
@@ -67,7 +67,7 @@ class IdentifiedMachine:
     """(X, X)"""
     terms: tuple[Term, ...]
     end_s: float
-    """Time of the last reading learned on."""
+    """Time of the last reading learned from."""
 
     @property
     def by_approach(self) -> bool:
@@ -76,11 +76,11 @@ class IdentifiedMachine:
 
     @property
     def geometry(self) -> Geometry:
-        """Without effects."""
+        """Geometry without effects."""
         return perturbed(self.robot.geometry, self.x[:SIZE])
 
     def positions(self, theta: Real, situation: Situation) -> Complex:
-        """(K,) where P stands, mm, for joint commands theta (K, 2), rad in the drives' nominal frame."""
+        """(K,) position of P, mm, for joint commands theta (K, 2), rad in the drives' nominal frame."""
         turned, moved = self._effects(theta, situation)
         return np.asarray(pose(self.geometry, theta + self.x[:2] + turned).r + moved)
 
@@ -88,7 +88,7 @@ class IdentifiedMachine:
         """(K, 2) joint commands, rad in the drives' nominal frame, that bring P to target (K,), mm.
 
         :raises Unreachable: naming the first target out of reach.
-        :raises NotInvertible: the effects do not let a command be found.
+        :raises NotInvertible: no command exists because of the effects.
         """
         geometry = self.geometry
         theta = inverse(geometry, target) - self.x[:2]
@@ -104,9 +104,9 @@ class IdentifiedMachine:
         raise NotInvertible("the joint effects are too steep to be inverted")
 
     def position_error(self, commander: IdentifiedMachine | None = None) -> PositionError:
-        """rms and largest over the workspace, mm, when `commander` (default: this one) computes the commands.
+        """RMS and maximum over the workspace, mm, with the commands of `commander` (default: this machine).
 
-        Where that is another model, what it leaves out stands beside what this one does not know.
+        If that is another model, the errors it omits are added to the uncertainty of this one.
         """
         grid = self.robot.workspace_grid(*GRID)
         sides = [(1, 1), (1, -1), (-1, 1), (-1, -1)] if self.by_approach else [(0, 0)]
@@ -134,7 +134,7 @@ class IdentifiedMachine:
         return out
 
     def _effects(self, theta: Real, situation: Situation) -> tuple[Real, Complex]:
-        """What the effects add: to the joint angles (K, 2), rad, and by way of lengths to P (K,), mm."""
+        """Contributions of the effects: to joint angles (K, 2), rad, and through lengths to P (K,), mm."""
         turned, moved = np.zeros_like(theta), np.zeros(len(theta), dtype=complex)
         by_base: Real | None = None
         for term, part, basis in self._parts(theta, situation):
@@ -150,7 +150,7 @@ class IdentifiedMachine:
         return turned, moved
 
     def _parts(self, theta: Real, situation: Situation) -> Sequence[tuple[Term, slice, Real]]:
-        """Each term with its place in x and its basis (K, q)."""
+        """Each term with its indices in x and its basis (K, q)."""
         if not self.terms:
             return ()
         c = self._conditions(theta, situation)
@@ -182,7 +182,7 @@ class IdentifiedMachine:
 
 
 def identified(fit: Fit, sd_factor: float = 1.0) -> IdentifiedMachine | None:
-    """The machine as fitted, its covariance widened; None of an arm, which its own controller commands."""
+    """The fitted machine, its covariance widened; None for an arm, which its own controller commands."""
     m = fit.model.mechanism
     if not isinstance(m, FiveBar):
         return None
@@ -191,7 +191,7 @@ def identified(fit: Fit, sd_factor: float = 1.0) -> IdentifiedMachine | None:
 
 
 def _by_strength(term: Term, by_base: Real) -> Real | None:
-    """(K, 2) d (x, y) per unit of a term's strength; None when it moves nothing."""
+    """(K, 2) d (x, y) per unit of a term's strength; None if it moves nothing."""
     if term.acts.joint is not None:
         return np.asarray(by_base[:, :, term.acts.joint])
     if term.acts.lengths is None:

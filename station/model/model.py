@@ -15,17 +15,17 @@ from station.mechanism import Conditions, Mechanism, Observation, Reference
 from station.records import Index, Real
 
 CONDITION_ROUNDS = 12
-"""The basis depends a little on the zero offsets: fitted, evaluated anew, fitted again until it stays."""
+"""The basis depends slightly on the zero offsets: it is fitted and evaluated until it is stable."""
 SETTLED_MM = 2e-5
 SETTLED_SDS = 2e-3
 LONG_ROWS = 1000
 LONG_WITHOUT_REPEATS = 350
-"""Where no repeats say how readings scatter, the residual of fewer rows must."""
+"""With fewer rows, the residual determines the scatter if there are no repeats."""
 
 
 @dataclass(frozen=True)
 class Term:
-    """An effect with its hidden parameters settled."""
+    """An effect with its hidden parameters fixed."""
 
     effect: Effect
     hidden: Mapping[str, float]
@@ -33,7 +33,7 @@ class Term:
     size: int
     """Number of amplitudes."""
     spread: Real | None = None
-    """(q,) prior standard deviation of the amplitudes; None where the readings alone decide."""
+    """(q,) prior standard deviation of the amplitudes; None if only the readings determine them."""
 
     @property
     def key(self) -> tuple[str, int | None]:
@@ -67,7 +67,7 @@ class Model:
         return np.concatenate([*parts, np.zeros(0)])
 
     def prior(self, base: Prior) -> Prior:
-        """Of all unknowns, from that of the base parameters."""
+        """Prior of all unknowns, from that of the base parameters."""
         if not self.terms:
             return base
         amplitudes = Prior.independent(np.zeros(len(self.spread)), self.spread)
@@ -77,7 +77,7 @@ class Model:
         return self.mechanism.conditions(p, self.reference, first=first)
 
     def bases(self, c: Conditions) -> list[Real]:
-        """(K, q) of each term under conditions."""
+        """(K, q) basis of each term under the conditions."""
         return [term.effect.at(term.hidden, c) for term in self.terms]
 
     def observe(self, x: Real, bases: list[Real]) -> Observation:
@@ -96,7 +96,7 @@ class Model:
         return Observation(value, np.hstack(columns), at.by_joint)
 
     def turned(self, x: Real, bases: list[Real]) -> Real:
-        """(K, n) joint angles with what the effects on joints add to them, rad."""
+        """(K, n) joint angles including the effects on joints, rad."""
         theta = self.mechanism.theta
         if any(term.acts.joint is not None for term in self.terms):
             theta = theta.copy()
@@ -128,12 +128,12 @@ class Fit:
 
     @cached_property
     def conditions(self) -> Conditions:
-        """Under what the readings were taken, at the fit."""
+        """The conditions of the readings, at the fit."""
         return self.model.conditions(self.x[: self.model.base_size])
 
     @cached_property
     def at(self) -> Observation:
-        """Of the mechanism at the fit, joints turned by the effects; without the terms' own columns."""
+        """Observation of the mechanism at the fit, joints turned by the effects; without terms' columns."""
         bases = self.model.bases(self.conditions) if self.model.terms else []
         return self.model.mechanism.observe(self.x[: self.model.base_size], self.model.turned(self.x, bases))
 
@@ -148,19 +148,19 @@ class Fit:
 
     @property
     def dof(self) -> int:
-        """Of the cost: rows less the unknowns that nothing but the rows holds."""
+        """Degrees of freedom of the cost: rows less the unknowns that only the rows determine."""
         return len(self.row_sd) - self.prior.free
 
     @property
     def freedom(self) -> float:
-        """How many unknowns the rows determine: all, less what the prior knows of them."""
+        """Number of unknowns that the rows determine: all, less the information of the prior."""
         C = self.solution.covariance
         held = np.isfinite(np.diag(C))
         root = self.prior.root[:, held]
         return float(held.sum() - np.sum((root @ C[np.ix_(held, held)]) * root))
 
     def part(self, index: int) -> Index:
-        """(q,) where the amplitudes of term `index` stand among the unknowns."""
+        """(q,) indices of the amplitudes of term `index` among the unknowns."""
         start = self.model.base_size + sum(t.size for t in self.model.terms[:index])
         return np.arange(start, start + self.model.terms[index].size)
 
@@ -171,14 +171,14 @@ class Fit:
 
 
 def is_long(mechanism: Mechanism) -> bool:
-    """Whether rows are so many that candidates differ by more than their signatures' curvature is worth."""
+    """Whether there are so many rows that candidates differ by more than their signatures' curvature."""
     return len(mechanism.row_sd) > (LONG_ROWS if mechanism.needs_repeats else LONG_WITHOUT_REPEATS)
 
 
 def fit(model: Model, base_prior: Prior, row_sd: Real, start: Real | None = None) -> Fit:
-    """Fit all unknowns of a model, from `start` on: without one from where the mechanism says, no effects.
+    """Fit all unknowns of a model from `start`; by default from the start of the mechanism, without effects.
 
-    :raises NotConvergedError: no convergence.
+    :raises NotConvergedError: the fit does not converge.
     """
     prior = model.prior(base_prior)
     x = model.mechanism.start if start is None else start
@@ -190,7 +190,7 @@ def fit(model: Model, base_prior: Prior, row_sd: Real, start: Real | None = None
         def residuals(q: Real, bases: list[Real] = bases) -> tuple[Real, Real]:
             at = model.observe(q, bases)
             J = at.by_parameter
-            J /= row_sd[:, None]  # in place: of a long log it is large
+            J /= row_sd[:, None]  # in place: for a long log it is large
             return (at.value - measured) / row_sd, J
 
         solution = solve(residuals, x, prior)

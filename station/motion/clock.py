@@ -1,4 +1,4 @@
-"""The clock of a run: what its decisions and its times hang on, recorded so that it can be played back."""
+"""The clock of a run, which its decisions and times depend on, recorded for replay."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from typing import Protocol
 
 
 class Clock(Protocol):
-    """Of one run."""
+    """The clock of one run."""
 
     def now(self) -> float:
         """Seconds since the run began."""
         ...
 
     def wait(self, cancel: Event, seconds: float) -> bool:
-        """Whether the run was told to end within this time."""
+        """Whether the run was asked to end within this time."""
         ...
 
 
@@ -24,7 +24,9 @@ class RunClock:
     """Real time."""
 
     def __init__(self, elapsed_s: float = 0.0, note: Callable[[int], None] = lambda _: None) -> None:
-        """:param elapsed_s: since the run began; :param note: is told each time that is read, microseconds"""
+        """:param elapsed_s: time since the run began; :param note: receives each time that is read,
+        microseconds
+        """
         self._started_s = time.monotonic() - elapsed_s
         self._note = note
 
@@ -38,7 +40,7 @@ class RunClock:
 
 
 class PlayedClock:
-    """The times that a run read, without the waiting."""
+    """The recorded times of a run, without the waiting."""
 
     def __init__(self, now: Callable[[], float]) -> None:
         self._now = now

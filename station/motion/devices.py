@@ -1,4 +1,4 @@
-"""Drivers made from the station file."""
+"""Drivers created from the station file."""
 
 from __future__ import annotations
 
@@ -16,26 +16,27 @@ from station.settings import Settings
 
 @dataclass(frozen=True, slots=True)
 class Devices:
-    """Everything the station measures and moves with."""
+    """All devices for measuring and moving."""
 
     scale: LinearScale
     axes: tuple[ServoAxis, ServoAxis]
     addresses: tuple[str, str, str]
-    """Where scale and axes hang, for people."""
+    """Addresses of scale and axes, for people."""
     emulated: bool = False
     read_register: Callable[[int, int], int] | None = None
-    """A holding register of a unit on the line of the drives; None where they are on no such line."""
+    """A holding register of a unit on the line of the drives; None if they are on no such line."""
     remount: Callable[[tuple[float, float], int], None] | None = None
-    """Mounts the mechanism of the emulated machine at a point, with the number of the mounting there; None
-    where a person does it."""
+    """Mounts the mechanism of the emulated machine at a point, with the number of the mounting there; None if
+    a person does it.
+    """
     speed: float = 1.0
-    """How much faster than real time the machine lives; 1 for a real one."""
+    """Speed of the machine over real time; 1 for a real one."""
 
 
 def build_devices(settings: Settings, *, emulated: bool = False, speed: float = 1.0) -> Devices:
     """Drivers for the scale and both axes; nothing is opened yet.
 
-    :raises InputRefused: no devices named, or an address that cannot be used.
+    :raises InputRefused: no devices are named, or an address cannot be used.
     """
     scale, servo = settings.scale, settings.servo
     if scale is None or servo is None:

@@ -1,7 +1,7 @@
-"""The one place that starts the emulated rig: a child process behind the same wires as a real one.
+"""The only module that starts the emulated rig: a child process behind the same wires as a real one.
 
-Its standard input stays open as long as it is wanted; it ends by itself when that closes, even when
-the station is killed.
+Its standard input stays open while it is needed; it ends by itself when that closes, even if the station is
+killed.
 """
 
 from __future__ import annotations
@@ -41,24 +41,24 @@ class EmulatedRig:
     def __init__(self, rig: Path | None, state_file: Path, speed: float) -> None:
         """Start it and wait until its lines are up.
 
-        :param rig: rig file; None is the one that ships
-        :param state_file: where its joints stand between two starts
-        :param speed: how much faster than real time it lives
-        :raises InputRefused: it did not start, with what it said.
+        :param rig: rig file; None is the one supplied
+        :param state_file: file with its joint positions between two starts
+        :param speed: its speed over real time
+        :raises InputRefused: it did not start; the error contains its output.
         """
         self.speed = speed
         self.faults: tuple[FaultOrder, ...] = ()
-        """As ordered last while it runs."""
+        """Faults last ordered while it runs."""
         self.effects: tuple[EffectTable, ...] = ()
-        """Likewise; those of the rig file are not listed."""
+        """Effects last ordered; those of the rig file are not listed."""
         self._ordering = Lock()
         state_file.parent.mkdir(parents=True, exist_ok=True)
         command = [sys.executable, "-m", "drivers.emulated"]
         command += ["--state", str(state_file), "--speed", f"{speed:g}"]
         if rig is not None:
             command.append(str(rig))
-        # A session of its own: Ctrl-C at the terminal must reach the station alone, which then stops
-        # the machine through its wires.
+        # A session of its own: Ctrl-C at the terminal must reach only the station, which then stops the
+        # machine through its wires.
         self._process = subprocess.Popen(
             command,
             stdin=subprocess.PIPE,
@@ -86,16 +86,16 @@ class EmulatedRig:
             raise InputRefused(f"The emulated rig did not start: {said.rstrip('.')}.") from error
 
     def order(self, faults: Sequence[FaultOrder]) -> tuple[FaultOrder, ...]:
-        """These faults and no others from now on; what is ordered then.
+        """Activate these faults and no others; returns the active faults.
 
-        :raises InputRefused: the rig does not take them, or does not answer.
+        :raises InputRefused: the rig does not accept them, or does not answer.
         """
         given = ORDERS.dump_python(tuple(faults), mode="json")
         self.faults = ORDERS.validate_python(self._order("faults", given))
         return self.faults
 
     def order_effects(self, effects: Sequence[EffectTable]) -> tuple[EffectTable, ...]:
-        """These imperfections of the machine and no others from now on, as `[[effect]]` of a rig file.
+        """Activate these imperfections of the machine and no others, as `[[effect]]` of a rig file.
 
         :raises InputRefused: as `order`.
         """
@@ -127,8 +127,9 @@ class EmulatedRig:
         return answer[what]
 
     def settings(self, settings: Settings) -> Settings:
-        """The same station with its devices at this rig's addresses, and its door and thermometer where the
-        station file does not name others."""
+        """The station's settings with its devices at this rig's addresses, and the rig's door and thermometer
+        unless the station file defines others.
+        """
         declared = settings.interlocks.model_dump(exclude_none=True)
         joints = settings.servo.joint if settings.servo else DEFAULT_JOINTS
         return settings.model_copy(
@@ -140,7 +141,7 @@ class EmulatedRig:
         )
 
     def close(self) -> None:
-        """End it; twice is harmless."""
+        """End it; repeating it is harmless."""
         assert self._process.stdin is not None
         self._process.stdin.close()
         try:
@@ -162,4 +163,4 @@ def _read(stream: IO[str], take: Callable[[str], None]) -> None:
     with stream:
         for line in stream:
             take(line.strip())
-    take("")  # the end, so that nobody waits for a line that will not come
+    take("")  # the end of the output, so that nobody waits for a line that will not come

@@ -1,4 +1,4 @@
-"""What the station tells whoever listens: the page's live feed, the terminal's progress."""
+"""Events of the station for its listeners: the page's live feed, the terminal's progress."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ EventData = (
 
 @dataclass(frozen=True, slots=True)
 class LiveEvent:
-    """One fact."""
+    """One event."""
 
     type: EventType
     data: EventData
@@ -53,7 +53,7 @@ Listener = Callable[[LiveEvent], None]
 
 
 class Listeners:
-    """Calls everybody who subscribed, in the thread that publishes: a listener must be quick."""
+    """Calls all subscribers in the thread that publishes: a listener must be quick."""
 
     def __init__(self) -> None:
         self._lock = Lock()
@@ -72,14 +72,14 @@ class Listeners:
         return unsubscribe
 
     def publish(self, type: EventType, data: EventData) -> None:
-        """A listener that fails is logged and dropped: the page must not disturb the measurement."""
+        """Call all listeners; one that fails is dropped: the page must not disturb the measurement."""
         event = LiveEvent(type, data)
         with self._lock:
             listeners = tuple(self._listeners)
         for listener in listeners:
             try:
                 listener(event)
-            except Exception:  # code of others, called in the worker's thread
+            except Exception:  # external code, called in the worker's thread
                 log.exception("A listener failed and is dropped")
                 with self._lock:
                     if listener in self._listeners:

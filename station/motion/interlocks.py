@@ -1,4 +1,4 @@
-"""Interlocks: what must hold before and during motion, each with its limits, its state and its last trip."""
+"""Interlocks: conditions for motion, before and during it, each with its limits, state and last trip."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _TEXTS = {
 
 
 class Tripped(StepFailed):
-    """An interlock does not hold any more, in motion."""
+    """An interlock was violated during motion."""
 
     def __init__(self, interlock: str, text: str) -> None:
         super().__init__(text)
@@ -37,7 +37,7 @@ class Tripped(StepFailed):
 
 
 class Interlocks:
-    """Those that the station file declares, and their defaults.  One thread judges; any may look."""
+    """The interlocks of the station file, and defaults. One thread evaluates them; any may read them."""
 
     def __init__(
         self,
@@ -46,9 +46,9 @@ class Interlocks:
         read_register: ReadRegister | None,
         reference: Callable[[str], CalibrationHolds] | None = None,
     ) -> None:
-        """:param read_register: None where the drives are on no line with registers
+        """:param read_register: None if the drives are on no line with registers
 
-        :param reference: what the checks of a robot say; None: it is not asked for
+        :param reference: result of the checks of a robot; None: not used
         """
         self._declared, self._limits = declared, limits
         self._read_register = read_register
@@ -56,7 +56,7 @@ class Interlocks:
         self._reference_state: CalibrationHolds | None = None
         self._details: dict[str, str] = {}
         self._broken: dict[str, str] = {}
-        """In motion; until nothing moves."""
+        """Violated during motion; until nothing moves."""
         self._shows: dict[str, str] = {}
         self._last_trips: dict[str, Trip] = {}
         self.forget()
@@ -65,39 +65,39 @@ class Interlocks:
 
     @property
     def outside_mm(self) -> float:
-        """How far outside its workspace the arm may stand when a run starts."""
+        """How far outside its workspace the arm may be when a run starts."""
         own = self._declared.workspace.outside_mm
         return self._limits.swing_mm if own is None else own
 
     @property
     def travel_error_mm(self) -> float:
-        """How far the travel of the scale may differ from what the joints say."""
+        """Allowed difference between the travel of the scale and the joints."""
         return self._declared.travel.error_mm or self._limits.travel_error_mm
 
     @property
     def following_error_deg(self) -> float:
-        """How far a moving joint may leave its way."""
+        """Allowed deviation of a moving joint from its path."""
         return self._declared.following_error.error_deg or self._limits.corridor_deg
 
-    # Judging --------------------------------------------------------------------------------------
+    # Evaluation ---------------------------------------------------------------------------------
 
     def trip(self, interlock: str, text: str) -> Tripped:
-        """An interlock was found broken in motion: to be raised."""
+        """The error for an interlock that was violated during motion, to be raised."""
         self._broken[interlock] = text
         return Tripped(interlock, text)
 
     def hold_again(self) -> None:
-        """Nothing moves: what a motion has broken holds until the next one."""
+        """At standstill, interlocks violated by a motion count as satisfied until the next one."""
         self._broken.clear()
 
     def forget(self) -> None:
-        """The line of the drives is down: what is not known does not hold."""
+        """The line of the drives is down: an unknown condition counts as violated."""
         for interlock in ("guard_door", "temperature"):
             self._judge(interlock, "not known while the drives do not answer")
         self._shows.clear()
 
     def look_at_guard_door(self) -> str:
-        """Read its input; what is wrong, or empty.  Without such an input nothing can be."""
+        """Read its input; returns the trouble, or empty. Without such an input there is none."""
         door = self._declared.guard_door
         if door is None:
             return ""
@@ -122,13 +122,13 @@ class Interlocks:
         return self._judge("temperature", value)
 
     def look_at_reference(self) -> None:
-        """Ask the history what the checks of the reference robot say."""
+        """Look up in the history the result of the reference robot's checks."""
         wanted = self._declared.reference_check
         if wanted is not None and self._reference is not None:
             self._reference_state = self._reference(wanted.robot)
 
     def _read(self, where: OnLineOfDrives) -> int | str:
-        """The register, or why it cannot be read: what is not known does not hold."""
+        """The register, or why it cannot be read: an unknown condition counts as violated."""
         if self._read_register is None:
             return "the drives of this station are on no line with registers"
         try:
@@ -141,7 +141,7 @@ class Interlocks:
         return trouble
 
     def _reference_trouble(self, serial: str) -> str:
-        """Why another robot than the reference robot may not be run."""
+        """Why a robot other than the reference robot may not be run."""
         wanted, state = self._declared.reference_check, self._reference_state
         if wanted is None or self._reference is None or wanted.robot == serial:
             return ""
@@ -158,17 +158,17 @@ class Interlocks:
             )
         return ""
 
-    # What is known --------------------------------------------------------------------------------
+    # State --------------------------------------------------------------------------------------
 
     def ended(self, tripped: Tripped, trip: Trip) -> None:
-        """The motion that an interlock ended has come to rest."""
+        """The motion that an interlock ended has come to standstill."""
         self._last_trips[tripped.interlock] = trip
 
     def views(self, known: Mapping[str, str], serial: str) -> tuple[Interlock, ...]:
-        """All that are declared.
+        """All declared interlocks.
 
-        :param known: what is wrong, or empty, by the names of those that the machine judges at any time
-        :param serial: of the robot on the rig
+        :param known: trouble, or empty, by the names of the interlocks that the machine evaluates at any time
+        :param serial: serial of the robot on the rig
         """
         now = {**self._details, **known, "reference_check": self._reference_trouble(serial)}
         broken = dict(self._broken)

@@ -1,4 +1,4 @@
-"""Where the machine may be sent: checked on numbers alone, before anything moves."""
+"""The permitted positions of the machine: checked on numbers alone, before anything moves."""
 
 from __future__ import annotations
 
@@ -16,14 +16,14 @@ _POINTS_PER_LEG = 16
 
 
 def excess_mm(robot: Robot, places: Complex) -> Real:
-    """(K,) how far places (K,) lie outside the workspace; negative inside."""
+    """(K,) distance of positions (K,) outside the workspace; negative inside."""
     (left, right), (low, high) = robot.workspace_x, robot.workspace_y
     x, y = places.real, places.imag
     return np.asarray(np.maximum.reduce([left - x, x - right, low - y, y - high]))
 
 
 def outside_text(robot: Robot, place: complex, margin_mm: float) -> str:
-    """Empty when a place lies within the workspace and its margin, else how far outside it is."""
+    """Empty if a position is within the workspace and its margin, otherwise its distance outside."""
     excess = float(excess_mm(robot, np.array([place]))[0])
     if excess <= margin_mm:
         return ""
@@ -40,7 +40,7 @@ def check_way(
     stop: Stop,
     way: Sequence[Angles],
 ) -> None:
-    """The stop, every joint command after the first point of `way` and the swing between them.
+    """Check the stop, every joint command after the first point of `way`, and the motion between them.
 
     :raises StepFailed: naming the stop and the limit.
     """

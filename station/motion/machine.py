@@ -1,4 +1,4 @@
-"""The devices as one machine: what is known about each, where the arm stands, what forbids motion."""
+"""The devices as one machine: state of each, position of the arm, conditions that forbid motion."""
 
 from __future__ import annotations
 
@@ -41,12 +41,12 @@ _REST_POLL_S = 0.02
 
 
 class NotReady(DeviceError):
-    """Something forbids to start; the text names all of it."""
+    """Conditions forbid a start; the text lists all of them."""
 
 
 @dataclass(frozen=True, slots=True)
 class Pose:
-    """Where the arm stood at a moment of the monotonic clock."""
+    """Position of the arm at a time of the monotonic clock."""
 
     theta_deg: tuple[float, float]
     scale_mm: float
@@ -60,12 +60,12 @@ class _Known:
     text: str = "not connected yet"
     alarm: int | None = None
     heard_at: float | None = None
-    """Of the monotonic clock."""
+    """Time by the monotonic clock."""
     errors: int = 0
 
 
 class Machine:
-    """Scale and two axes.  One thread works with it; `quick_stop` and the views may be called by any."""
+    """Scale and two axes. One thread works with it; any thread may call `quick_stop` and the views."""
 
     def __init__(
         self,
@@ -75,23 +75,23 @@ class Machine:
         interlocks: InterlockSettings,
         reference: Callable[[str], CalibrationHolds] | None = None,
     ) -> None:
-        """:param reference: what the checks of a robot say; None: it is not asked for"""
+        """:param reference: result of the checks of a robot; None: not used"""
         self.devices = devices
         self.limits = limits
         self.locks = Interlocks(interlocks, limits, devices.read_register, reference)
         self.robot = Robot.default()
-        """Whose geometry turns joint angles into a place."""
+        """The robot whose geometry converts joint angles to a position."""
         self.compensation_deg = (0.0, 0.0)
-        """What the run has found so far; added where a place is shown, never where one is judged."""
+        """Zero offsets found so far by the run; added to a displayed position, never to a judged one."""
         self._listeners = listeners
         self._all: tuple[Device, ...] = (devices.scale, *devices.axes)
         self._known = {device.name: _Known() for device in self._all}
         self._pose: Pose | None = None
         self._stands_deg: tuple[float, float] | None = None
-        """As in the pose; known without the scale, too."""
+        """As in the pose; also known without the scale."""
         self._published: tuple[Interlock, ...] = ()
         self._failed: Device | None = None
-        """Whose use failed last."""
+        """The device whose use failed last."""
         self._stop_frames_at_s: float | None = None
         self._published_retract: RetractView | None = None
 
@@ -99,7 +99,7 @@ class Machine:
 
     @contextmanager
     def using(self, device: Device) -> Iterator[None]:
-        """Around any use of a device: what it says about the device is kept and published."""
+        """Context of any use of a device: its state is stored and published."""
         try:
             yield
         except DeviceError as error:
@@ -115,7 +115,7 @@ class Machine:
                 self._learn(device, "ok", "")
 
     def release(self) -> None:
-        """Close every device; the next use connects it anew."""
+        """Close every device; the next use connects it again."""
         for device in self._all:
             device.close()
             self._known[device.name].connected = False
@@ -123,7 +123,7 @@ class Machine:
     def connect_missing(self, *, axes_only: bool = False) -> None:
         """Connect every device that was never connected or was lost.
 
-        :raises NotReady: naming all that could not be connected, each with its cause.
+        :raises NotReady: listing all devices that could not be connected, each with its cause.
         """
         failures = []
         for device in self.devices.axes if axes_only else self._all:
@@ -140,7 +140,7 @@ class Machine:
             raise NotReady(" ".join(failures))
 
     def status(self, axis: ServoAxis) -> AxisStatus:
-        """An axis's status, its alarm remembered.  :raises DeviceError:"""
+        """An axis's status; its alarm is stored. :raises DeviceError:"""
         with self.using(axis):
             status = axis.status()
             self._known[axis.name].alarm = status.alarm
@@ -149,7 +149,7 @@ class Machine:
         return status
 
     def look(self) -> Pose:
-        """Read where the arm stands.  :raises DeviceError:"""
+        """Read the position of the arm. :raises DeviceError:"""
         angles = []
         for axis in self.devices.axes:
             with self.using(axis):
@@ -159,7 +159,7 @@ class Machine:
         return self.moved((angles[0], angles[1]), scale_mm)
 
     def moved(self, theta_deg: tuple[float, float], scale_mm: float) -> Pose:
-        """Keep and publish where the arm stands now."""
+        """Store and publish the current position of the arm."""
         pose = self._pose = Pose(theta_deg, scale_mm, time.monotonic())
         self._stands_deg = theta_deg
         self._listeners.publish("machine", self.view())
@@ -167,7 +167,7 @@ class Machine:
         return pose
 
     def watch(self) -> None:
-        """One look while nothing runs: connects what is missing, reads what is there."""
+        """One query while no run is active: connect missing devices, read the others."""
         self.locks.hold_again()
         try:
             self.connect_missing()
@@ -176,19 +176,19 @@ class Machine:
             self.look_around()
             self.look()
         except DeviceError:
-            self._pose = None  # a place that is not known is not shown
+            self._pose = None  # an unknown position is not shown
             self._look_at_axes()
             if self._stands_deg is None:
                 self.locks.forget()
             self._tell_interlocks()
 
     def look_around(self) -> None:
-        """Guard door and temperature, where the station file names them."""
+        """Guard door and temperature, if the station file defines them."""
         self.locks.look_at_guard_door()
         self.locks.look_at_temperature()
 
     def _look_at_axes(self) -> None:
-        """Where the arm stands is known without the scale: enough to bring it back."""
+        """The position of the arm is known without the scale: enough to bring it back."""
         self._stands_deg = None
         if not all(self._known[axis.name].connected for axis in self.devices.axes):
             return
@@ -202,7 +202,7 @@ class Machine:
         self._stands_deg = (angles[0], angles[1])
 
     def ready_axes(self) -> None:
-        """Reset what alarm can be reset and power both axes.  :raises DeviceError:"""
+        """Reset alarms that can be reset and power both axes. :raises DeviceError:"""
         for axis in self.devices.axes:
             status = self.status(axis)
             with self.using(axis):
@@ -213,9 +213,9 @@ class Machine:
                     axis.enable()
 
     def mounted_at(self, c: tuple[float, float], mounting: int = 0) -> None:
-        """Somebody has mounted the mechanism there, mm; with the emulated machine this does it.
+        """A person has mounted the mechanism there, mm; with the emulated machine this call does it.
 
-        :param mounting: 1, 2, ... where it is mounted there once more
+        :param mounting: 1, 2, ... if it is remounted there
         """
         if self.devices.remount is not None:
             self.devices.remount(c, mounting)
@@ -223,27 +223,28 @@ class Machine:
     # Stopping ------------------------------------------------------------------------------------
 
     def quick_stop(self) -> dict[str, str | None]:
-        """Stop both axes now, from any thread; by axis None or what went wrong."""
+        """Stop both axes now, from any thread; by axis None or the error."""
         return each_within(STOP_LIMIT_S, {axis.name: axis.quick_stop for axis in self.devices.axes})
 
     def make_safe(self, *, insist: bool = True) -> str | None:
-        """Every device made safe, and both axes stopped until they say that they stand.
+        """Make every device safe, and stop both axes until they report standstill.
 
-        :param insist: on standstill; without it one try is enough, as before the first motion.
-        :return: None, or a sentence about what could not be confirmed.
+        :param insist: whether to repeat until standstill; otherwise one attempt is enough, as before the
+        first motion.
+        :return: None, or a sentence about the part that could not be confirmed.
         """
         each_within(STOP_LIMIT_S, {device.name: device.make_safe for device in self._all})
         self._stop_frames_at_s = self._stop_frames_sent_at_s()
         return self._rest(self.devices.axes, STANDSTILL_LIMIT_S if insist else 0.0)
 
     def standstill(self) -> str | None:
-        """Wait until both axes say that they stand.  None, or a sentence that it is not confirmed."""
+        """Wait until both axes report standstill. None, or a sentence that it is not confirmed."""
         return self._rest((), STANDSTILL_LIMIT_S)
 
     def _rest(self, to_stop: tuple[ServoAxis, ...], limit_s: float) -> str | None:
         deadline = time.monotonic() + limit_s
         while True:
-            # A line may come back while this waits: a stop that was not confirmed is sent again.
+            # A line may recover during this wait: a stop that was not confirmed is sent again.
             trouble = each_within(STOP_LIMIT_S, {axis.name: axis.quick_stop for axis in to_stop})
             to_stop = tuple(axis for axis in to_stop if trouble[axis.name])
             looks = {axis.name: partial(_expect_standstill, axis) for axis in self.devices.axes}
@@ -256,7 +257,7 @@ class Machine:
             time.sleep(_REST_POLL_S)
 
     def _stop_frames_sent_at_s(self) -> float | None:
-        """When the later of both drives was sent its stop last; None where one never was."""
+        """Time at which the later of both drives was sent its last stop; None if one never was."""
         lines = {id(line): line for axis in self.devices.axes if (line := line_of(axis)) is not None}
         sent = [at_s for line in lines.values() for at_s in line.traffic.stop_sent_at_s.values()]
         return max(sent) if len(sent) == len(self.devices.axes) else None
@@ -265,10 +266,10 @@ class Machine:
         """Release all lines."""
         each_within(CLOSE_LIMIT_S, {device.name: device.close for device in self._all})
 
-    # What is known -------------------------------------------------------------------------------
+    # State --------------------------------------------------------------------------------------
 
     def view(self) -> MachineView | None:
-        """The `machine` part of the snapshot; None while the place is not known."""
+        """The `machine` part of the snapshot; None while the position is unknown."""
         pose = self._pose
         if pose is None:
             return None
@@ -283,11 +284,11 @@ class Machine:
         )
 
     def shown_place(self, theta_deg: tuple[float, ...]) -> tuple[float, float] | None:
-        """x, y in mm for the eye: with what is known of the zero offsets; None as in `place`."""
+        """x, y in mm for display: includes the known zero offsets; None as in `place`."""
         return self.place(tuple(map(sum, zip(theta_deg, self.compensation_deg, strict=True))))
 
     def place(self, theta_deg: tuple[float, ...]) -> tuple[float, float] | None:
-        """Nominal x, y in mm of joint angles; None where the linkage does not close."""
+        """Nominal x, y in mm of joint angles; None if the linkage does not close."""
         try:
             point = forward(self.robot.geometry, np.radians(np.array([theta_deg])))[0]
         except Unreachable:
@@ -331,19 +332,19 @@ class Machine:
     # Interlocks ----------------------------------------------------------------------------------
 
     def trip(self, interlock: str, text: str) -> Tripped:
-        """An interlock was found broken in motion: published, and to be raised."""
+        """The error for an interlock that was violated during motion: published, and to be raised."""
         tripped = self.locks.trip(interlock, text)
         self._tell_interlocks()
         return tripped
 
     def trip_by(self, error: DeviceError, text: str) -> Tripped:
-        """The same of a device that failed in motion."""
+        """The same for a device that failed during motion."""
         if not isinstance(error, DeviceFault):
             return self.trip("devices", text)
         return self.trip("scale" if self._failed is self.devices.scale else "drives", text)
 
     def came_to_rest(self, run: int, tripped: Tripped) -> Trip:
-        """After the motion that an interlock ended: how long the stop took."""
+        """Record how long the stop took, after the motion that an interlock ended."""
         sent_at_s = self._stop_frames_at_s
         trip = Trip(
             run=run,
@@ -356,7 +357,7 @@ class Machine:
         return trip
 
     def interlocks(self) -> tuple[Interlock, ...]:
-        """What must hold before and during motion, as data."""
+        """Conditions before and during motion, as data."""
         missing = [name for name, known in self._known.items() if not known.connected]
         alarms = [
             f"{name}: alarm {known.alarm:X}h; the next run tries to reset it"

@@ -1,4 +1,4 @@
-"""The devices of a station, real or emulated, for as long as they are wanted."""
+"""The devices of a station, real or emulated, while they are needed."""
 
 from __future__ import annotations
 
@@ -14,10 +14,10 @@ from station.settings import Settings
 
 @dataclass(frozen=True, slots=True)
 class Equipment:
-    """Devices, nothing of them opened yet, and what they were made from."""
+    """Devices, none of them opened yet, and their settings."""
 
     settings: Settings
-    """With the addresses of the emulated rig where there is one."""
+    """Settings with the addresses of the emulated rig, if there is one."""
     devices: Devices
     rig: EmulatedRig | None
     """The emulated machine; None with real devices."""
@@ -25,7 +25,7 @@ class Equipment:
 
 @contextmanager
 def equipment(settings: Settings, home: Path, emulate: Path | None) -> Iterator[Equipment]:
-    """What the station file names, else the emulated rig, which ends with the block.
+    """The devices of the station file, otherwise the emulated rig, which ends with the block.
 
     :param emulate: rig file of the emulated machine, even when the station file names devices.
     :raises InputRefused: the rig does not start, or an address cannot be used.

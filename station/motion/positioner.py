@@ -1,4 +1,4 @@
-"""From one stop to the next: limits, approach, motion, settling, a reading that can be believed."""
+"""From one stop to the next: limits, approach, motion, settling, and a valid reading."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ from station.settings import JointSettings
 
 _POLL_S = 0.01
 _LOOK_S = 0.25
-"""How often a long motion is watched with feedback and scale."""
+"""Interval at which a long motion is monitored with feedback and scale."""
 _ARRIVAL_MARGIN_S = 3.0
 _SLOWEST_DEG_S = 1.0
 _DIGITS = 9
@@ -31,16 +31,16 @@ _FROZEN_MM = 1e-6
 _MOVED_MM = 5.0
 
 _Samples = tuple[list[float], Angles]
-"""Of the scale, and the mean feedback."""
+"""Samples of the scale, and the mean feedback."""
 
 
 class Cancelled(Exception):
-    """The run was told to end."""
+    """The run was asked to end."""
 
 
 @dataclass
 class Positioner:
-    """Measures stops, one after another, until told to cancel."""
+    """Measures stops, one after another, until cancelled."""
 
     machine: Machine
     robot: Robot
@@ -48,26 +48,26 @@ class Positioner:
     cancel: Event
     clock: Clock = field(default_factory=RunClock)
     mount: str | None = None
-    """Where the mechanism is mounted; None: at the robot file's `c`."""
+    """Mounting point of the mechanism; None: at the robot file's `c`."""
     _goes_back: bool = False
-    """Whether only what forbids any motion stops it."""
+    """Whether only conditions that forbid any motion stop it."""
     _theta: Angles = (math.nan, math.nan)
     _direction: tuple[int, int] = (0, 0)
     _origin: tuple[float, float] | None = None
-    """Scale and nominal distance at the first reading: what travel is counted from."""
+    """Scale and nominal distance at the first reading: the origin of the travel."""
     _before: tuple[float, float] | None = None
-    """The last sample of the reading before, and its nominal distance."""
+    """The last sample of the previous reading, and its nominal distance."""
 
     @property
     def theta_deg(self) -> Angles:
-        """Where the joints stood at the last look."""
+        """Joint angles at the last query."""
         return self._theta
 
     def prepare(self, *, from_outside: bool = False) -> None:
-        """Connect, reset, enable, look, and check every interlock.
+        """Connect, reset, enable, query, and check every interlock.
 
-        :param from_outside: only what it takes to bring the arm back into the workspace
-        :raises DeviceError: naming what is missing or forbids to start.
+        :param from_outside: only the steps that bring the arm back into the workspace
+        :raises DeviceError: naming the missing devices or the conditions that forbid a start.
         """
         self.machine.robot, self.machine.compensation_deg = self.robot, (0.0, 0.0)
         self.machine.connect_missing(axes_only=from_outside)
@@ -88,16 +88,16 @@ class Positioner:
             raise NotReady(f"Not ready to start. {'. '.join(broken)}.")
 
     def look(self) -> None:
-        """Where the joints stand now, in the frames of their drives as they are now.  :raises DeviceError:"""
+        """Current joint angles, in the present frames of their drives. :raises DeviceError:"""
         self._theta = self.machine.look().theta_deg
         self._origin = self._before = None
 
     def measure(self, stop: Stop, number: int, sequence: int) -> Reading:
-        """Go there and read.
+        """Move there and read.
 
-        :raises Cancelled: stop was pressed.
+        :raises Cancelled: the run was stopped.
         :raises DeviceError: a device failed.
-        :raises StepFailed: a limit forbids the stop, it was not reached, or its reading is in doubt.
+        :raises StepFailed: a limit forbids the stop, it was not reached, or its reading is not valid.
         """
         self._move_to(stop)
         samples, theta = self._settled() or self._samples(stop, number)
@@ -109,7 +109,7 @@ class Positioner:
         return Reading(number, t_s, theta, self._direction, scale_mm, stop.position, sequence, tuple(samples))
 
     def stand_at(self, stop: Stop) -> None:
-        """Go there and come to rest.  :raises: as `measure`."""
+        """Move there and come to standstill. :raises: as `measure`."""
         self._move_to(stop)
         self._pause(self.machine.limits.settle_s)
 
@@ -122,21 +122,21 @@ class Positioner:
             self._go(stop, target, self.machine.limits.speed_deg_s)
 
     def go(self, stop: Stop, speed_deg_s: float, *, scale: bool) -> None:
-        """Straight there at a speed, without a check of limits.  :raises: as `measure`
+        """Move there directly at a speed, without a check of limits.  :raises: as `measure`
 
-        :param scale: whether the scale is watched on the way
+        :param scale: whether the scale is monitored during the motion
         """
         self._go(stop, stop.theta_deg, speed_deg_s, scale=scale)
 
-    # The way --------------------------------------------------------------------------------------
+    # The path -----------------------------------------------------------------------------------
 
     def _compensation(self, stop: Stop) -> Angles:
-        """What the procedure has taken off this stop's command."""
+        """Compensation that the procedure has subtracted from this stop's command."""
         wanted = np.degrees(inverse(self.robot.geometry, np.array([complex(*stop.target_mm)])))[0]
         return float(wanted[0]) - stop.theta_deg[0], float(wanted[1]) - stop.theta_deg[1]
 
     def _way(self, stop: Stop) -> list[Angles]:
-        """Straight there where that takes up play in the wanted sense or in any, else by a run-up point."""
+        """Directly, if that takes up backlash in the requested sense or in any; otherwise after a run-up."""
         run_up = self.machine.limits.overshoot_deg
         target = stop.theta_deg
         way = np.subtract(target, self._theta)
@@ -149,7 +149,7 @@ class Positioner:
     # Motion ---------------------------------------------------------------------------------------
 
     def _go(self, stop: Stop, target: Angles, speed: float, *, scale: bool = True) -> None:
-        """Both joints at once, so timed that they arrive together."""
+        """Move both joints, timed so that they arrive together."""
         self._check_door(stop)
         start = self._theta
         travel = [abs(end - begin) for begin, end in zip(start, target, strict=True)]
@@ -182,7 +182,7 @@ class Positioner:
         while True:
             self.check_cancel()
             self._check_door(stop)
-            # Both, each time: one that has arrived may still raise an alarm while the other moves.
+            # Check both each time: one that has arrived may still raise an alarm while the other moves.
             waiting = [axis for axis in self.machine.devices.axes if not self._arrived(stop, axis)]
             if not waiting:
                 return
@@ -214,8 +214,9 @@ class Positioner:
         return status.in_position and not status.moving
 
     def _check_corridor(self, stop: Stop, start: Angles, target: Angles, scale: bool) -> None:
-        """Each joint stays between where it came from and where it goes; the scale keeps reading, and moves
-        as they do."""
+        """Each joint stays between its start and its target; the scale remains readable, and moves
+        consistently.
+        """
         pose = self.machine.look() if scale else None
         theta = self._feedback()
         room = self.machine.locks.following_error_deg
@@ -231,7 +232,7 @@ class Positioner:
             self._check_moving_scale(stop, pose, theta)
 
     def _check_moving_scale(self, stop: Stop, before: Pose, after: Angles) -> None:
-        """What the scale read lies between what the joints said before and after it."""
+        """The scale reading lies between the values computed from the joints before and after it."""
         assert self._origin is not None
         if not math.isfinite(before.scale_mm):
             raise self.machine.trip(
@@ -260,9 +261,9 @@ class Positioner:
     # Reading --------------------------------------------------------------------------------------
 
     def _settled(self) -> _Samples | None:
-        """The first samples that agree; None where none do within the longest wait.
+        """The first samples that agree; None if none do within the longest wait.
 
-        No wait is longer than a fixed pause was: what is still moving then is judged as before.
+        No wait is longer than the former fixed pause: a machine that still moves then is judged as before.
         """
         limits = self.machine.limits
         until = self.clock.now() + limits.settle_s / self.machine.devices.speed
@@ -278,7 +279,7 @@ class Positioner:
         return None
 
     def _samples(self, stop: Stop, number: int) -> _Samples:
-        """Scale samples that are near each other, and the mean feedback; one second try."""
+        """Scale samples that agree with each other, and the mean feedback; one second attempt."""
         spread = 0.0
         for _ in range(2):
             scale: list[float] = []
@@ -312,7 +313,7 @@ class Positioner:
         return angles[0], angles[1]
 
     def _check_stands(self, stop: Stop, theta: Angles) -> None:
-        """Both drives have held their position while the scale was read: one that restarted has not."""
+        """Both drives held their position while the scale was read: one that restarted did not."""
         for axis in self.machine.devices.axes:
             self._arrived(stop, axis)
         for joint in (0, 1):
@@ -325,9 +326,9 @@ class Positioner:
                 )
 
     def _check_travel(self, stop: Stop, number: int, samples: Sequence[float], theta: Angles) -> None:
-        """The scale must have moved about as far as the joints say: a rod that slipped does not.
+        """The scale must have moved about as far as computed from the joints: a slipped rod does not.
 
-        And it must have moved at all: a readout that froze goes on to answer.
+        It must also have moved at all: a frozen readout continues to answer.
         """
         distance = self._distance(theta)
         scale_mm = statistics.fmean(samples)
@@ -356,7 +357,7 @@ class Positioner:
         return float(abs(forward(self.robot.geometry, np.radians(np.array([theta])))[0] - foot))
 
     def _pause(self, machine_s: float) -> None:
-        """Seconds of the machine's own time."""
+        """Wait for seconds of the machine's own time."""
         self._wait(machine_s / self.machine.devices.speed)
 
     def _wait(self, seconds: float) -> None:
@@ -364,7 +365,7 @@ class Positioner:
             raise Cancelled
 
     def check_cancel(self) -> None:
-        """:raises Cancelled: stop was pressed."""
+        """:raises Cancelled: the run was stopped."""
         if self.cancel.is_set():
             raise Cancelled
 
@@ -377,7 +378,7 @@ def _mean(angles: Sequence[Angles]) -> Angles:
 
 
 def _direction(travel_deg: float, before: int) -> int:
-    """Sign of a motion; one too small to have a direction leaves the one before."""
+    """Sign of a motion; a motion too small to have a direction retains the previous one."""
     if abs(travel_deg) <= STILL_DEG:
         return before
     return 1 if travel_deg > 0 else -1

@@ -1,4 +1,4 @@
-"""The way back into the workspace: slow, step by step, each step seen to reduce the distance."""
+"""The return into the workspace: slow, step by step; each step must reduce the distance."""
 
 from __future__ import annotations
 
@@ -24,14 +24,14 @@ class Retracting:
     _scale_is_lost: bool = False
 
     def carry_out(self) -> float:
-        """Go back; how far outside the arm stood, mm, inf where the linkage did not close.
+        """Move back; returns how far outside the arm was, mm, inf if the linkage did not close.
 
-        The scale is watched where it reads: outside the workspace its head may be off the scale, and the arm
-        must come back all the same.
+        The scale is monitored where it can be read: outside the workspace its head may be off the scale, and
+        the arm must still return.
 
-        :raises Cancelled: stop was pressed.
+        :raises Cancelled: the run was stopped.
         :raises DeviceError: a drive failed.
-        :raises StepFailed: no way is known, or a step did not bring the arm nearer.
+        :raises StepFailed: no path is known, or a step did not reduce the distance.
         """
         positioner, robot = self.positioner, self.positioner.robot
         stood_mm = distance_mm = outside_mm(robot, positioner.theta_deg)
@@ -53,7 +53,7 @@ class Retracting:
         return stood_mm
 
     def _scale_mm(self) -> float:
-        """NaN where it does not read; one that did not answer once is asked no more, for the arm waits."""
+        """NaN if it cannot be read; after one missing answer it is not queried again, since the arm waits."""
         if self._scale_is_lost:
             return math.nan
         try:

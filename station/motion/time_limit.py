@@ -1,4 +1,4 @@
-"""Calls that must not keep anybody waiting: stopping, making safe, closing."""
+"""Calls with a time limit: stopping, making safe, closing."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ log = logging.getLogger(__name__)
 def each_within(limit_s: float, calls: Mapping[str, Callable[[], object]]) -> dict[str, str | None]:
     """Make all calls at once, each in its own thread, and wait no longer than the limit.
 
-    A device that hangs can then not keep another one from being stopped.  Returns, by name, None
-    where the call went well and otherwise a sentence.
+    A device that hangs then cannot prevent another one from being stopped. Returns, by name, None for a
+    successful call and otherwise a sentence.
     """
     outcome: dict[str, str | None] = dict.fromkeys(calls, f"no answer within {limit_s:g} s")
 
@@ -25,7 +25,7 @@ def each_within(limit_s: float, calls: Mapping[str, Callable[[], object]]) -> di
             call()
         except DeviceError as error:
             outcome[name] = str(error)
-        except Exception as error:  # boundary of a thread: nobody else would see it
+        except Exception as error:  # boundary of a thread: the error would be lost otherwise
             log.exception("%s", name)
             outcome[name] = f"unexpected {type(error).__name__}: {error}"
         else:

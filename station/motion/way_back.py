@@ -1,7 +1,7 @@
-"""A way back into the workspace from wherever the arm stands, planned on numbers alone.
+"""A path back into the workspace from any position of the arm, planned on numbers alone.
 
-Straight towards the nearest place inside, or with both joints straight towards it or towards the middle: the
-first of them on which the distance to the workspace shrinks all the way.
+Straight towards the nearest position inside, or with both joints directly towards it or towards the middle:
+the first of these on which the distance to the workspace decreases continuously.
 """
 
 from __future__ import annotations
@@ -17,9 +17,9 @@ from station.motion.limits import excess_mm
 from station.records import Angles, Real
 
 INSET_MM = 5.0
-"""How far inside the workspace the way ends."""
+"""How far inside the workspace the path ends."""
 TOLERANCE_MM = 2.0
-"""How much the distance may grow from one step to the next, for what a servo stands beside its command."""
+"""Allowed increase of the distance from one step to the next, for the position error of a servo."""
 _STEP_MM = 5.0
 _STEP_DEG = 1.0
 _SAME_DEG = 0.01
@@ -27,7 +27,7 @@ _NOT_CLOSED_MM = 1000.0
 
 
 def outside_mm(robot: Robot, theta_deg: Angles) -> float:
-    """How far P lies outside the workspace, negative inside; inf where the linkage does not close."""
+    """Distance of P outside the workspace, negative inside; inf if the linkage does not close."""
     try:
         place = forward(robot.geometry, np.radians(np.array([theta_deg])))
     except Unreachable:
@@ -36,9 +36,9 @@ def outside_mm(robot: Robot, theta_deg: Angles) -> float:
 
 
 def way_back(robot: Robot, theta_deg: Angles) -> list[Angles]:
-    """Joint angles to go through, the last of them `INSET_MM` inside; empty when the arm stands inside.
+    """Joint angles of the path, the last `INSET_MM` inside; empty if the arm is inside.
 
-    :raises StepFailed: no way is known on which the distance shrinks all the time.
+    :raises StepFailed: no path is known on which the distance decreases continuously.
     """
     if outside_mm(robot, theta_deg) <= 0.0:
         return []
@@ -70,7 +70,7 @@ def _ways(robot: Robot, theta_deg: Angles) -> Iterator[Real]:
         except Unreachable:
             pass
         else:
-            if np.max(np.abs(angles[0] - start)) < _SAME_DEG:  # else an elbow is on its other side
+            if np.max(np.abs(angles[0] - start)) < _SAME_DEG:  # otherwise an elbow is on its other side
                 yield angles[1:]
     for goal in goals:
         end = np.degrees(inverse(robot.geometry, np.array([goal])))[0]
@@ -78,12 +78,12 @@ def _ways(robot: Robot, theta_deg: Angles) -> Iterator[Real]:
 
 
 def _fractions(steps: float) -> Real:
-    """Of the way, (K,), without its start."""
+    """Fractions of the path, (K,), without its start."""
     return np.linspace(0.0, 1.0, max(1, math.ceil(steps)) + 1)[1:]
 
 
 def _distances(robot: Robot, theta_deg: Real) -> Real:
-    """(K,) from the workspace, mm; where the linkage does not close, how far it is from closing, and more."""
+    """(K,) distance from the workspace, mm; if the linkage does not close, that from closing, and more."""
     out = []
     for angles in theta_deg:
         outside = outside_mm(robot, (float(angles[0]), float(angles[1])))

@@ -1,4 +1,4 @@
-"""A wire log as exchanges: each request together with its answer and the time that this took."""
+"""A wire log as exchanges: each request together with its answer and the elapsed time."""
 
 from __future__ import annotations
 
@@ -19,11 +19,11 @@ _DEVICES: tuple[Literal["drive 1"], Literal["drive 2"]] = ("drive 1", "drive 2")
 
 
 def exchanges(header_text: str, lines: Iterable[str]) -> list[WireExchange]:
-    """Every request of a log, in order, with the first bytes that came before the next on its line.
+    """Every request of a log, in order, with the first bytes received before the next request on its line.
 
-    :raises ValueError: a line that is none of a log
+    :raises ValueError: a line is not of a log
     """
-    # one that nothing answers is known to be so only after later ones of the other line
+    # a missing answer is only certain after later requests on the other line
     return sorted(_paired(header_text, lines), key=lambda exchange: exchange.at_s)
 
 
@@ -61,7 +61,7 @@ def _of_the_line(event: WireEvent) -> WireExchange:
 
 
 class _Reader:
-    """Knows the devices that the log was recorded with."""
+    """Decodes entries with the devices that the log was recorded with."""
 
     def __init__(self, header: WireHeader) -> None:
         driver = SERVOS[str(header.servo["profile"])]
@@ -77,7 +77,7 @@ class _Reader:
             return WireExchange(
                 at_s=asked.at_s,
                 device="scale",
-                action="other" if resumes else "read",  # nothing answers to XON
+                action="other" if resumes else "read",  # XON has no answer
                 subject="resume sending (XON)" if resumes else self._scale(asked.data),
                 answer=self._scale(came.data) if came else "",
                 took_ms=took_ms,
@@ -85,7 +85,7 @@ class _Reader:
             )
         unit, pdu = self._servo.taken_apart(asked.data)
         function, address = struct.unpack_from(">BH", pdu) if pdu is not None and len(pdu) >= 3 else (0, 0)
-        said = self._servo.request(asked.data)  # also lets the answer know what it is about
+        said = self._servo.request(asked.data)  # this also gives the answer its context
         reads, writes = function == _READ, function in _WRITES
         joint = next((j for j, joint in enumerate(self._joints) if joint.unit == unit), None)
         return WireExchange(
@@ -100,7 +100,7 @@ class _Reader:
         )
 
     def _angle(self, joint: int | None, came: WireEvent | None) -> float | None:
-        """Of an answer that is the position of a drive: its pulses as the joint's angle."""
+        """Joint angle from the pulses in an answer with the position of a drive."""
         if joint is None or came is None:
             return None
         _, pdu = self._servo.taken_apart(came.data)

@@ -1,4 +1,4 @@
-"""A wire log in words: time, device, what was asked, what was answered."""
+"""A wire log in words: time, device, request, answer."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _SERVO = 2
 def in_words(header_text: str, lines: Iterable[str]) -> Iterator[str]:
     """One line for each entry of a log that concerns a wire.
 
-    :raises ValueError: a line that is none of a log
+    :raises ValueError: a line is not of a log
     """
     header = WireHeader.model_validate_json(header_text)
     scale = SCALES[str(header.scale["protocol"])].words

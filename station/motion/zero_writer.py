@@ -1,7 +1,7 @@
-"""New zeros for the drives: go to the place, declare it, read it back, with a journal that survives a crash.
+"""New zeros for the drives: move there, declare the zero, read it back, with a journal that survives a crash.
 
-A drive can only declare the place where it stands to be its zero.  What the servo stands beside its
-command goes into the journal with the rest, so the frame of every later angle is known to the pulse.
+A drive can only declare its current position to be its zero. The servo's deviation from its command is stored
+in the journal too, so the frame of every later angle is known to the pulse.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from station.store import Store
 
 READ_BACK_PULSES = 1.0
 SETTLE_PULSES = 20.0
-"""How near the feedback must be to one of the two places it can be at after a write that was cut off."""
+"""Maximum distance of the feedback from one of the two possible positions after an interrupted write."""
 
 
 @dataclass
@@ -35,7 +35,7 @@ class Zeroing:
     store: Store
 
     def settle(self) -> None:
-        """Before anything moves: did the drives take what was being written when something broke off?
+        """Before anything moves, determine whether the drives accepted a zero whose write was interrupted.
 
         :raises DeviceError:
         """
@@ -50,13 +50,13 @@ class Zeroing:
                 self.store.end_zero_write(write.id, feedback if taken else None)
 
     def carry_out(self, step: SetZeros) -> Angles:
-        """Bring each joint to where its zero shall be and declare it; the shifts since run `step.of`, deg.
+        """Move each joint to its new zero and declare it; returns the shifts since run `step.of`, deg.
 
-        A joint that is to get its old zero back and never lost it is left alone.
+        A joint whose old zero is to be restored and is still set is skipped.
 
-        :raises Cancelled: stop was pressed; what was written until then is in the journal.
+        :raises Cancelled: the run was stopped; zeros written until then are in the journal.
         :raises DeviceError: a device failed.
-        :raises StepFailed: the place is out of limits, not reached, or the zero reads back different.
+        :raises StepFailed: the position is out of limits or not reached, or the zero reads back different.
         """
         if doubt := self.machine.make_safe():
             raise StepFailed(doubt)
@@ -73,15 +73,15 @@ class Zeroing:
                 for number in due:
                     self._write(number, step.offsets_deg[number - 1])
             except (DeviceError, StepFailed):
-                with suppress(DeviceError):  # the next run looks again
+                with suppress(DeviceError):  # the next run will check again
                     self.settle()
                 raise
             self.positioner.look()
         return shift_of(self._writes(step.of))
 
     def _check_powered(self) -> None:
-        """The run has powered both drives.  One that lost its power since may count from elsewhere, and what
-        is written then has nothing to do with the zero that it is to have.
+        """Check that both drives are still powered since the run enabled them. One that lost its power may
+        count from another position, and a zero written then would be wrong.
 
         :raises StepFailed: a drive has lost its power.
         """
@@ -124,7 +124,7 @@ class Zeroing:
 def shift_of(writes: Sequence[ZeroWrite]) -> Angles:
     """Sum of the shifts by joint: theta before all writes = theta now + shift, deg.
 
-    :raises StepFailed: it is not known whether a drive took its zero.
+    :raises StepFailed: it is unknown whether a drive accepted its zero.
     """
     shift = [0.0, 0.0]
     for write in writes:

@@ -1,4 +1,4 @@
-"""Events on their way to others: webhooks, MQTT and folders, each in order, at least once."""
+"""Delivery of events to other systems: webhooks, MQTT and folders, each in order, at least once."""
 
 from __future__ import annotations
 

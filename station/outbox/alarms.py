@@ -1,4 +1,4 @@
-"""Alarms: a device that is lost or at fault, and an interlock that opens, become events."""
+"""Alarms: a lost or faulty device, and an interlock that opens, become events."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ log = logging.getLogger(__name__)
 
 
 class Alarms:
-    """Listens to the live events of the station; each trouble is told once, when it begins."""
+    """Listens to the live events of the station; each trouble is reported once, when it begins."""
 
     def __init__(self, store: Store) -> None:
         self._store = store
@@ -32,7 +32,7 @@ class Alarms:
         for one in all:
             if one.ok:
                 self._holding.add(one.id)
-            elif one.id in self._holding:  # at the start none holds until the devices were asked
+            elif one.id in self._holding:  # at the start none holds until the devices were queried
                 self._holding.remove(one.id)
                 self._tell(one.id, f"{one.text}: {one.detail}".rstrip(": "))
 

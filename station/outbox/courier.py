@@ -1,7 +1,7 @@
-"""Takes the events of the store to one receiver: in order, at least once, over restarts.
+"""Delivers the events of the store to one receiver: in order, at least once, over restarts.
 
-What fails is tried again after 1, 2, 4, ... at most 60 s, and nothing overtakes it.  What the receiver
-refuses for good, and what is too old or too much, is marked and does not hold up the rest.
+A failed delivery is tried again after 1, 2, 4, ... at most 60 s, and no other overtakes it. Events that the
+receiver refuses permanently, and too old or too many ones, are marked and do not delay the others.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ LONGEST_WAIT_S = 60.0
 _TRIES_A_DAY = 86_400 / LONGEST_WAIT_S
 _BEFORE_ALL = datetime.min.replace(tzinfo=UTC)
 LOOK_S = 0.5
-"""How soon a new event is noticed."""
+"""Interval at which new events are detected."""
 
 
 def _now() -> datetime:
@@ -35,7 +35,7 @@ def _now() -> datetime:
 
 
 class Courier:
-    """Of one receiver."""
+    """The courier of one receiver."""
 
     def __init__(
         self, store: Store, receiver: Receiver, settings: OutboxSettings, now: Callable[[], datetime] = _now
@@ -46,7 +46,7 @@ class Courier:
         self._thread = Thread(target=self._run, name=f"courier to {receiver.name}", daemon=True)
 
     def step(self) -> float:
-        """Deliver what is due, one event at most; returns after how many seconds to look again.
+        """Deliver at most one due event; returns the seconds until the next call.
 
         :raises StoreUnavailable:
         """
@@ -56,7 +56,7 @@ class Courier:
             return LOOK_S
         delivery, event = found
         wait_s = (delivery.next_at - now).total_seconds() if delivery.next_at is not None else 0.0
-        if 0.0 < wait_s <= LONGEST_WAIT_S:  # longer was never asked for: the clock was set back
+        if 0.0 < wait_s <= LONGEST_WAIT_S:  # a longer wait was never set: the clock was set back
             return min(wait_s, LOOK_S)
         if dropped := self._drop(now, delivery.tries):
             log.error("%s: %d events were given up, too old or too many", name, dropped)
@@ -76,9 +76,9 @@ class Courier:
         return 0.0
 
     def _drop(self, now: datetime, tries: int) -> int:
-        """Give up what is too much; and what is too old, once the first has been tried for so long.
+        """Give up excess events, and too old ones once the first has been tried for that time.
 
-        The clock alone gives nothing up: it may have been set forward, or the station been off.
+        The clock alone gives up no event: it may have been set forward, or the station was off.
         """
         oldest = _BEFORE_ALL
         if tries >= self._settings.keep_days * _TRIES_A_DAY:
@@ -98,7 +98,7 @@ class Courier:
 
     @contextmanager
     def working(self) -> Iterator[None]:
-        """On a thread of its own; what is under way at the end is finished or tried again after the start."""
+        """Runs on its own thread; a delivery in progress at the end is finished or repeated later."""
         self._thread.start()
         try:
             yield

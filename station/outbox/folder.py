@@ -1,4 +1,4 @@
-"""A folder where each event becomes a file, for programs that read files."""
+"""A folder in which each event becomes a file, for programs that read files."""
 
 from __future__ import annotations
 
@@ -13,9 +13,9 @@ from station.settings import FolderSettings
 
 
 class Folder:
-    """Files named by number and uid: again the same name, so a file that is there already is the same event.
+    """Files are named by number and uid: an existing file of the same name is the same event.
 
-    A file appears whole or not at all.
+    Files are written atomically.
     """
 
     def __init__(self, settings: FolderSettings) -> None:
@@ -24,7 +24,7 @@ class Folder:
         self._folder, self._format = settings.path, settings.format
 
     def start(self) -> None:
-        """Nothing to say."""
+        """Nothing to do."""
 
     def deliver(self, event: Event) -> str:
         """As `Receiver.deliver`."""
@@ -41,11 +41,11 @@ class Folder:
         return file.name
 
     def close(self) -> None:
-        """Nothing stays open."""
+        """Nothing to close."""
 
 
 def _keep(folder: Path) -> None:
-    """The name of a new file is on the disk only when its folder is."""
+    """Sync the folder: the name of a new file is on the disk only after that."""
     handle = os.open(folder, os.O_RDONLY)
     try:
         os.fsync(handle)
@@ -54,7 +54,7 @@ def _keep(folder: Path) -> None:
 
 
 def _as_csv(event: Event) -> str:
-    """One row: the event and what is flat in its data; the rest as JSON."""
+    """One row: the event and the flat fields of its data; the others as JSON."""
     flat = {
         key: value if isinstance(value, str | int | float | None) else to_json(value).decode()
         for key, value in event.data.items()

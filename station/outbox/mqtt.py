@@ -1,7 +1,7 @@
-"""MQTT 5: each event at quality of service 1, and a retained topic that says whether the station lives.
+"""MQTT 5: each event at quality of service 1, and a retained topic with the state of the station.
 
-`TOPIC/events/TYPE` carries the events, `TOPIC/state` is `online` after connecting and, by the broker's last
-will, `offline` when the station is gone.
+`TOPIC/events/TYPE` contains the events; `TOPIC/state` is `online` after connecting and, by the broker's last
+will, `offline` when the station has disappeared.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ ONLINE, OFFLINE = "online", "offline"
 
 
 class Mqtt:
-    """A connection to one broker; the library opens it again by itself."""
+    """A connection to one broker; the library reopens it automatically."""
 
     def __init__(self, settings: MqttSettings) -> None:
         self.name = f"mqtt {settings.topic} at {urlsplit(settings.url).hostname}"
@@ -37,7 +37,7 @@ class Mqtt:
         self._client: mqtt.Client | None = None
 
     def start(self) -> None:
-        """Connect, now or as soon as the broker is there."""
+        """Connect, now or as soon as the broker is available."""
         self._client = self._client or self._connect()
 
     def deliver(self, event: Event) -> str:
@@ -85,7 +85,7 @@ class Mqtt:
         self._connected.clear()
 
     def close(self) -> None:
-        """Say goodbye; a broker that is told nothing sends the last will."""
+        """Disconnect regularly; otherwise the broker sends the last will."""
         client, self._client = self._client, None
         if client is None:
             return

@@ -1,4 +1,4 @@
-"""What a receiver is: something that takes one event after the other."""
+"""The interface of a receiver, which accepts one event after the other."""
 
 from __future__ import annotations
 
@@ -10,34 +10,34 @@ from station.records import Event
 
 
 class Refused(Exception):
-    """The receiver will never take this event; says why.  Every other exception means: try again."""
+    """The receiver will never accept this event; with the reason. Every other exception means: try again."""
 
 
 class Receiver(Protocol):
-    """Of one `[[outbox....]]`; used by one thread."""
+    """The receiver of one `[[outbox....]]`; used by one thread."""
 
     @property
     def name(self) -> str:
-        """Under which its deliveries are kept: another name is another receiver."""
+        """The name under which its deliveries are stored: another name is another receiver."""
 
     @property
     def events(self) -> tuple[str, ...]:
-        """Types of event that it is told of."""
+        """Types of event for this receiver."""
 
     def start(self) -> None:
-        """Say that the station lives, where the receiver wants to know; never waits, never fails."""
+        """Report that the station is running, if the receiver supports it; never waits, never fails."""
 
     def deliver(self, event: Event) -> str:
-        """Returns what the receiver said.
+        """Deliver an event; returns the answer of the receiver.
 
-        :raises Refused: it will never take it
-        :raises OSError: or anything else: it could not be reached, or said that it failed
+        :raises Refused: it will never accept it
+        :raises OSError: or any other error: it could not be reached, or reported a failure
         """
 
     def close(self) -> None:
-        """Let go of what is open."""
+        """Release open resources."""
 
 
 def body_of(event: Event) -> bytes:
-    """The payload that webhooks and topics carry: `{type, timestamp, data}` as Standard Webhooks has it."""
+    """The payload of webhooks and topics: `{type, timestamp, data}` as in Standard Webhooks."""
     return to_json({"type": event.type, "timestamp": event.at, "data": event.data})

@@ -1,6 +1,6 @@
 """Webhooks, signed as Standard Webhooks 1.0 describes (https://www.standardwebhooks.com).
 
-`webhook-id` is the event's uid, so that a receiver recognises what it has already.
+`webhook-id` is the event's uid, so that a receiver recognises a repetition.
 """
 
 from __future__ import annotations
@@ -58,10 +58,10 @@ class Webhook:
         self._clock, self._trust = clock, ssl.create_default_context()
 
     def start(self) -> None:
-        """Nothing to say."""
+        """Nothing to do."""
 
     def deliver(self, event: Event) -> str:
-        """As `Receiver.deliver`; a redirection is not followed, since it would carry the event elsewhere."""
+        """As `Receiver.deliver`; a redirection is not followed, since it would send the event elsewhere."""
         body, timestamp = body_of(event), int(self._clock())
         headers = {
             "Content-Type": "application/json",
@@ -70,7 +70,7 @@ class Webhook:
             "webhook-timestamp": str(timestamp),
             "webhook-signature": signature(self._key, event.uid, timestamp, body),
         }
-        # here, not above: only stations with a webhook need what this loads
+        # imported here: only stations with a webhook need it
         from httpx2 import Client
 
         with (
@@ -79,7 +79,7 @@ class Webhook:
         ):
             said = f"{answer.status_code} {answer.reason_phrase}".strip()
             read = 0
-            for part in answer.iter_raw():  # an answer that breaks off is none
+            for part in answer.iter_raw():  # a truncated answer is not valid
                 read += len(part)
                 if read > _MOST_READ:
                     break
@@ -90,4 +90,4 @@ class Webhook:
         raise OSError(f"answered {said}")
 
     def close(self) -> None:
-        """Nothing stays open."""
+        """Nothing to close."""

@@ -1,4 +1,4 @@
-"""Who may do what: roles, keys, passwords and sessions."""
+"""Permissions of users: roles, keys, passwords and sessions."""
 
 from __future__ import annotations
 

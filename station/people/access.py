@@ -1,4 +1,4 @@
-"""Who asks: by key or by session, looked up at every request, so that every change holds at once."""
+"""The author of a request: by key or session, looked up each time, so that changes apply at once."""
 
 from __future__ import annotations
 
@@ -17,17 +17,17 @@ from station.records import Actor, Role, SignedIn, User
 from station.store import Store
 
 KEY_PREFIX = "fbs_"
-"""Lets whoever finds a key in a text see what it opens."""
+"""Identifies the purpose of a key that is found in a text."""
 PROVIDER_SIGN_OUT = "/api/v1/session/openid/end"
 SIGN_IN = "Sign in, or send an API key in the header `Authorization: Bearer KEY`."
 BUSY_S = 2.0
-"""Told to wait, where others are being signed in at this moment."""
+"""Waiting time in the answer while others are being signed in."""
 _AT_ONCE = 4
-"""Passwords that are looked at or wait for it: each takes 64 MB and a processor for a moment."""
+"""Number of passwords being checked or waiting: each check takes 64 MB and a processor for a moment."""
 
 
 class Access:
-    """Thread safe.  `StoreUnavailable` is raised where the history cannot be read."""
+    """Thread safe. `StoreUnavailable` is raised if the history cannot be read."""
 
     def __init__(
         self,
@@ -38,10 +38,9 @@ class Access:
         busy: Callable[[], bool] = lambda: False,
         tries: Tries | None = None,
     ) -> None:
-        """
-        :param open: whoever shows nothing may do everything
-        :param idle_s: after so long without activity a session ends
-        :param busy: whether the machine moves: nobody is signed off then
+        """:param open: requests without credentials have all rights
+        :param idle_s: time without activity after which a session ends
+        :param busy: whether the machine moves: sessions do not end then
         """
         self.open = open
         self._store, self._idle_s, self._busy = store, idle_s, busy
@@ -55,11 +54,11 @@ class Access:
     def actor(
         self, key: str | None, cookie: str | None, *, named: str | None = None, active: bool = True
     ) -> Actor:
-        """Who asks: by key, else by cookie, else anybody where the station is open.
+        """The author of a request: by key, otherwise by cookie, otherwise anybody if the station is open.
 
-        :param named: the name that a request in open mode gives
-        :param active: whether this is a sign of somebody at the page
-        :raises NotSignedIn: says why
+        :param named: the name in a request in open mode
+        :param active: whether this shows activity of a user at the page
+        :raises NotSignedIn: with the reason
         """
         if key is not None:
             return self._by_key(key)
@@ -74,7 +73,7 @@ class Access:
     def _by_key(self, key: str) -> Actor:
         digest = secret_hash(key)
         kept = self._store.key(digest)
-        # the index found it by its hash; who measures the time learns nothing about the key
+        # the index found it by its hash; measuring the time reveals nothing about the key
         if kept is None or not hmac.compare_digest(digest, secret_hash(key)):
             raise NotSignedIn("This API key is not known here.")
         if kept.revoked_at is not None:
@@ -102,7 +101,7 @@ class Access:
 
     @staticmethod
     def check(actor: Actor, permission: Permission) -> None:
-        """:raises Forbidden: names the roles that may."""
+        """:raises Forbidden: the error names the roles with the permission."""
         if actor.role not in ALLOWED[permission]:
             may = allowed_roles(permission)
             named = may[0] if len(may) == 1 else f"{', '.join(may[:-1])} or {may[-1]}"
@@ -111,10 +110,10 @@ class Access:
     # Signing in --------------------------------------------------------------------------------
 
     def sign_in(self, name: str, password: str, address: str) -> tuple[str, User]:
-        """A cookie for whoever knows the password.
+        """Sign in with a password; returns the cookie.
 
-        :param address: of the client, whose failures are counted
-        :raises NotSignedIn: wrong, without saying which of both
+        :param address: address of the client, whose failures are counted
+        :raises NotSignedIn: name or password is wrong; the error does not state which
         :raises TooManyTries:
         """
         return self._sign_in(f"name {name.casefold()}", address, password, "Name or password is wrong.", name)
@@ -136,11 +135,11 @@ class Access:
         if not self._matches(secret, kept.secret_hash if kept else None) or kept is None:
             self._tries.failed(*counted)
             raise NotSignedIn(wrong)
-        self._tries.succeeded(who)  # not the address: who has an account could try others' from there
+        self._tries.succeeded(who)  # not the address: the owner of an account could try others' from there
         return self._begin(kept.user), kept.user
 
     def _matches(self, secret: str, kept_hash: str | None) -> bool:
-        """One at a time, so that guessing never takes the processor from a run."""
+        """One check at a time, so that guessing never takes the processor from a run."""
         if not self._waiting.acquire(blocking=False):
             raise TooManyTries(BUSY_S)
         try:
@@ -155,15 +154,15 @@ class Access:
         return cookie
 
     def sign_in_by_provider(self, user: User) -> str:
-        """A cookie for whom the plant's provider has signed in."""
+        """A cookie for a user whom the plant's provider has signed in."""
         return self._begin(user)
 
     def sign_out(self, cookie: str) -> None:
-        """Again is harmless."""
+        """Sign out; repeating it is harmless."""
         self._store.end_session(secret_hash(cookie))
 
     def session(self, actor: Actor) -> SignedIn:
-        """What is told to somebody about themselves."""
+        """The session data for its user."""
         if actor.via != "user":
             return SignedIn(name=actor.name, role=actor.role, via=actor.via)
         by_provider = self._store.user(actor.name).by_provider
@@ -178,7 +177,7 @@ class Access:
     # The first administrator -------------------------------------------------------------------
 
     def offer_first_administrator(self) -> str | None:
-        """A secret that makes the first administrator, once; None where there is one, or none is needed."""
+        """A secret that makes the first administrator, once; None if there is one, or none is needed."""
         if self.open or self._store.administrator_known():
             return None
         secret = new_secret()
@@ -186,7 +185,7 @@ class Access:
         return secret
 
     def make_first_administrator(self, secret: str, name: str, password: str) -> tuple[str, User]:
-        """:raises NotSignedIn: the secret was used or is another."""
+        """:raises NotSignedIn: the secret is wrong or was used already."""
         with self._hashing:
             if self._first is None or not hmac.compare_digest(self._first, secret_hash(secret)):
                 raise NotSignedIn("This link was used already or is not this station's; start it again.")
@@ -197,7 +196,7 @@ class Access:
         return self._begin(user), user
 
     def note_use(self) -> None:
-        """Write down when keys and sessions were used; from time to time, since every write costs."""
+        """Record the last use of keys and sessions; at intervals, since every write has a cost."""
         with self._lock:
             keys, self._used_keys = self._used_keys, {}
             sessions = dict(self._seen_sessions)

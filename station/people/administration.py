@@ -1,4 +1,4 @@
-"""Users and keys, made and ended by an administrator; secrets come in or are shown once, never again."""
+"""Users and keys, made and ended by an administrator; secrets are accepted or shown once, never again."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from station.store import Store
 
 @dataclass(frozen=True, slots=True)
 class NewUser:
-    """Somebody who is to sign in with a password, with badge and PIN, or with either."""
+    """A new user with a password, with badge and PIN, or with both."""
 
     name: str
     role: Role
@@ -26,7 +26,7 @@ class NewUser:
 
 @dataclass(frozen=True, slots=True)
 class UserChange:
-    """What is to be different; None leaves it as it is."""
+    """Changes; None leaves a field unchanged."""
 
     role: Role | None = None
     disabled: bool | None = None
@@ -37,14 +37,14 @@ class UserChange:
 
 
 class Administration:
-    """Every change is in the audit, in the same transaction."""
+    """Every change is recorded in the audit, in the same transaction."""
 
     def __init__(self, store: Store) -> None:
         self._store = store
 
     def add_user(self, by: Actor, new: NewUser) -> User:
-        """:raises FieldRefused: nothing to sign in with, or a password or PIN that is none.
-        :raises InputRefused: name or badge are taken.
+        """:raises FieldRefused: there are no credentials, or the password or PIN is invalid.
+        :raises InputRefused: the name or the badge is in use.
         """
         if (new.badge is None) != (new.pin is None):
             raise FieldRefused("pin", "A badge needs a PIN, and a PIN a badge; give both or none.")
@@ -60,13 +60,13 @@ class Administration:
         )
 
     def change_user(self, by: Actor, user_id: int, change: UserChange) -> User:
-        """A new role holds from the next request on.  Who is disabled, or is to sign in with something else,
-        is signed off at once.
+        """A new role is effective from the next request on. The sessions of a user who is disabled, or has
+        new credentials, end at once.
 
         :raises NotFound: no such user.
-        :raises NotApplicable: the last administrator would be one no more; nothing would be left to sign in
-            with; or it is for the plant's provider to say who signs in.
-        :raises FieldRefused: a password or PIN that is none, or a badge without a PIN.
+        :raises NotApplicable: the last administrator would lose the role; the user would have no credentials;
+        or the plant's provider manages the sign-in.
+        :raises FieldRefused: the password or PIN is invalid, or a badge has no PIN.
         :raises InputRefused: another user has the badge.
         """
         user = self._store.user_by_id(user_id)
@@ -84,17 +84,18 @@ class Administration:
         )
 
     def remove_user(self, by: Actor, user_id: int) -> None:
-        """The account is gone; the audit keeps what was done.
+        """Remove the account; its actions remain in the audit.
 
         :raises NotFound: no such user.
-        :raises NotApplicable: the last administrator; at the computer's own terminal it stays possible.
+        :raises NotApplicable: this is the last administrator; at the computer's own terminal it remains
+        possible.
         """
         self._store.remove_user(by, self._store.user_by_id(user_id), keep_one=True)
 
     def add_key(self, by: Actor, name: str, role: Role, days: float | None = None) -> tuple[ApiKey, str]:
-        """What is kept of a new key, and the key itself, which nobody can show again.
+        """The record of a new key, and the key itself, which cannot be shown again.
 
-        :param days: after which it expires; None: never.
+        :param days: number of days until it expires; None: never.
         :raises InputRefused: a key of this name is in use.
         """
         key = new_secret(KEY_PREFIX)

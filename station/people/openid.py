@@ -1,7 +1,7 @@
 """Sign-in with the plant's OpenID Connect provider.
 
-Who signs in there for the first time becomes a user of the station, known by a hash of issuer and subject.
-The role is the provider's, and looked at again at every sign-in.
+At the first sign-in a user of the station is created, identified by a hash of issuer and subject. The
+provider decides the role, which is read again at every sign-in.
 """
 
 from __future__ import annotations
@@ -28,13 +28,13 @@ from station.store import Store
 log = logging.getLogger(__name__)
 
 BEGUN_S = 600.0
-"""So long somebody may take at the provider's page."""
+"""Time limit at the provider's page."""
 MOST_BEGUN = 1000
 
 
 @dataclass(frozen=True, slots=True)
 class Begun:
-    """Where the browser goes, and what it has to bring back."""
+    """The address for the browser, and the data it has to return."""
 
     url: str
     state: str
@@ -61,9 +61,8 @@ class OpenId:
         self._waiting: OrderedDict[str, _Waiting] = OrderedDict()
 
     def begin(self, redirect_uri: str, earlier: str | None) -> Begun:
-        """
-        :param redirect_uri: where the provider sends the browser back to
-        :param earlier: cookie of who is signed in at this browser, and will not be afterwards
+        """:param redirect_uri: address that the provider redirects the browser back to
+        :param earlier: cookie of the user signed in at this browser, whose session will end
         :raises SignInRefused: the provider cannot be reached.
         """
         attempt, state = Attempt(new_secret(), new_secret(), redirect_uri), new_secret()
@@ -75,10 +74,10 @@ class OpenId:
         return Begun(url, state)
 
     def complete(self, answer: Mapping[str, str], state: str | None) -> tuple[User, str | None]:
-        """Who signed in, and the cookie of who was signed in before.
+        """The user who signed in, and the cookie of the previous user.
 
-        :param answer: parameters with which the browser came back
-        :param state: what this browser was given when it left
+        :param answer: parameters of the browser's return
+        :param state: state given to this browser before
         :raises SignInRefused:
         """
         waiting = self._returned(answer.get("state", ""), state)
@@ -92,9 +91,9 @@ class OpenId:
         return self._user(claims), waiting.earlier
 
     def sign_out_url(self, back: str) -> str | None:
-        """Where the provider signs out; None where it cannot, or cannot be reached.
+        """The sign-out address of the provider; None if it has none, or cannot be reached.
 
-        :param back: where it sends the browser to afterwards
+        :param back: address that it redirects the browser to afterwards
         """
         try:
             return self._provider.sign_out_address(back)

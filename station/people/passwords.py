@@ -17,21 +17,21 @@ _hasher = PasswordHasher()
 
 
 def hashed_password(password: str) -> str:
-    """:raises FieldRefused: too short or too long to be one."""
+    """:raises FieldRefused: it is too short or too long."""
     if not FEWEST_CHARACTERS <= len(password) <= LONGEST:
         raise FieldRefused("password", f"A password has {FEWEST_CHARACTERS} to {LONGEST} characters.")
     return _hasher.hash(password.encode("utf-8", "surrogatepass"))
 
 
 def hashed_pin(pin: str) -> str:
-    """:raises FieldRefused: anything but four or more digits."""
+    """:raises FieldRefused: it is not four or more digits."""
     if not (pin.isascii() and pin.isdecimal() and FEWEST_DIGITS <= len(pin) <= LONGEST):
         raise FieldRefused("pin", f"A PIN has {FEWEST_DIGITS} digits or more.")
     return _hasher.hash(pin)
 
 
 def matches(secret: str, kept_hash: str | None) -> bool:
-    """Whether a password or PIN is the kept one; takes as long where nothing is kept."""
+    """Whether a password or PIN is the stored one; takes the same time if none is stored."""
     try:
         _hasher.verify(kept_hash or _nobodys(), secret[:LONGEST].encode("utf-8", "surrogatepass"))
     except (VerificationError, InvalidHashError):

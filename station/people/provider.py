@@ -1,4 +1,4 @@
-"""What an OpenID Connect provider is asked, and the check of what it answers.
+"""Requests to an OpenID Connect provider, and the validation of its answers.
 
 Authorization code with PKCE (OpenID Connect Core 1.0, section 3.1; RFC 7636).  Requests and answers are
 Authlib's, the signature and the claims of the ID token joserfc's.
@@ -20,14 +20,14 @@ log = logging.getLogger(__name__)
 
 TIMEOUT_S = 10.0
 ALGORITHMS = ["RS256", "RS384", "RS512", "PS256", "PS384", "PS512", "ES256", "ES384", "ES512", "Ed25519"]
-"""Only the provider can sign so; `none`, and what the client's secret signs, is not believed."""
+"""Only the provider can sign with these; `none`, and the client's secret, are not accepted."""
 _LEEWAY_S = 60
 
 Why = Literal["unreachable", "cancelled", "expired", "not_valid", "no_role", "name_taken", "disabled"]
 
 
 class SignInRefused(Exception):
-    """Why nobody was signed in, as the page has a sentence for it; the text is for the log."""
+    """Why nobody was signed in, for which the page has a sentence; the text is for the log."""
 
     def __init__(self, why: Why, text: str) -> None:
         super().__init__(text)
@@ -36,16 +36,16 @@ class SignInRefused(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Attempt:
-    """One sign-in on its way, with secrets that nobody else has."""
+    """A sign-in in progress, with its own secrets."""
 
     verifier: str
     nonce: str
     redirect_uri: str
-    """Where the provider sends the browser back to."""
+    """Address that the provider redirects the browser back to."""
 
 
 class _Metadata(BaseModel):
-    """What is needed of it (OpenID Connect Discovery 1.0, section 3)."""
+    """The required part of the metadata (OpenID Connect Discovery 1.0, section 3)."""
 
     issuer: str
     authorization_endpoint: str
@@ -56,14 +56,14 @@ class _Metadata(BaseModel):
 
 
 class Provider:
-    """Every method waits for it, `TIMEOUT_S` for each answer, and raises `SignInRefused`."""
+    """Every method waits for the provider, `TIMEOUT_S` for each answer, and raises `SignInRefused`."""
 
     def __init__(self, settings: OpenIdSettings) -> None:
         """:raises InputRefused: the client's secret cannot be read."""
         self._settings, self._secret = settings, _secret(settings)
 
     def address(self, attempt: Attempt, state: str) -> str:
-        """Where the browser goes to sign in."""
+        """The sign-in address for the browser."""
         with self._client(attempt.redirect_uri) as client:
             url, _ = client.create_authorization_url(
                 self._metadata(client).authorization_endpoint,
@@ -74,9 +74,9 @@ class Provider:
         return str(url)
 
     def claims(self, attempt: Attempt, code: str, wanted: tuple[str, ...]) -> Mapping[str, Any]:
-        """About whoever brought the code back, checked.
+        """Validated claims about the user of the returned code.
 
-        :param wanted: names of claims; where the ID token lacks one, the user info is asked as well
+        :param wanted: names of claims; if the ID token lacks one, the user info is requested as well
         """
         with self._client(attempt.redirect_uri) as client:
             metadata = self._metadata(client)
@@ -98,21 +98,21 @@ class Provider:
         return claims
 
     def sign_out_address(self, back: str) -> str | None:
-        """Where the provider signs out (OpenID Connect RP-Initiated Logout 1.0); None where it cannot.
+        """The sign-out address of the provider (OpenID Connect RP-Initiated Logout 1.0); None if it has none.
 
-        :param back: where it sends the browser to afterwards
+        :param back: address that it redirects the browser to afterwards
         """
         with self._client(back) as client:
             end = self._metadata(client).end_session_endpoint
         if end is None:
             return None
-        from httpx2 import URL  # here, not above: as in `_client`
+        from httpx2 import URL  # imported here, as in `_client`
 
         query = {"client_id": self._settings.client_id, "post_logout_redirect_uri": back}
         return str(URL(end).copy_merge_params(query))
 
     def _client(self, redirect_uri: str) -> Any:
-        # Here, not above: only stations with a provider need what this loads.
+        # Imported here: only stations with a provider need these modules.
         from authlib.integrations.httpx_client import OAuth2Client
 
         return OAuth2Client(
@@ -162,7 +162,7 @@ class Provider:
 
 
 def claim(claims: Mapping[str, Any], name: str) -> Any:
-    """By its name, or inside of another: `realm_access.roles`; None where there is none."""
+    """A claim by its name, or nested in another: `realm_access.roles`; None if it is missing."""
     if name in claims:
         return claims[name]
     outer, _, inner = name.partition(".")
@@ -170,7 +170,7 @@ def claim(claims: Mapping[str, Any], name: str) -> Any:
 
 
 def _got(client: Any, address: str) -> Any:
-    """Without the access token, which is nobody's business there."""
+    """A request without the access token, which must not be sent there."""
     return client.request("GET", address, withhold_token=True).raise_for_status()
 
 

@@ -1,4 +1,4 @@
-"""What each role may do.  A route names the permission that it needs, never a role."""
+"""The permissions of each role. A route names the permission that it needs, never a role."""
 
 from __future__ import annotations
 
@@ -12,18 +12,18 @@ ROLES: tuple[Role, ...] = get_args(Role)
 
 
 class Permission(StrEnum):
-    """What a route asks for."""
+    """The permission that a route requires."""
 
     ENTER = "enter"
     """Signing in and out: anybody."""
     STOP = "stop"
-    """The quick stop: everybody who is signed in, and the panel."""
+    """The quick stop: all signed-in users, and the panel."""
     READ = "read"
-    """Everything but keys and audit."""
+    """Everything except keys and audit."""
     START = "start"
     """Start a calibration."""
     ABORT = "abort"
-    """End a run; a MES only one that it started."""
+    """End a run; a MES may only end one that it started."""
     OPERATE = "operate"
     """Apply, roll back, separate, retract, answer, import."""
     MAINTAIN = "maintain"
@@ -48,5 +48,5 @@ ALLOWED: Mapping[Permission, frozenset[Role]] = {
 
 
 def allowed_roles(permission: Permission) -> tuple[Role, ...]:
-    """In the order of `ROLES`."""
+    """Roles in the order of `ROLES`."""
     return tuple(role for role in ROLES if role in ALLOWED[permission])

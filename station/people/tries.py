@@ -1,6 +1,6 @@
-"""Failed sign-ins: after a few, the next ones of that name or that address have to wait.
+"""Failed sign-ins: after a few, the next ones with that name or from that address have to wait.
 
-Only sign-ins are counted.  Whoever is signed in, and every stop, never comes here.
+Only sign-ins are counted. Requests of signed-in users, and every stop, are not affected.
 """
 
 from __future__ import annotations
@@ -13,10 +13,10 @@ from threading import Lock
 from station.errors import TooManyTries
 
 FREE = 5
-"""Failures that do not make anybody wait."""
+"""Number of failures without a waiting time."""
 WINDOW_S = 60.0
 MOST_KEPT = 10_000
-"""Names and addresses; more than that are forgotten, oldest first."""
+"""Number of names and addresses; beyond it the oldest are discarded."""
 
 
 class Tries:

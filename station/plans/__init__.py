@@ -1,6 +1,6 @@
-"""Measurement plans: which positions, in which order, and the accuracy that they predict.
+"""Measurement plans: the positions, their order, and the predicted accuracy.
 
-Each plan is a module that registers itself.  Importing the package registers them all.
+Each plan is a module that registers itself. Importing the package registers all plans.
 """
 
 from __future__ import annotations

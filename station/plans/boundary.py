@@ -1,7 +1,7 @@
 """Plans `paper` and `rapid`: the positions of Fig. 7, once each.
 
-`rapid` uses the memory of a full run.  Positions crowded into the corners would serve it no better
-and could not contradict a wrong memory (docs/decisions/0004-rapid-places.md).
+`rapid` uses the memory of a full run.  Positions only in the corners would not be better for it and could not
+contradict a wrong memory (docs/decisions/0004-rapid-places.md).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Plan `check`: four positions at which a shift of either zero shows most, and how small a shift is found."""
+"""Plan `check`: four positions that best show a shift of either zero, and the smallest detectable shift."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ from station.records import Real
 READINGS = 4
 GRID = (5, 3)
 SHIFT_P = 0.005
-"""Of shifts that are none: a right machine fails so often,"""
+"""Probability that a correct machine fails because of an apparent shift,"""
 REST_P = 0.002
-"""and so often by what no shift explains."""
+"""and because of a residual that no shift explains."""
 FOUND = 0.99
-"""Probability with which the smallest shift is found."""
+"""Probability with which the smallest shift is detected."""
 FLAT_MM = 1e4
-"""Stands for "nothing is known" of the offset of the readout since the calibration."""
+"""Prior of an unknown offset of the readout since the calibration."""
 
 
 @dataclass(frozen=True)
@@ -41,29 +41,29 @@ class ShiftTest:
     covariance: Real
     """(R, R) of the whitened differences from the prediction, if nothing has shifted."""
     dof: int = 0
-    """Degrees of freedom of the repeats that told the noise; 0: it is as specified."""
+    """Degrees of freedom of the repeats that determined the noise; 0: it is as specified."""
 
     @property
     def information(self) -> Real:
-        """(2, 2) of the shift."""
+        """(2, 2) information on the shift."""
         return np.asarray(self.by_shift.T @ np.linalg.solve(self.covariance, self.by_shift))
 
     def smallest(self) -> Real:
-        """(2,) rad: shift of each joint alone that is found with 99 % probability."""
+        """(2,) rad: shift of each joint alone that is detected with 99 % probability."""
         return np.asarray(np.sqrt(_needed(self.dof) / np.diag(self.information)))
 
     def blind(self) -> tuple[Real, float]:
-        """The direction (2,) of both zeros together that shows least, and the shift found along it."""
+        """The direction (2,) of both zeros with the smallest effect, and the shift detected along it."""
         values, vectors = np.linalg.eigh(self.information)
         return vectors[:, 0], float(np.sqrt(_needed(self.dof) / values[0]))
 
     def shift(self, difference: Real) -> tuple[Real, float, float]:
-        """Of whitened differences (R,): the shift (2,), p-value of no shift, p-value of what is left."""
+        """From whitened differences (R,): the shift (2,), p-value of no shift, p-value of the residual."""
         told = np.linalg.solve(self.covariance, np.column_stack([difference, self.by_shift]))
         square = float(difference @ told[:, 0])
         shift = np.linalg.solve(self.information, self.by_shift.T @ told[:, 0])
         explained = float(shift @ self.information @ shift)
-        # one reading settles the offset of the readout
+        # one reading determines the offset of the readout
         left = len(difference) - 1 - len(shift)
         rest_p = chance_of(max(square - explained, 0.0), left, self.dof) if left > 0 else 1.0
         return shift, chance_of(explained, len(shift), self.dof), rest_p
@@ -71,14 +71,14 @@ class ShiftTest:
 
 @lru_cache(maxsize=64)
 def _needed(dof: int) -> float:
-    """Noncentrality that is found with the stated probability."""
+    """Noncentrality that is detected with the stated probability."""
     if dof:
         return float(ncfdtrinc(2, dof, 1.0 - FOUND, float(fdtri(2, dof, 1.0 - SHIFT_P))))
     return float(chndtrinc(chdtri(2, SHIFT_P), 2, 1.0 - FOUND))
 
 
 def four_positions(robot: Robot) -> Visits:
-    """Of a coarse grid those with which the smallest shift of the joint that shows less is smallest."""
+    """The positions of a coarse grid with the smallest detectable shift of the less visible joint."""
     places = inset_grid(robot, *GRID)
     mechanism = measured_at(robot, places)
     rows = information_rows(mechanism)
@@ -90,7 +90,7 @@ def four_positions(robot: Robot) -> Visits:
 
 @lru_cache(maxsize=16)
 def _best(rows: bytes, covariance: bytes, count: int) -> tuple[int, ...]:
-    """Of `count` candidates; asked again it answers at once."""
+    """The best of `count` candidates; cached."""
     whitened = np.frombuffer(rows).reshape(count, -1)
     known = np.frombuffer(covariance).reshape(whitened.shape[1], -1)
     fours = combinations(range(count), READINGS)

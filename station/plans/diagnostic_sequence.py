@@ -1,7 +1,7 @@
-"""Plan `diagnostic`: a grid there and back that shows the cause of a residual, then fresh positions.
+"""Plan `diagnostic`: a grid forwards and backwards that shows the cause of a residual, then fresh positions.
 
-There and back shows most places from both sides; ten places, read three times from the same side at
-different times, show the noise and what time does.
+The two directions approach most positions from both sides; ten positions, read three times from the same side
+at different times, show the noise and the effect of time.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ SIDES = ((1, 1), (-1, -1), (1, -1), (-1, 1))
 
 
 def diagnostic_grid(robot: Robot, inset_mm: float) -> Complex:
-    """(45,) places, row by row, mm; kept `inset_mm` from the workspace's edge."""
+    """(45,) positions, row by row, mm; at least `inset_mm` from the workspace's edge."""
     (x0, x1), (y0, y1) = robot.workspace_x, robot.workspace_y
     x = np.linspace(x0 + inset_mm, x1 - inset_mm, COLUMNS)
     y = np.linspace(y0 + inset_mm, y1 - inset_mm, ROWS)
@@ -30,10 +30,10 @@ def diagnostic_grid(robot: Robot, inset_mm: float) -> Complex:
 
 
 def diagnostic_visits(robot: Robot) -> Visits:
-    """The grid there and back; ten places are read from one side too, on both ways and once more at the end.
+    """The grid forwards and backwards; ten positions are also read three times from one side.
 
-    There and back is a way through the columns, where neighbours are nearest for the joints.  A further
-    reading where the arm stands already costs its run-up alone.
+    The path follows the columns, where neighbours are nearest for the joints. A further reading at the
+    current position costs only its run-up.
     """
     places = diagnostic_grid(robot, INSET_MM)
     columns = np.arange(ROWS * COLUMNS).reshape(ROWS, COLUMNS).T
@@ -52,7 +52,7 @@ def diagnostic_visits(robot: Robot) -> Visits:
 
 
 def _short_way(robot: Robot, places: Complex, some: NDArray[np.intp], start: int) -> list[int]:
-    """Some of the places in the order of a short way that begins near another."""
+    """Some of the positions in the order of a short path that begins near another."""
     theta_deg = np.degrees(inverse(robot.geometry, places))
     ways = [some[way] for way in short_ways(theta_deg[some], len(some), np.random.default_rng(0))]
     ways += [way[::-1] for way in ways]
@@ -63,7 +63,7 @@ def _short_way(robot: Robot, places: Complex, some: NDArray[np.intp], start: int
 
 
 def diagnostic_fresh_stops(robot: Robot, dtheta: Real, seed: int) -> tuple[Stop, ...]:
-    """Random interior places, others for each seed; commanded with zero offsets dtheta (2,) rad taken off."""
+    """Random interior positions by seed; commanded with zero offsets dtheta (2,) rad subtracted."""
     (x0, x1), (y0, y1) = robot.workspace_x, robot.workspace_y
     rng = np.random.default_rng(seed)
     x = rng.uniform(x0 + FRESH_INSET_MM, x1 - FRESH_INSET_MM, FRESH_PLACES)

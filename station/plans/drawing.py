@@ -1,4 +1,4 @@
-"""A plan drawn: places in the workspace for a terminal, places and predicted accuracy for a page."""
+"""A plan as a drawing: positions for a terminal, positions and predicted accuracy for a page."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ STOP_COLUMNS = ("stop", "position", "x mm", "y mm", "theta1 deg", "theta2 deg", 
 
 
 def plan_as_text(plan: Plan, robot: Robot) -> str:
-    """The workspace as a frame of characters, each place as the number of its readings."""
+    """The workspace as a frame of characters, each position as the number of its readings."""
     (x0, x1), (y0, y1) = robot.workspace_x, robot.workspace_y
     cells = [[" "] * COLUMNS for _ in range(ROWS)]
     for (x, y), count in readings_at(plan).items():
@@ -29,7 +29,7 @@ def plan_as_text(plan: Plan, robot: Robot) -> str:
 
 
 def readings_at(plan: Plan) -> Counter[tuple[float, float]]:
-    """How often each place is read."""
+    """Number of readings at each position."""
     return Counter(stop.target_mm for stop in plan.stops)
 
 
@@ -48,7 +48,7 @@ def stop_rows(plan: Plan) -> list[tuple[str, ...]]:
 
 
 def plan_page(plan: Plan) -> Page:
-    """Places, order and predicted accuracy as a self-contained page."""
+    """Positions, order and predicted accuracy as a self-contained page."""
     at = readings_at(plan)
     field = plan.predicted.map
     return Page(

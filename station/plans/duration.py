@@ -1,4 +1,4 @@
-"""How long a station takes from stop to stop: both joints timed together, run-ups counted."""
+"""The duration of a station's motions from stop to stop: both joints together, run-ups included."""
 
 from __future__ import annotations
 
@@ -13,29 +13,29 @@ from station.settings import LimitSettings
 Sides = Real | Index
 """Signs of last motions, 0 where they do not matter."""
 ARRIVAL_S = 0.05
-"""From the end of a motion until both drives have said so."""
+"""Time from the end of a motion until both drives have reported it."""
 SAMPLE_S = 0.03
 """One sample of the readout with the feedback of both drives, on their lines."""
 
 
 @dataclass(frozen=True)
 class Pace:
-    """Of one station."""
+    """The speed of one station."""
 
     speed_deg_s: float
     run_up_deg: float
     reading_s: float
-    """From standstill until the samples agree."""
+    """Time from standstill until the samples agree."""
     samples: int = 1
-    """Of a reading."""
+    """Number of samples of a reading."""
 
     @classmethod
     def of(cls, limits: LimitSettings) -> Pace:
-        """As a station file says it."""
+        """The pace defined by a station file."""
         return cls(limits.speed_deg_s, limits.overshoot_deg, limits.samples * SAMPLE_S, limits.samples)
 
     def travel_deg(self, here: Real, there: Real, approach: Sides) -> Real:
-        """(...,) way of the joint that goes furthest, the run-up of a wanted approach included.
+        """(...,) motion of the joint with the longest one, the run-up of a requested approach included.
 
         here, there, approach (..., 2): deg, and signs of the last motion, 0 where it does not matter.
         """
@@ -46,7 +46,7 @@ class Pace:
         return np.asarray(np.where(needs_run_up(senses, way, self.run_up_deg), detour, direct))
 
     def duration_s(self, here: Real, there: Real, approach: Sides) -> Real:
-        """(...,) of the motion and the reading at its end."""
+        """(...,) duration of the motion and the reading at its end."""
         way = there - here
         motions = 1 + needs_run_up(last_senses(approach, way), way, self.run_up_deg)
         travel_s = self.travel_deg(here, there, approach) / self.speed_deg_s
@@ -55,11 +55,11 @@ class Pace:
     def along(self, theta_deg: Real, approach: Sides, start_deg: Real | None = None) -> tuple[Real, Real]:
         """(R,) travel and duration of each leg of a sequence theta_deg (R, 2); the first from `start_deg`.
 
-        Without a start the first leg is no way at all.
+        Without a start the first leg has zero length.
         """
         here = np.vstack([theta_deg[:1] if start_deg is None else start_deg, theta_deg[:-1]])
         return self.travel_deg(here, theta_deg, approach), self.duration_s(here, theta_deg, approach)
 
 
 USUAL = Pace.of(LimitSettings())
-"""Of a station whose file says nothing."""
+"""Pace of a station whose file does not define it."""

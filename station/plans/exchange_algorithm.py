@@ -1,7 +1,7 @@
-"""Choosing measurement places: greedy start and exchange on the mean predicted position variance.
+"""Selection of measurement positions: greedy start and exchange on the mean predicted position variance.
 
-The criterion is trace(C M): C the posterior covariance of all parameters, M the mean over the
-workspace of J_r' J_r, so it is the mean square position error that the calibration leaves behind.
+The criterion is trace(C M): C the posterior covariance of all parameters, M the mean over the workspace of
+J_r' J_r, so it is the mean square position error after the calibration.
 """
 
 from __future__ import annotations
@@ -20,13 +20,12 @@ STARTS = 12
 def choose(
     rows: Real, places: Complex, information: Real, weight: Real, count: int, apart_mm: float
 ) -> list[int]:
-    """Indices of `count` candidates that serve the position error best, of several starts.
+    """Indices of `count` candidates with the smallest position error, from several starts.
 
-    rows (N, P) whitened Jacobian of each candidate reading, places (N,) where it is, information
-    (P, P) what is known beforehand (non-singular), weight (P, P) M; places are kept `apart_mm` from
-    each other.
+    rows (N, P) whitened Jacobian of each candidate reading, positions (N,) of the readings, information (P,
+    P) of the prior (non-singular), weight (P, P) M; positions are at least `apart_mm` from each other.
 
-    :raises ValueError: fewer candidates that far apart than asked for.
+    :raises ValueError: there are fewer candidates at that distance than requested.
     """
     problem = _Problem(rows, information, weight, np.abs(places[:, None] - places[None, :]) < apart_mm)
     rng = np.random.default_rng(0)
@@ -48,7 +47,7 @@ class _Problem:
     def criterion(self, chosen: list[int]) -> float:
         return float(np.trace(self._covariance(chosen) @ self.weight))
 
-    # a start that leaves itself no room ends short and is passed over
+    # a start without enough candidates left ends short and is skipped
 
     def greedy(self, count: int) -> list[int]:
         chosen: list[int] = []
@@ -63,7 +62,7 @@ class _Problem:
         return chosen
 
     def exchange(self, start: list[int]) -> list[int]:
-        """Replace one place after the other by the best for its slot until none changes."""
+        """Replace one position after the other by the best for its slot until none changes."""
         chosen = list(start)
         for _ in range(MAX_ROUNDS):
             before = list(chosen)

@@ -1,4 +1,4 @@
-"""Plan `adaptive` as far as it can be foreseen: what would be measured first of a robot like its file.
+"""Plan `adaptive` as far as it can be predicted: the first positions for a robot as in its file.
 
 The run itself chooses each position from the readings before it (`station.run_kinds.adaptive`).
 """
@@ -18,7 +18,7 @@ FORESEEN = 6
 
 
 def first_positions(robot: Robot) -> Visits:
-    """Each the best for every second, after those before it."""
+    """Each position is the best per second, given those before it."""
     places = candidates(robot)
     mechanism = measured_at(robot, places)
     rows, weight = information_rows(mechanism), position_weight(mechanism)

@@ -1,7 +1,7 @@
 """Plan `full`: 24 positions, chosen by exchange for the position error.
 
 Each is read three times from one side and twice from the other.  They are visited in short sweeps whose
-directions vary, so that a drift cannot pass for geometry.
+directions vary, so that a drift does not look like geometry.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ CANDIDATES = (41, 17)
 FULL_PLACES = 24
 APART_MM = 10.0
 TIMES = (3, 2)
-"""How often each place is read, from one side and from the other."""
+"""Number of readings at each position, from one side and from the other."""
 SCALE_TRAVEL_MM = 350.0
 
 
@@ -39,7 +39,7 @@ def full_positions(robot: Robot) -> Complex:
 
 @lru_cache(maxsize=16)
 def _chosen(robot: Robot) -> Visits:
-    """Robots that differ in their serials alone are measured alike, and so is one again and again."""
+    """Cached: robots that differ only in their serials have the same positions."""
     found = _both_sides(robot, _choose(robot, candidates(robot), FULL_PLACES))
     for part in found:
         part.setflags(write=False)
@@ -84,10 +84,10 @@ def position_weight(mechanism: FiveBar) -> Real:
 
 
 def _both_sides(robot: Robot, places: Complex) -> Visits:
-    """Every place from both sides, several times, in sweeps.
+    """Every position from both sides, several times, in sweeps.
 
-    Half the places are approached with both joints in the same sense, half in opposite senses, so
-    that what one joint's direction does is not mixed up with the other's.
+    Half the positions are approached with both joints in the same sense, half in opposite senses, so that the
+    effects of the two joints' directions are not confounded.
     """
     one = np.column_stack([np.ones(len(places)), np.where(np.arange(len(places)) % 2 == 0, 1, -1)])
     sides = np.stack([one] * TIMES[0] + [-one] * TIMES[1]).astype(np.intp)

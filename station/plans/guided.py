@@ -1,5 +1,6 @@
 """Plans that need a person: `reference` (an angle is read), `two_mounts` (the mechanism is moved) and
-`gauge_study` (operators in turn mount it once more, and the stops of plan `full` are measured each time)."""
+`gauge_study` (operators in turn remount it, and the stops of plan `full` are measured each time).
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Which position next: what one more reading is worth there, for each second that it takes.
+"""The choice of the next position: the benefit of one more reading per second.
 
-A reading with whitened derivatives a (P,) changes the covariance C of all unknowns by the rank-one update
-C - C a a' C / (1 + a' C a).
+A reading with whitened derivatives a (P,) changes the covariance C of all unknowns by the rank-one update C -
+C a a' C / (1 + a' C a).
 """
 
 from __future__ import annotations
@@ -15,11 +15,11 @@ from scipy.special import chdtri, chndtr
 from station.records import Index, Real
 
 ALONE = 0.3
-"""A direction of which readings say less than this share of what is remembered cannot contradict it."""
+"""Directions with less than this share of the memory's information cannot contradict it."""
 
 
 def gains(covariance: Real, rows: Real, weight: Real) -> Real:
-    """(N,) by how much a reading with derivatives rows (N, P) lowers trace(C M), M = weight (P, P)."""
+    """(N,) reduction of trace(C M) by a reading with derivatives rows (N, P), M = weight (P, P)."""
     spread = rows @ covariance
     gain = np.einsum("ni,ni->n", spread @ weight, spread)
     return np.asarray(gain / (1.0 + np.einsum("ni,ni->n", spread, rows)))
@@ -34,25 +34,25 @@ def with_readings(covariance: Real, rows: Real) -> Real:
 
 @dataclass(frozen=True)
 class Contradiction:
-    """How well readings could contradict what is remembered, if that had changed."""
+    """The ability of readings to contradict the memory, if the machine had changed."""
 
     remembered: Real
-    """(M, M) covariance of what is remembered."""
+    """(M, M) covariance of the memory."""
     lasting: Index
-    """(M,) where it stands among the unknowns."""
+    """(M,) indices of the remembered parameters among the unknowns."""
     passing: Index
-    """(P - M,) unknowns that nothing is remembered of."""
+    """(P - M,) unknowns that the memory does not contain."""
     known: Real
-    """(P - M,) information about those beforehand; 0 for none."""
+    """(P - M,) prior information about those; 0 for none."""
     p_value: float
     """Below it the memory is dropped."""
 
     def noncentrality(self, information: Real, changes: Real) -> Real:
-        """(..., D) of the test for each change (D, M) of what is remembered, from the information of the
-        readings (..., P, P) alone.
+        """(..., D) noncentrality of the test for each change (D, M) of the remembered parameters, from the
+        information of the readings (..., P, P) alone.
 
-        The misfit of the memory has the covariance of the memory and that of the readings, unknowns that
-        nothing is remembered of projected out.
+        The misfit of the memory has the covariance of the memory and that of the readings, with the unknowns
+        that the memory does not contain projected out.
         """
         told = self._told(information)
         # (A^-1 + C)^-1 = A (1 + C A)^-1, which needs no inverse of A
@@ -60,7 +60,7 @@ class Contradiction:
         return np.asarray(np.einsum("...dj,dj->...d", changes @ test, changes))
 
     def directions(self, information: Real) -> Index:
-        """(...,) in how many directions readings say enough to contradict anything."""
+        """(...,) number of directions in which the readings could contradict the memory."""
         root = np.linalg.cholesky(self.remembered)
         values = np.linalg.eigvalsh(root.T @ self._told(information) @ root)
         return np.asarray(np.sum(values > ALONE**2, axis=-1))
@@ -72,7 +72,7 @@ class Contradiction:
         return np.asarray(np.where(directions[..., None] > 0, found, 0.0))
 
     def _told(self, information: Real) -> Real:
-        """(..., M, M) what readings say of what is remembered."""
+        """(..., M, M) information of the readings on the remembered parameters."""
         kept, p = self.lasting, self.passing
         cross = information[..., kept[:, None], p]
         rest = information[..., p[:, None], p] + np.diag(self.known)
@@ -81,14 +81,15 @@ class Contradiction:
 
 
 def turned(size_mm: float, count: int = 72) -> Real:
-    """(count, 2) displacements of one size in all directions."""
+    """(count, 2) displacements of one length in all directions."""
     angle = 2.0 * np.pi * np.arange(count) / count
     return size_mm * np.column_stack([np.cos(angle), np.sin(angle)])
 
 
 def changes_of(names: Sequence[str], remount_mm: float, link_mm: float) -> Real:
-    """(D, M) what may have happened to what is remembered: the mechanism mounted anew in some direction, one
-    link changed."""
+    """(D, M) possible changes of the remembered parameters: the mechanism remounted in some direction, one
+    link changed.
+    """
     links = [k for k, name in enumerate(names) if name in ("L1", "L2", "l1", "l2")]
     changes = link_mm * np.eye(len(names))[links]
     if "rMx" not in names:

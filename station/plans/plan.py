@@ -1,4 +1,4 @@
-"""What a plan is, and the register of all plans.
+"""The definition of a plan, and the register of all plans.
 
 A further plan is one module that registers itself (docs/how-to/add-a-plan.md); its texts are in
 `station.messages`.
@@ -26,42 +26,42 @@ ROUNDING_MM = 1e-6
 
 
 class Visits(NamedTuple):
-    """Where a plan measures, and in which order."""
+    """The positions that a plan measures, and their order."""
 
     positions: Complex
     """(K,) mm in O-xy."""
     order: NDArray[np.intp]
     """(R,) index of the position of each reading."""
     approach: NDArray[np.intp]
-    """(R, 2) wanted sign of each joint's last motion; 0 leaves it to the way there."""
+    """(R, 2) requested sign of each joint's last motion; 0 accepts that of the motion there."""
 
 
 def each_once(positions: Complex) -> Visits:
-    """Every one of positions (K,) once, in this order, from whatever side the way there gives."""
+    """Every one of positions (K,) once, in this order, with the side of approach of the direct motion."""
     count = len(positions)
     return Visits(positions, np.arange(count), np.zeros((count, 2), dtype=np.intp))
 
 
 @dataclass(frozen=True)
 class PlanDesign:
-    """One way to choose what is measured."""
+    """One way to choose the measured positions."""
 
     name: PlanName
     visits: Callable[[Robot], Visits]
     """For a robot.  :raises InputRefused: this robot cannot be measured so."""
     run_kind: str = "calibrate"
-    """The kind of run that measures by this plan: a name of `station.run_kinds`."""
+    """Name of the run kind in `station.run_kinds` that measures by this plan."""
 
 
 RECOMMENDED: PlanName = "full"
-"""Where nothing speaks for another plan."""
+"""The default plan."""
 _PLANS: dict[PlanName, PlanDesign] = {}
 PLANS: Mapping[PlanName, PlanDesign] = MappingProxyType(_PLANS)
 """Every plan by its name."""
 
 
 def register(design: PlanDesign) -> PlanDesign:
-    """Make a plan known.  :raises ValueError: its name is taken."""
+    """Register a plan. :raises ValueError: its name is in use."""
     if design.name in _PLANS:
         raise ValueError(f"the plan {design.name} is registered already")
     _PLANS[design.name] = design
@@ -70,17 +70,17 @@ def register(design: PlanDesign) -> PlanDesign:
 
 @dataclass(frozen=True)
 class Plan:
-    """Stops in measuring order and what they will tell."""
+    """Stops in measuring order and the predicted accuracy."""
 
     name: PlanName
     stops: tuple[Stop, ...]
     robot: Robot
     pace: Pace = USUAL
-    """Of the station that is to measure."""
+    """The pace of the measuring station."""
 
     @cached_property
     def predicted(self) -> PlanPrediction:
-        """The accuracy that the stops promise, and how long they take."""
+        """The predicted accuracy of the stops, and their duration."""
         accuracy = predict(self.robot, np.array([complex(*stop.target_mm) for stop in self.stops]))
         travel_deg, duration_s = self.pace.along(
             np.array([stop.theta_deg for stop in self.stops]),
@@ -90,7 +90,7 @@ class Plan:
         return accuracy.model_copy(update=time)
 
     def document(self) -> PlanDocument:
-        """As `station plan --json` writes it."""
+        """The plan as `station plan --json` writes it."""
         return PlanDocument(
             plan=self.name,
             predicted=self.predicted,
@@ -134,11 +134,11 @@ def _check_inside(name: PlanName, robot: Robot, positions: Complex) -> None:
 
 
 def make_plan(name: PlanName, robot: Robot, dtheta: Real | None = None, pace: Pace = USUAL) -> Plan:
-    """The plan for a robot; commands compensated by dtheta (2,) rad when some is known.
+    """The plan for a robot; commands are compensated by dtheta (2,) rad if known.
 
-    :param pace: of the station, for what is said of time
+    :param pace: pace of the station, for the duration
 
-    :raises InputRefused: this robot cannot be measured by this plan.
+    :raises InputRefused: the plan is not possible for this robot.
     """
     positions, order, approach = PLANS[name].visits(robot)
     _check_inside(name, robot, positions)

@@ -1,4 +1,4 @@
-"""The accuracy that one reading at each of some positions promises, by specification."""
+"""The predicted accuracy from one reading at each of some positions, by specification."""
 
 from __future__ import annotations
 
@@ -9,11 +9,11 @@ from station.five_bar import FiveBar, Robot, common_sd_deg, inverse
 from station.records import Complex, Measurements, PlanPrediction, PredictedSd, Real
 
 FLAT_PRIOR_SD_MM = 1e4
-"""Stands for "nothing is known" of the reading offset while designing."""
+"""Prior of an unknown reading offset while designing."""
 
 
 def predict(robot: Robot, places: Complex) -> PlanPrediction:
-    """Accuracy that one reading at each of places (K,) promises, by specification."""
+    """Predicted accuracy from one reading at each of positions (K,), by specification."""
     mechanism = measured_at(robot, places)
     rows = information_rows(mechanism)
     covariance = np.linalg.inv(known_beforehand(mechanism) + rows.T @ rows)
@@ -34,9 +34,9 @@ def predict(robot: Robot, places: Complex) -> PlanPrediction:
 
 
 def zeros_only(mechanism: FiveBar, covariance: Real) -> Real:
-    """(P, P) of what stays when the drives get the zeros that a fit of covariance (P, P) identifies.
+    """(P, P) of the errors that remain when the drives get the zeros of a fit with covariance (P, P).
 
-    The geometry keeps all of its error, known or not.
+    The geometry retains all of its error, known or not.
     """
     left = covariance.copy()
     for i, parameter in enumerate(mechanism.parameters):
@@ -47,7 +47,7 @@ def zeros_only(mechanism: FiveBar, covariance: Real) -> Real:
 
 
 def measured_at(robot: Robot, places: Complex) -> FiveBar:
-    """The mechanism as if readings had been taken at places."""
+    """The mechanism as if readings had been taken at these positions."""
     count = len(places)
     return FiveBar(
         robot,

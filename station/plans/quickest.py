@@ -1,7 +1,7 @@
-"""The quickest few positions that are accurate enough together and could contradict a wrong memory.
+"""The fastest small set of positions that is accurate enough and could contradict a wrong memory.
 
-One position at a time cannot find them: the first three readings only settle two zero offsets and the offset
-of the readout, and any three do.
+A search that adds one position at a time cannot find it: the first three readings only determine two zero
+offsets and the offset of the readout, and any three do.
 """
 
 from __future__ import annotations
@@ -19,40 +19,40 @@ from station.records import Index, Real
 STARTS = 3
 ROUNDS = 4
 SHORT_S = 60.0
-"""Seconds that a set is made worse by for each factor e that it falls short of what is needed."""
+"""Penalty in seconds for each factor e by which a set falls short of the requirement."""
 LEAST_POWER = 1e-3
 
 
 @dataclass(frozen=True)
 class Quickest:
-    """What to choose from, and what is needed."""
+    """The candidates and the requirement."""
 
     covariance: Real
     """(P, P) of all unknowns before any reading."""
     rows: Real
     """(N, P) whitened derivatives of one reading at each candidate."""
     weight: Real
-    """(P, P) M: trace(C M) is the mean square position error, but for what stays."""
+    """(P, P) M: trace(C M) is the mean square position error, apart from `stays`."""
     stays: float
-    """What no reading changes of it, mm^2."""
+    """Part of the mean square position error that no reading changes, mm^2."""
     enough: float
-    """Of all of it, mm^2."""
+    """Required mean square position error in total, mm^2."""
     theta_deg: Real
     """(N, 2) commands."""
     here_deg: Real
     """(2,)"""
     pace: Pace
     test: Contradiction | None
-    """Of the memory; None where there is none."""
+    """Test of the memory; None without one."""
     changes: Real
-    """(D, M) of what is remembered, that must be noticed."""
+    """(D, M) changes of the remembered parameters that must be detected."""
     power: float
-    """Mean probability that is asked for."""
+    """Required mean probability."""
 
     def choose(self, fewest: int, most: int) -> list[int]:
-        """As few candidates as do, in the order of the quickest way.
+        """The smallest sufficient set of candidates, in the order of the fastest path.
 
-        Where even `most` do not, those are chosen that are worth their time.
+        Where even `most` are not sufficient, the candidates with the best benefit per time are chosen.
         """
         found: list[list[int]] = []
         for count in range(fewest, most + 1):
@@ -62,7 +62,7 @@ class Quickest:
         return min(found, key=lambda chosen: float(self._cost(np.array([chosen]))[0]))
 
     def _exchanged(self, count: int) -> list[int]:
-        """Of several starts, one position after the other replaced by the best for its place in the set."""
+        """The best of several starts, with one position after the other replaced by the best for its slot."""
         rng = np.random.default_rng(0)
         starts = [rng.choice(len(self.rows), count, replace=False) for _ in range(STARTS)]
         best = min((self._improved(start) for start in starts), key=lambda found: found[0])[1]
@@ -84,11 +84,11 @@ class Quickest:
         return cost, chosen
 
     def _cost(self, sets: Index) -> Real:
-        """(S,) of sets (S, count)."""
+        """(S,) cost of sets (S, count)."""
         return self._way(sets)[0] + SHORT_S * self._short(sets)
 
     def _short(self, sets: Index) -> Real:
-        """(S,) factors e that accuracy and power together lack; 0 when nothing does."""
+        """(S,) factors e that accuracy and power together lack; 0 if they are sufficient."""
         rows = self.rows[sets]
         turned = np.swapaxes(rows, 1, 2)
         spread = rows @ self.covariance
@@ -110,13 +110,13 @@ class Quickest:
 
     @cached_property
     def _legs(self) -> Real:
-        """(N + 1, N) seconds from here, and from each candidate, to each."""
+        """(N + 1, N) seconds to each candidate, from here and from each candidate."""
         start = np.vstack([self.here_deg, self.theta_deg])[:, None]
         there = np.broadcast_to(self.theta_deg[None], (len(start), *self.theta_deg.shape))
         return self.pace.duration_s(start, there, np.zeros_like(there))
 
     def _way(self, sets: Index) -> tuple[Real, Index]:
-        """(S,) seconds of the quickest way through each set (S, count), and (S, count) its order."""
+        """(S,) seconds of the fastest path through each set (S, count), and (S, count) its order."""
         orders = _orders(sets.shape[1])
         way = sets[:, orders]
         duration_s = self._legs[0, way[..., 0]] + self._legs[1 + way[..., :-1], way[..., 1:]].sum(axis=2)
@@ -126,5 +126,5 @@ class Quickest:
 
 @cache
 def _orders(count: int) -> Index:
-    """(count!, count) of a few."""
+    """(count!, count) all orders of a few positions."""
     return np.array(list(permutations(range(count))))

@@ -1,6 +1,7 @@
-"""Short ways through positions, and sweeps that keep time apart from position.
+"""Short paths through positions, and sweeps that decorrelate time and position.
 
-Both joints move together, so a way is as long as that of the joint that goes further (Chebyshev distance).
+Both joints move together, so a path is as long as that of the joint with the longer motion (Chebyshev
+distance).
 """
 
 from __future__ import annotations
@@ -16,16 +17,17 @@ from station.records import Index, Real
 
 ROUNDS = 30
 TOURS = 24
-"""Different short ways from which sweeps are put together."""
+"""Number of different short paths from which sweeps are combined."""
 TRIED = 800
-"""Ways to put them together."""
+"""Number of combinations tried."""
 SPARE = 1.04
-"""Share of the shortest duration that may be spent on keeping time apart from position."""
+"""Share of the shortest duration that may be spent on decorrelating time and position."""
 
 
 def short_ways(theta_deg: Real, count: int, rng: np.random.Generator) -> list[Index]:
-    """`count` short ways (K,) through positions (K, 2), from different starts: nearest first, then improved
-    by turning parts round and by moving single positions (2-opt, Or-opt)."""
+    """`count` short paths (K,) through positions (K, 2), from different starts: nearest first, then improved
+    by reversing sections and by moving single positions (2-opt, Or-opt).
+    """
     apart = np.abs(theta_deg[:, None] - theta_deg[None, :]).max(axis=2)
     starts = rng.permutation(len(theta_deg))
     return [_improved(_nearest_first(apart, int(starts[k % len(starts)])), apart) for k in range(count)]
@@ -40,7 +42,7 @@ def _nearest_first(apart: Real, start: int) -> list[int]:
 
 
 def _improved(way: list[int], apart: Real) -> Index:
-    """No turned part and no moved position makes it shorter; ends are free."""
+    """Whether no reversed section and no moved position makes it shorter; ends are free."""
 
     def length(order: Sequence[int]) -> float:
         index = np.asarray(order)
@@ -63,25 +65,25 @@ def _improved(way: list[int], apart: Real) -> Index:
 
 @dataclass(frozen=True)
 class Sweeps:
-    """Visits (R,) of positions and the wanted approach (R, 2) of each."""
+    """Visits (R,) of positions and the requested approach (R, 2) of each."""
 
     order: Index
     approach: Index
 
 
 def sweeps(theta_deg: Real, sides: Index) -> Sweeps:
-    """As `_sweeps`, which takes a second; the same question is answered at once."""
+    """As `_sweeps`, which takes a second; results are cached."""
     return _sweeps(theta_deg.tobytes(), sides.tobytes(), sides.shape)
 
 
 @lru_cache(maxsize=16)
 def _sweeps(theta: bytes, side: bytes, shape: tuple[int, int, int]) -> Sweeps:
-    """Every position once a sweep, in short ways whose directions vary.
+    """Every position once per sweep, in short paths whose directions vary.
 
-    theta_deg (K, 2) commands, sides (S, K, 2) the approach that position k wants in some sweep; which of them
-    comes when is free.  Of many ways to put the sweeps together those within a few percent of the shortest
-    duration are kept, and of them the one whose time tells least about position and approach.
-    Always the same one.
+    theta_deg (K, 2) commands, sides (S, K, 2) the approach of position k in one of the sweeps; their order is
+    free. Among many combinations of sweeps, those within a few percent of the shortest duration are
+    considered, and the one whose time correlates least with position and approach is chosen. The result is
+    always the same.
     """
     theta_deg, sides = np.frombuffer(theta).reshape(-1, 2), np.frombuffer(side, dtype=np.intp).reshape(shape)
     rng = np.random.default_rng(0)

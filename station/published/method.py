@@ -1,8 +1,8 @@
 """The method as published (paper section 4 and 5): differences of adjacent positions, LS, TSVD, MAEMM.
 
 Unknowns of eq. 28: (L dtheta1, L dtheta2, rMx, rMy) in mm; of eq. 24: the twelve of
-`station.five_bar.error_model` with the zero offsets as L dtheta.  theta are nominal joint angles, the zero
-offsets known so far already added.
+`station.five_bar.error_model` with the zero offsets as L dtheta.  theta are nominal joint angles with the
+known zero offsets already added.
 """
 
 from __future__ import annotations
@@ -60,7 +60,7 @@ class Identified:
     drm: complex
     """Increment of the MAEMM, mm."""
     gain: Real
-    """(4, K) what each reading does to (dtheta1, dtheta2, rMx, rMy): the propagation of noise."""
+    """(4, K) derivative of (dtheta1, dtheta2, rMx, rMy) by each reading: the propagation of noise."""
     residual: Real
     """(K-1,) mm, of the adjacent differences."""
     condition: float
@@ -70,7 +70,7 @@ class Identified:
 def identify(geometry: Geometry, theta: Real, rho: Real, drm: complex = 0j) -> Identified:
     """Eq. 29 (drm = 0) or eq. 30 (drm = the sum found so far) from readings rho (K,), any constant offset.
 
-    :raises ValueError: fewer than the five positions section 5 asks for.
+    :raises ValueError: fewer than the five positions that section 5 requires.
     """
     if len(rho) < 5:
         raise ValueError(f"the published method needs at least 5 positions, got {len(rho)}")

@@ -1,4 +1,4 @@
-"""Which places to measure (paper section 5, eq. 31 and Fig. 7)."""
+"""The positions to measure (paper section 5, eq. 31 and Fig. 7)."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class Conditioning:
 
 
 def conditioning(robot: Robot, n: int) -> Conditioning:
-    """kappa_1 of the first identification and kappa_m of the later ones, MAEMM as expected (eq. 31)."""
+    """kappa_1 of the first identification and kappa_m of the later ones, with the expected MAEMM (eq. 31)."""
     theta = inverse(robot.geometry, boundary_positions(robot.workspace_x, robot.workspace_y, n))
     first = identification_matrix(robot.geometry, theta)
     later = identification_matrix(robot.geometry, theta, complex(*robot.drm))

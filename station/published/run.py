@@ -1,7 +1,7 @@
 """One calibration by the published method: passes, compensation, stop rule, uncertainty.
 
-The paper prints no uncertainty.  Here the noise of the readings and the tolerances of the geometry
-that the four-unknown model leaves out are carried through the same matrices to the result.
+The paper prints no uncertainty.  Here the noise of the readings and the tolerances of the geometry that the
+four-unknown model omits are propagated through the same matrices to the result.
 """
 
 from __future__ import annotations
@@ -41,7 +41,7 @@ MAX_PASSES = 8
 
 
 class PublishedRun:
-    """The state between two passes: what has been identified and compensated so far."""
+    """The state between two passes: the results identified and compensated so far."""
 
     def __init__(self, robot: Robot) -> None:
         self.robot = robot
@@ -86,10 +86,10 @@ class PublishedRun:
         )
 
     def predicted(self, fresh: list[Reading]) -> tuple[Real, Real]:
-        """Fresh readings less what the frozen result predicts (K,), mm, and its covariance (K, K), mm^2.
+        """Fresh readings less the prediction of the fixed result (K,), mm, and its covariance (K, K), mm^2.
 
-        Readings that took no part: their own noise, the noise of the last pass, and the geometric deviations,
-        which act on both alike.
+        The readings were not used before: the covariance contains their own noise, the noise of the last
+        pass, and the geometric deviations, which act on both equally.
         """
         mechanism = FiveBar(self.robot, from_readings(self._readings))
         fresh_mechanism = FiveBar(self.robot, from_readings(fresh))
@@ -115,7 +115,7 @@ class PublishedRun:
         return residual, error @ error.T + np.diag(fresh_mechanism.row_sd**2)
 
     def result(self) -> CalibrationResult:
-        """Zero offsets with uncertainty, before and after; not verified yet, so never a pass by itself."""
+        """Zero offsets with uncertainty, before and after; not verified yet, so never a pass."""
         measurements = from_readings(self._readings)
         mechanism = FiveBar(self.robot, measurements)
         p = np.array([q.prior_mean for q in mechanism.parameters])
@@ -190,7 +190,7 @@ class PublishedRun:
         return spread, np.sqrt(np.sum(left**2, axis=1))
 
     def _fault(self, residual: Real, sd: Real, mechanism: FiveBar) -> Reason | None:
-        """Why the passes came to nothing; None when they converged to numbers that can be."""
+        """Why the passes failed; None if they converged to possible numbers."""
         if not self.converged:
             return self._not_settled(mechanism)
         if not (np.isfinite(sd[:2]).all() and np.isfinite(self.total).all() and np.isfinite(residual).all()):
@@ -201,9 +201,9 @@ class PublishedRun:
         return None
 
     def _not_settled(self, mechanism: FiveBar) -> Reason:
-        """A step of the readout that alone moves mu (eq. 32) near its threshold is named as the cause."""
+        """The readout step as the cause, if it alone moves mu (eq. 32) near its threshold."""
         by_noise = self._steps[-1].gain[:2] * mechanism.row_sd
-        scatter_deg = float(np.degrees(np.sqrt(np.sum(by_noise**2))))  # of the difference of two passes, rms
+        scatter_deg = float(np.degrees(np.sqrt(np.sum(by_noise**2))))  # RMS of the difference of two passes
         step_mm = mechanism.measurements.resolution_mm
         passes = len(self._steps)
         if not step_mm or scatter_deg < MU_0_DEG / 2:
@@ -217,7 +217,7 @@ class PublishedRun:
         )
 
     def _misfit(self, residual: Real, limit: Real) -> Reason | None:
-        """The reading that the model accounts for least, if it is beyond its limit."""
+        """The reading with the largest residual, if it is beyond its limit."""
         worst = int(np.argmax(np.abs(residual) / limit))
         if abs(residual[worst]) <= limit[worst]:
             return None

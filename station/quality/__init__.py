@@ -1,4 +1,4 @@
-"""Is the process capable, and is the gauge?"""
+"""Capability of the process and of the gauge."""
 
 from __future__ import annotations
 

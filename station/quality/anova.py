@@ -16,12 +16,13 @@ from scipy.special import fdtrc
 from station.records import Real, Record
 
 POOLED_ABOVE = 0.25
-"""p-value of an interaction above which it is taken for what it is tested against; high, so that a real one
-is kept."""
+"""p-value of an interaction above which it is pooled with its reference; high, so that a real one is
+retained.
+"""
 CATEGORIES = 1.41
 """Distinct categories per ratio of part variation to gauge variation (AIAG)."""
 DRAWS = 100_000
-"""Of the pivotal quantities; their quantiles are then good to a fraction of a percent of an interval."""
+"""Number of draws of the pivotal quantities; quantiles are good to a fraction of a percent."""
 SEED = 20_05
 
 
@@ -45,28 +46,28 @@ class Interval(Record):
 
 @dataclass
 class Sources:
-    """Sums of squares and degrees of freedom, by source, and what each source is tested against."""
+    """Sums of squares and degrees of freedom, by source, and the reference of each source's test."""
 
     squares: dict[str, float]
     dof: dict[str, int]
     against: dict[str, str]
 
     def p_value(self, source: str) -> float:
-        """Of the hypothesis that the source adds nothing to what it is tested against."""
+        """p-value of the hypothesis that the source adds nothing to its reference."""
         ratio = self._f(source)
         if ratio is None:
             return 1.0 if self.squares[source] == 0.0 else 0.0
         return float(fdtrc(self.dof[source], self.dof[self.against[source]], ratio))
 
     def pool(self, source: str) -> None:
-        """Take a source for a part of what it is tested against, and test the others against that."""
+        """Pool a source with its reference, and test the others against the result."""
         into = self.against.pop(source)
         self.squares[into] += self.squares.pop(source)
         self.dof[into] += self.dof.pop(source)
         self.against = {tested: into if by == source else by for tested, by in self.against.items()}
 
     def table(self) -> tuple[AnovaRow, ...]:
-        """One row a source."""
+        """One row per source."""
         return tuple(
             AnovaRow(
                 source=source,
@@ -80,19 +81,19 @@ class Sources:
         )
 
     def _f(self, source: str) -> float | None:
-        """None where the denominator has no scatter."""
+        """F ratio; None if the denominator has no scatter."""
         by = self.against[source]
         below = self.squares[by] / self.dof[by]
         return self.squares[source] / self.dof[source] / below if below > 0.0 else None
 
 
 def mean_squares(table: tuple[AnovaRow, ...]) -> dict[str, Real]:
-    """() of each source."""
+    """() mean square of each source."""
     return {row.source: np.array(row.mean_square) for row in table}
 
 
 def drawn_expectations(table: tuple[AnovaRow, ...]) -> dict[str, Real]:
-    """(DRAWS,) expectations of each mean square, as likely as the one that was found makes them."""
+    """(DRAWS,) draws of the expectation of each mean square, given the observed one."""
     chi_squares = _chi_squares(tuple(row.dof for row in table))
     return {
         row.source: row.mean_square * row.dof / drawn for row, drawn in zip(table, chi_squares, strict=True)
@@ -101,13 +102,13 @@ def drawn_expectations(table: tuple[AnovaRow, ...]) -> dict[str, Real]:
 
 @lru_cache(maxsize=4)
 def _chi_squares(dofs: tuple[int, ...]) -> tuple[Real, ...]:
-    """(DRAWS,) of each; a study of the same shape asks for the same ones."""
+    """(DRAWS,) draws of each; cached for studies of the same shape."""
     rng = np.random.default_rng(SEED)
     return tuple(rng.chisquare(dof, DRAWS) for dof in dofs)
 
 
 def intervals_of(drawn: Mapping[str, Real]) -> dict[str, Interval]:
-    """Of figures (DRAWS,)."""
+    """Intervals of figures (DRAWS,)."""
     return {
         name: Interval(low=float(low), high=float(high))
         for name, of in drawn.items()
@@ -126,5 +127,5 @@ def deviations(repeat: Real, operators: Real, parts: Real) -> dict[str, Real]:
 
 
 def categories(parts: float, gauge: float) -> int:
-    """ndc from two standard deviations; 0 where the gauge does not scatter."""
+    """ndc from two standard deviations; 0 if the gauge does not scatter."""
     return int(CATEGORIES * parts / gauge) if gauge > 0.0 else 0

@@ -15,13 +15,14 @@ from station.records import Real
 
 K95 = 1.959964
 MOVING_RANGE_DOF = 0.62
-"""Degrees of freedom of the mean moving range, for each value but one: its relative variance is
-0.826 / (n - 1), that of a standard deviation 0.5 over its degrees of freedom (Cryer and Ryan 1990)."""
+"""Degrees of freedom of the mean moving range, for each value except one: its relative variance is 0.826 / (n
+- 1), that of a standard deviation 0.5 over its degrees of freedom (Cryer and Ryan 1990).
+"""
 
 
 @dataclass(frozen=True)
 class Limits:
-    """What a value may be; None: not limited on that side."""
+    """Limits of a value; None: no limit on that side."""
 
     low: float | None
     high: float | None
@@ -50,7 +51,7 @@ def with_confidence(value: float, count: int, dof: float) -> Index:
 
 
 def cpk(values: Real, limits: Limits) -> Index | None:
-    """Of values (N,) in their order; None where they do not scatter or are too few."""
+    """Cpk of values (N,) in order; None if they do not scatter or are too few."""
     count = len(values)
     sd = sd_of_moving_range(values)
     if count < 3 or not sd > 0.0:
@@ -59,7 +60,7 @@ def cpk(values: Real, limits: Limits) -> Index | None:
 
 
 def ppk(values: Real, limits: Limits) -> Index | None:
-    """Of values (N,) in any order; None where they do not scatter or are too few."""
+    """Ppk of values (N,) in any order; None if they do not scatter or are too few."""
     count = len(values)
     if count < 3 or not (sd := float(values.std(ddof=1))) > 0.0:
         return None

@@ -25,13 +25,13 @@ Rule = Literal["nelson_1", "nelson_2", "nelson_3", "nelson_4", "nelson_5", "nels
 
 
 def sd_of_moving_range(values: Real) -> float:
-    """Standard deviation from one value to the next, by the mean moving range of values (N,)."""
+    """Standard deviation from one value to the next, from the mean moving range of values (N,)."""
     return float(np.abs(np.diff(values)).mean()) / D2 if len(values) > 1 else float("nan")
 
 
 def ewma(values: Real, centre: float, share: float = EWMA_SHARE) -> Real:
     """(N,) exponentially weighted moving average that starts at the centre."""
-    from scipy.signal import lfilter  # here, because few look at charts
+    from scipy.signal import lfilter  # imported here, because charts are rarely requested
 
     out, _ = lfilter([share], [1.0, share - 1.0], values, zi=[(1.0 - share) * centre])
     return np.asarray(out)
@@ -49,7 +49,7 @@ def ewma_limits(
 def run_rules(values: Real, centre: float, sd: float) -> dict[Rule, Flags]:
     """For each of Nelson's rules the values (N,) at which it is broken, as booleans.
 
-    The first counts at the value itself; the others at the value that completes the pattern.
+    The first rule applies to the value itself; the others to the value that completes the pattern.
     """
     z = (values - centre) / sd if sd > 0.0 else np.zeros(len(values))
     return {rule: broken(z) for rule, broken in _RULES.items()}
@@ -62,30 +62,30 @@ def _among(of: Flags, window: int, least: int) -> Flags:
 
 
 def _both_sides(beyond: float, window: int, least: int) -> Callable[[Real], Flags]:
-    """`least` of `window` successive values beyond so many standard deviations, on one side."""
+    """`least` of `window` successive values beyond this many standard deviations, on one side."""
     return lambda z: np.asarray(_among(z > beyond, window, least) | _among(z < -beyond, window, least))
 
 
 def _trend(z: Real) -> Flags:
-    """Six in a row, each above the one before, or each below."""
+    """Six consecutive values, each above the previous one, or each below."""
     step = np.diff(z, prepend=np.nan)
     return np.asarray(_among(step > SAME, 5, 5) | _among(step < -SAME, 5, 5))
 
 
 def _alternating(z: Real) -> Flags:
-    """Fourteen in a row, up and down in turn."""
+    """Fourteen consecutive values, alternately up and down."""
     step = np.diff(z, prepend=np.nan)
     turned = step * np.concatenate([[np.nan], step[:-1]]) < 0.0
     return _among(turned, 12, 12)
 
 
 def _stratified(z: Real) -> Flags:
-    """Fifteen in a row within one standard deviation."""
+    """Fifteen consecutive values within one standard deviation."""
     return _among(np.abs(z) < 1.0, 15, 15)
 
 
 def _mixture(z: Real) -> Flags:
-    """Eight in a row beyond one standard deviation, on both sides."""
+    """Eight consecutive values beyond one standard deviation, on both sides."""
     both = _among(np.abs(z) > 1.0, 8, 8)
     return np.asarray(both & ~_both_sides(1.0, 8, 8)(z))
 

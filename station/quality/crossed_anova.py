@@ -1,8 +1,8 @@
-"""Gauge study: how much of the scatter of measured parts is the gauge, by crossed analysis of variance.
+"""Gauge study: the gauge's share of the scatter of measured parts, by crossed analysis of variance.
 
 Every operator measures every part several times.  Model: value = mean + part + operator + part x operator +
-repeat, all random (AIAG, Measurement Systems Analysis, 4th edition, appendix A).  Components that come out
-negative are zero.
+repeat, all random (AIAG, Measurement Systems Analysis, 4th edition, appendix A).  Negative components are set
+to zero.
 """
 
 from __future__ import annotations
@@ -46,13 +46,13 @@ class GaugeStudy(Record):
     av_percent: float
     grr_percent: float
     pv_percent: float
-    """Of the total variation; their squares add to one."""
+    """Percentages of the total variation; their squares add to one."""
     ndc: int
     """Number of distinct categories that the gauge distinguishes among these parts."""
     interaction_p_value: float
-    """Of the hypothesis that operators and parts do not interact."""
+    """p-value of the hypothesis that operators and parts do not interact."""
     interaction_pooled: bool
-    """Whether operator x part is no more than repeatability."""
+    """Whether operator x part is pooled with repeatability."""
     anova: tuple[AnovaRow, ...]
     intervals: dict[str, Interval]
 
@@ -108,7 +108,7 @@ def gauge_study(part: Sequence[str], operator: Sequence[str], value: Real) -> Ga
 
 
 def _components(shape: tuple[int, ...], of: Mapping[str, Real]) -> tuple[Real, Real, Real]:
-    """Variances of repeatability, operators and parts from mean squares; none is negative."""
+    """Variances of repeatability, operators and parts from mean squares; never negative."""
     p, o, r = shape
     repeat = of["repeatability"]
     between = of.get("part x operator", repeat)

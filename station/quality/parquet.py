@@ -1,7 +1,7 @@
-"""The history as Parquet files in partitions, station by station and month by month; again: only what is new.
+"""The history as Parquet files in partitions, by station and by month; a repeated export adds only new runs.
 
-`runs/station=NAME/month=YYYY-MM/*.parquet`, likewise `readings/` and `findings/`.  A file holds the runs that
-its name says.  Files of runs are written last: they say how far an export came.
+`runs/station=NAME/month=YYYY-MM/*.parquet`, likewise `readings/` and `findings/`.  A file contains the runs
+in its name. Files of runs are written last: they mark the progress of an export.
 """
 
 from __future__ import annotations
@@ -35,21 +35,21 @@ _TIMES = {"created_at", "started_at", "ended_at"}
 
 
 class Exported(Record):
-    """What was written."""
+    """The result of an export."""
 
     runs: int
     readings: int
     findings: int
     last: int
-    """Number of the last run that the folder holds."""
+    """Number of the last run in the folder."""
 
 
 def export_parquet(store: Store, folder: Path, station: str, progress: Callable[[int], None]) -> Exported:
-    """Every finished run that the folder does not hold yet, in the order of their numbers.
+    """Export every finished run that the folder does not contain yet, in the order of their numbers.
 
     A run that has not ended holds back those after it.
 
-    :param progress: told how many runs were written, now and then
+    :param progress: receives the number of runs written, at intervals
     :raises InputRefused: pyarrow is not installed, or the folder cannot be written
     """
     try:
@@ -62,7 +62,7 @@ def export_parquet(store: Store, folder: Path, station: str, progress: Callable[
         _remove_after(folder, name, last)
         written = dict.fromkeys(TABLES, 0)
         while found := store.finished_after(last, RUNS_AT_ONCE):
-            # a file holds runs of one month, so that a batch is whole or not there
+            # a file contains runs of one month, so that a batch is complete or absent
             month, of_month = next(groupby(found, key=itemgetter(1)))
             runs = [run for run, _ in of_month]
             first, last = runs[0], runs[-1]
@@ -82,7 +82,7 @@ def export_parquet(store: Store, folder: Path, station: str, progress: Callable[
 
 
 def _files(folder: Path) -> Iterator[tuple[Path, int, int]]:
-    """Files of a partition with the first and last run that each may hold."""
+    """Files of a partition with the first and last run that each may contain."""
     for file in sorted(folder.glob("month=*/*.parquet")):
         if found := _FILE.fullmatch(file.name):
             yield file, int(found[1]), int(found[2])
@@ -93,7 +93,7 @@ def _last_run(folder: Path) -> int:
 
 
 def _remove_after(folder: Path, name: str, last: int) -> None:
-    """What an export that was cut off left of runs whose own file it did not write."""
+    """Remove the files that an interrupted export left for runs without a file of their own."""
     for table in TABLES[:-1]:
         for file, first, _ in _files(folder / table / name):
             if first > last:
@@ -101,7 +101,7 @@ def _remove_after(folder: Path, name: str, last: int) -> None:
 
 
 def _table(parts: Iterable[Columns]) -> pa.Table:
-    """Without columns where there is no row."""
+    """A table; without columns if there are no rows."""
     import pyarrow as pa
 
     tables = [
@@ -122,7 +122,7 @@ def _type(column: str) -> pa.DataType:
 
 
 def _with_run(table: pa.Table, of_runs: pa.Table) -> pa.Table:
-    """With what all rows of a run share after its number."""
+    """Add the columns that all rows of a run share after its number."""
     import pyarrow as pa
     from pyarrow import compute
 
@@ -134,7 +134,7 @@ def _with_run(table: pa.Table, of_runs: pa.Table) -> pa.Table:
 
 
 def _write(table: pa.Table, file: Path) -> None:
-    """Whole or not at all."""
+    """Write atomically."""
     from pyarrow import parquet
 
     file.parent.mkdir(parents=True, exist_ok=True)

@@ -1,4 +1,4 @@
-"""Process control over finished runs: capability, run rules, charts, and what the runs ended with."""
+"""Process control over finished runs: capability, run rules, charts, and outcomes."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from station.quality.control_chart import D2, D4, Rule, ewma, ewma_limits, run_r
 from station.records import EffectPoint, Real, Record, TrendPoint
 
 FEWEST = 3
-"""Values from which a chart has limits."""
+"""Minimum number of values for the limits of a chart."""
 
 
 class BrokenRule(Record):
@@ -31,24 +31,24 @@ class Figure(Record):
     n: int
     mean: float | None = None
     sd: float | None = None
-    """Of all values."""
+    """Standard deviation of all values."""
     low_limit: float | None = None
     high_limit: float | None = None
-    """What the value may be."""
+    """Upper limit of the value."""
     cpk: float | None = None
-    """Capability by the scatter from one run to the next; null with fewer than three runs."""
+    """Capability from the scatter from one run to the next; null with fewer than three runs."""
     cpk_low: float | None = None
     cpk_high: float | None = None
     """95 % confidence limits."""
     ppk: float | None = None
-    """Performance by the scatter of all values."""
+    """Performance from the scatter of all values."""
     ppk_low: float | None = None
     ppk_high: float | None = None
     rules: tuple[BrokenRule, ...] = ()
 
 
 class Ended(Record):
-    """How many runs ended alike."""
+    """Number of runs with the same outcome."""
 
     outcome: str | None
     reason_code: str | None
@@ -56,7 +56,7 @@ class Ended(Record):
 
 
 class Quality(Record):
-    """Process control over the newest finished calibrations that were asked for."""
+    """Process control over the newest finished calibrations of the request."""
 
     runs: int
     dtheta1: Figure
@@ -71,7 +71,7 @@ class ChartLines(Record):
 
     centre: float | None = None
     sd: float | None = None
-    """From one value to the next."""
+    """Standard deviation from one value to the next."""
     low: float | None = None
     high: float | None = None
     """Three standard deviations about the centre."""
@@ -94,22 +94,22 @@ class EffectTrend(Record):
     parameter: str
     unit: str
     values: tuple[float, ...]
-    """Of the runs `lines.at`."""
+    """Values of the runs `lines.at`."""
     lines: ChartLines
 
 
 class Trend(Record):
-    """Runs in their order, with the charts of each quantity."""
+    """Runs in order, with the charts of each quantity."""
 
     robot_serial: str | None
-    """Null: of all robots of the station."""
+    """Null: all robots of the station."""
     items: tuple[TrendPoint, ...]
-    """Calibrations, and between them what was applied or rolled back, and gauge studies."""
+    """Calibrations, and between them applications, rollbacks and gauge studies."""
     dtheta1: ChartLines
     dtheta2: ChartLines
     position_error: ChartLines
     effects: tuple[EffectTrend, ...] = ()
-    """The effect that most runs found first."""
+    """Most frequent effect first."""
 
 
 def _first(point: TrendPoint) -> float | None:
@@ -125,10 +125,10 @@ def _position(point: TrendPoint) -> float | None:
 
 
 def quality(points: Sequence[TrendPoint], *, zero_offset_deg: float, position_error_mm: float) -> Quality:
-    """Figures of finished calibrations in their order.
+    """Figures of finished calibrations in order.
 
-    :param zero_offset_deg: what a zero offset may be, to either side
-    :param position_error_mm: what the bound of the position error may be
+    :param zero_offset_deg: tolerance of a zero offset, to either side
+    :param position_error_mm: limit of the bound of the position error
     """
     offsets = Limits(-zero_offset_deg, zero_offset_deg)
     ended = Counter((point.outcome, point.reason_code) for point in points)
@@ -147,7 +147,7 @@ def quality(points: Sequence[TrendPoint], *, zero_offset_deg: float, position_er
 def trend(
     robot_serial: str | None, points: Sequence[TrendPoint], effects: Sequence[EffectPoint] = ()
 ) -> Trend:
-    """The points of one robot, or of all where there is no serial, with charts over those that measured."""
+    """The points of one robot, or of all if there is no serial, with charts over those with measurements."""
     return Trend(
         robot_serial=robot_serial,
         items=tuple(points),

@@ -1,4 +1,4 @@
-"""Gauge study of a station: what of the scatter of zero offsets is repeats, mounting, operators, robots.
+"""Gauge study of a station: scatter of zero offsets by repeats, mounting, operators and robots.
 
 Every operator mounts the mechanism several times at every robot, and with each mounting the station
 calibrates several times.  Model: value = mean + robot + operator + robot x operator + mounting + repeat, all
@@ -29,11 +29,11 @@ from station.quality.anova import (
 from station.records import Real, Record
 
 SIXTH = 6.0
-"""Standard deviations in a tolerance (AIAG)."""
+"""Number of standard deviations in a tolerance (AIAG)."""
 
 
 class JointGauge(Record):
-    """Of the zero offset of one joint; standard deviations in degrees."""
+    """Gauge study of the zero offset of one joint; standard deviations in degrees."""
 
     joint: int
     mean_deg: float
@@ -48,25 +48,25 @@ class JointGauge(Record):
     grr: float
     """Gauge: `ev` and `av` together."""
     pv: float
-    """Variation of robots: as measured, or what the tolerance leaves beside the gauge."""
+    """Variation of robots: as measured, or the part that the tolerance leaves beside the gauge."""
     tv: float
     """Total variation: of the robots measured, or a sixth of the tolerance."""
     against: Literal["robots", "tolerance"]
-    """What `tv` is: with one robot nothing is known of how robots vary."""
+    """Meaning of `tv`: with one robot the variation of robots is unknown."""
     ev_percent: float
     av_percent: float
     grr_percent: float
     pv_percent: float
-    """Of `tv`."""
+    """Percentages of `tv`."""
     tolerance_percent: float
     """Six standard deviations of the gauge in percent of the tolerance."""
     ndc: int
     """Number of distinct categories."""
     interaction_p_value: float | None
-    """Of the hypothesis that operators and robots do not interact; null with one robot."""
+    """p-value of the hypothesis that operators and robots do not interact; null with one robot."""
     anova: tuple[AnovaRow, ...]
     intervals: dict[str, Interval]
-    """95 %, of the standard deviations and percentages."""
+    """95 % intervals of the standard deviations and percentages."""
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ class _Variances:
 
 
 def joint_gauge(joint: int, values: Real, tolerance_deg: float) -> JointGauge:
-    """Of values (robots, operators, mountings, repeats), deg; two or more of each but of robots.
+    """The gauge study of values (robots, operators, mountings, repeats), deg; two or more except of robots.
 
     :param tolerance_deg: from the lower to the upper limit of a zero offset
     """
@@ -104,7 +104,7 @@ def joint_gauge(joint: int, values: Real, tolerance_deg: float) -> JointGauge:
 
 
 def gauge_sd(values: Real) -> Real:
-    """(...) standard deviation of one calibration, of values (robots, operators, mountings, repeats, ...)."""
+    """(...,) sd of one calibration, from values (robots, operators, mountings, repeats, ...)."""
     shape, rest = values.shape[:4], values.shape[4:]
     found = []
     for one in np.moveaxis(values.reshape(*shape, -1), -1, 0):
@@ -144,7 +144,7 @@ def _sources(values: Real) -> Sources:
 
 
 def _variances(shape: tuple[int, ...], of: Mapping[str, Real]) -> _Variances:
-    """From mean squares; none is negative."""
+    """Variances from mean squares; never negative."""
     p, o, m, r = shape
     mounting = np.maximum((of["mounting"] - of["repeat"]) / r, 0.0)
     between = of.get("robot x operator", of["mounting"])

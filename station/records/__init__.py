@@ -1,4 +1,4 @@
-"""What travels between packages: readings, requests, results, measurement files."""
+"""Data that travel between packages: readings, requests, results, measurement files."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""How well zero offsets and positions are known."""
+"""The accuracy of zero offsets and positions."""
 
 from __future__ import annotations
 
@@ -8,26 +8,27 @@ from station.records.record import Record
 
 
 class PositionError(Record):
-    """Over the workspace or the measured poses, mm."""
+    """Position error over the workspace or the measured poses, mm."""
 
     rms: float
     max: float
     bound_95: float | None = None
-    """With 95 % probability no error is larger; null where only one model was considered."""
+    """With 95 % probability no error is larger; null if only one model was considered."""
 
 
 class AccuracyReached(Record):
-    """What a calibration promises of positions, beside what was wanted."""
+    """The predicted position accuracy of a calibration, with the required one."""
 
     bound_95_mm: float | None = None
     """With 95 % probability no position error over the workspace is larger, with the zeros in the drives
-    only: what the robot's own controller will do."""
+    only, as with the robot's own controller.
+    """
     bound_95_model_mm: float | None = None
     """The same with joint commands computed from the identified model."""
     wanted_mm: float | None = None
-    """Null where nobody said."""
+    """Required accuracy; null if not specified."""
     reached: bool | None = None
-    """Whether `bound_95_mm` is what was wanted; null without a wish."""
+    """Whether `bound_95_mm` meets the requirement; null without one."""
     stopped_because: str | None = None
     """Why no further readings were taken."""
 
@@ -35,7 +36,7 @@ class AccuracyReached(Record):
     def of(
         cls, by_drives_mm: float | None, by_model_mm: float | None, wanted_mm: float | None, stopped: str
     ) -> AccuracyReached:
-        """A bound that is no finite number is none, and meets no wish."""
+        """A bound that is not finite becomes null and meets no requirement."""
         finite_mm = by_drives_mm if by_drives_mm is not None and math.isfinite(by_drives_mm) else None
         model_mm = by_model_mm if by_model_mm is not None and math.isfinite(by_model_mm) else None
         reached = None if wanted_mm is None else finite_mm is not None and finite_mm <= wanted_mm
@@ -49,20 +50,20 @@ class AccuracyReached(Record):
 
 
 class Advice(Record):
-    """What would make a calibration better."""
+    """A measure that would improve a calibration."""
 
     kind: str
     """`repeat`, `joint_angle`, `drm_x` or `second_mount`."""
     text: str
     joint: int | None = None
-    """Of a joint angle: whose."""
+    """The joint, if `kind` is `joint_angle`."""
     gain_mm: float
-    """By how much the bound on the largest position error would fall, with the zeros in the drives only."""
+    """Reduction of the bound on the largest position error, with the zeros in the drives only."""
     minutes: float
 
 
 class Remedy(Record):
-    """What would determine a weak direction, and the standard uncertainty of the zero offsets with it."""
+    """A measurement that would determine a weak direction, and the zero offsets' standard uncertainty."""
 
     text: str
     sd_deg: float
@@ -76,7 +77,7 @@ class WeakDirection(Record):
     sd_deg: float | None = None
     """Standard uncertainty of the zero offsets along it."""
     blind: tuple[str, ...] = ()
-    """Directions that no reading can see."""
+    """Directions that no reading can determine."""
     remedies: tuple[Remedy, ...] = ()
     remedy: str | None = None
     """The best of them in words."""

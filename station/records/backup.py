@@ -1,4 +1,4 @@
-"""A backup of the history, and whether it could be put in its place."""
+"""A backup of the history, and whether it could replace the history."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ class BackupMade(Record):
 
 
 class CountedTable(Record):
-    """How many rows of one table the backup has, and the history had before and after it was made."""
+    """Number of rows of one table in the backup, and in the history before and after it was made."""
 
     table: str
     before: int

@@ -1,4 +1,4 @@
-"""A run as the history shows it: its summary, and all that is known about it."""
+"""A run as the history shows it: its summary, and its complete record."""
 
 from __future__ import annotations
 
@@ -22,12 +22,12 @@ class CalibrationSummary(Record):
 
     id: int
     uid: str
-    """UUIDv7; other than the number, no other station gives it away, nor this one after a restore."""
+    """UUIDv7; unlike the number, it is unique over all stations, and after a restore."""
     robot_serial: str
     kind: str
-    """What the run did: `calibrate`, `diagnose`, `separate`, `apply`, `rollback` or `import`."""
+    """Kind of run: `calibrate`, `diagnose`, `separate`, `apply`, `rollback` or `import`."""
     plan: str
-    """Of a calibration; else `apply`, `rollback`, `separating` or `dataset`."""
+    """Plan of a calibration; otherwise `apply`, `rollback`, `separating` or `dataset`."""
     of: int | None = None
     """The run that it belongs to, for instance the one whose offsets it applied."""
     operator: str
@@ -37,9 +37,9 @@ class CalibrationSummary(Record):
     outcome: Outcome | None = None
     """Null until the run has ended."""
     reason: str | None = None
-    """In English."""
+    """Reason in English."""
     reason_code: str | None = None
-    """The same for other languages, with `reason_params`."""
+    """The reason's code for other languages, with `reason_params`."""
     reason_params: dict[str, ReasonValue] = Field(default_factory=dict)
     step: int | None = None
     steps: int | None = None
@@ -50,14 +50,14 @@ class CalibrationSummary(Record):
 
 
 class JointApplication(Record):
-    """One drive: `shift_deg` is how far its frame has moved since the calibration."""
+    """One drive: `shift_deg` is the movement of its frame since the calibration."""
 
     joint: int
     state: ApplicationState
     old_offset_deg: float
     shift_deg: float | None
     new_offset_deg: float | None
-    """What is left of the zero offset in the drive's frame."""
+    """The remaining zero offset in the drive's frame."""
 
 
 class ApplicationRun(Record):
@@ -73,7 +73,7 @@ class ApplicationRun(Record):
 
 
 class Application(Record):
-    """What the drives hold of a calibration's zero offsets."""
+    """The state of a calibration's zero offsets in the drives."""
 
     state: ApplicationState
     verified: bool
@@ -81,21 +81,21 @@ class Application(Record):
     joints: tuple[JointApplication, ...]
     runs: tuple[ApplicationRun, ...]
     apply_refused: str | None
-    """Why it cannot be applied, null when it can."""
+    """Why it cannot be applied, null if it can."""
     rollback_refused: str | None
-    """Why it cannot be rolled back, null when it can."""
+    """Why it cannot be rolled back, null if it can."""
 
 
 class Calibration(CalibrationSummary, ResultParts):
-    """All that is known about one run."""
+    """The complete record of one run."""
 
     metadata: dict[str, JsonValue] = Field(default_factory=dict)
     zero_offset_tolerance_deg: float | None = None
     machine: str = "five-bar"
-    """Model of its robot file."""
+    """Model in its robot file."""
     prompt: Prompt | None = None
-    """What the run asks, in state `waiting`."""
+    """The prompt of the run, in state `waiting`."""
     application: Application | None = None
     """Null unless the run has passed."""
     made_by: MadeBy | None = None
-    """Software, devices and scale; null for a run of an earlier version, and one measured elsewhere."""
+    """Software, devices and scale; null for a run of an earlier version, or one measured elsewhere."""

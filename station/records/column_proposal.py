@@ -1,4 +1,4 @@
-"""A column map proposed from names and numbers of a foreign file, for a person to check."""
+"""A column map proposed from the names and numbers of a foreign file, to be checked by a person."""
 
 from __future__ import annotations
 
@@ -28,12 +28,12 @@ from station.records.units import TO_CONTRACT, unit_in_name
 
 TURN = 2.0 * math.pi
 LONGEST_M = 15.0
-"""A position of which no coordinate is larger is in metres: in millimetres machines stand further off."""
+"""A position without a larger coordinate is in metres: in millimetres machines are further away."""
 _MATRICES = (16, 12)
 
 
 def proposed_map(table: ForeignTable) -> str:
-    """MAP.toml as text; comments say what was not found."""
+    """MAP.toml as text; comments list the columns that were not found."""
     lines = [] if table.named else ["header = false"]
     if table.decimal == ",":
         lines.append('decimal = ","')
@@ -61,7 +61,7 @@ def proposed_map(table: ForeignTable) -> str:
 
 
 def _unnamed_joints(table: ForeignTable, numeric: Sequence[str]) -> list[str]:
-    """Of a file without names: what stands before three coordinates or a matrix."""
+    """The joints of a file without names: the columns before three coordinates or a matrix."""
     own = list(numeric)
     if own and _counts(table, own[0]):
         own = own[1:]
@@ -121,7 +121,7 @@ def _pose(table: ForeignTable, names: Sequence[str]) -> str:
 
 
 def _time(table: ForeignTable) -> list[str]:
-    """The first column that can be a time; one that a spreadsheet spoiled is none."""
+    """The first column that can be a time, unless a spreadsheet has damaged it."""
     for name in table.header:
         if TIME.search(name) and table.header.count(name) == 1:
             cells, unit = table.column(name), _unit(table, name, "s")
@@ -142,7 +142,7 @@ def _single(table: ForeignTable, name: str, column: str, unit: str) -> str:
 
 def _angle_unit(table: ForeignTable, names: Sequence[str]) -> str:
     by_size = "rad" if max(_largest(table, name) for name in names) < TURN else "deg"
-    # a name of the contract says degrees, whatever the file holds
+    # a name of the contract implies degrees, whatever the file contains
     own = names[0].startswith("theta") and names[0].endswith("_deg")
     return by_size if own else _unit(table, names[0], "deg") or by_size
 
@@ -154,7 +154,7 @@ def _length_unit(table: ForeignTable, names: Sequence[str]) -> str:
 
 
 def _unit(table: ForeignTable, name: str, kind: str) -> str:
-    """As the file says it; empty where it does not."""
+    """The unit as stated in the file; empty if there is none."""
     unit = table.unit(name) or unit_in_name(name)
     return unit if unit in TO_CONTRACT[kind] else ""
 
@@ -182,7 +182,7 @@ def _values(table: ForeignTable, name: str) -> list[float]:
 
 
 def _numeric(table: ForeignTable, name: str) -> bool:
-    """Whether a column holds numbers; some may be missing."""
+    """Whether a column contains numbers; some may be missing."""
     if table.header.count(name) != 1:
         return False
     try:

@@ -1,4 +1,4 @@
-"""How people name the columns of an arm's log, in several languages, and which columns go together."""
+"""Usual names of the columns of an arm's log, in several languages, and which columns belong together."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _AXES = (
     re.compile(r"^([xyz])(?=ist|soll|act|meas|mess|mes|nom)", re.IGNORECASE),
 )
 UR_JOINTS = ("shoulder_pan", "shoulder_lift", "elbow", "wrist_1", "wrist_2", "wrist_3")
-"""From the base on: messages of ROS have them in the order of the alphabet."""
+"""From the base on: ROS messages list them in alphabetical order."""
 TIME = re.compile(
     r"^(t|t_s|time|zeit|temps|tiempo|tempo|date|datum|seconds|时间|時間)($|[^a-z0-9])|stamp|stempel", re.I
 )
@@ -41,7 +41,7 @@ DISTANCE = re.compile(r"range|dist|abstand|entfern|strecke|距离", re.I)
 
 
 def joint_columns(names: Sequence[str]) -> list[list[str]]:
-    """Groups of columns that may be the joint angles, the most likely first."""
+    """Groups of columns that may be the joint angles, most likely first."""
     groups = [group for group in _by_number(names) if len(group) > 1 and _is_angle(group[0])]
     spelled = [name for name in names if re.search(r"_joint|joint$", name, re.I) and _is_angle(name)]
     if len(spelled) > max((len(group) for group in groups), default=1):
@@ -66,23 +66,23 @@ def point_columns(names: Sequence[str]) -> dict[str, list[str]]:
 
 
 def of_one_kind(stems: Iterable[str]) -> list[str]:
-    """Stems that differ in a number only, in its order: points that were measured in turn."""
+    """Stems that differ only in a number, in its order: points that were measured in turn."""
     groups = sorted(_by_number(list(stems)), key=len, reverse=True)
     return groups[0] if groups and len(groups[0]) > 1 else []
 
 
 def is_deviation(name: str) -> bool:
-    """Whether a column holds what something is off by."""
+    """Whether a column contains a deviation."""
     return _DEVIATION.search(name) is not None
 
 
 def is_commanded(name: str) -> bool:
-    """Whether a column holds what was wanted."""
+    """Whether a column contains a commanded value."""
     return _COMMANDED.search(name) is not None and not is_deviation(name)
 
 
 def is_measured(name: str) -> bool:
-    """Whether a column's name says that it was measured."""
+    """Whether the name of a column indicates a measured value."""
     return _MEASURED.search(name) is not None
 
 
@@ -101,7 +101,7 @@ def _standing(name: str) -> int:
 
 
 def _by_number(names: Sequence[str], *, in_order: bool = True) -> list[list[str]]:
-    """Names that differ in their last number only, by that number."""
+    """Names that differ only in their last number, by that number."""
     groups: dict[tuple[str, str], list[tuple[int, str]]] = {}
     for name in names:
         if match := _NUMBERED.fullmatch(name):

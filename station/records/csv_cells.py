@@ -1,4 +1,4 @@
-"""Text in tables that spreadsheets open: none of it may be taken for a formula."""
+"""Text in tables that spreadsheets open: no cell may be interpreted as a formula."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ _FORMULA = ("=", "+", "-", "@", "\t", "\r")
 
 
 def harmless(text: str) -> str:
-    """With an apostrophe before what a spreadsheet would carry out; numbers stay as they are.
+    """The text with an apostrophe if a spreadsheet would execute it; numbers are unchanged.
 
     Source: OWASP, "CSV Injection".
     """

@@ -1,4 +1,4 @@
-"""What maintenance is shown of one device."""
+"""Details of one device for maintenance."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from station.records.live import DeviceView
 
 
 class DeviceDetail(DeviceView):
-    """A device with what it says of itself, and how well its line works."""
+    """A device with its own information, and the quality of its line."""
 
     identity: str = Field(description="as it answered when it was connected; empty when it says nothing")
     heard_s: float | None = Field(description="since it answered last, s; null before the first answer")

@@ -26,7 +26,7 @@ Span = tuple[float, float]
 
 
 class DataSource(Record):
-    """What a document was made from."""
+    """The source of a document."""
 
     file: str
     readings: int
@@ -36,12 +36,12 @@ class DataSource(Record):
 
 
 class NoiseOfReadings(Record):
-    """The noise that the readings were judged by."""
+    """The noise with which the readings were judged."""
 
     sigma_mm: float
     source: Literal["repeats", "specification"]
     dof: int
-    """Degrees of freedom of the repeats; 0 for the specification."""
+    """Degrees of freedom of the repeats; 0 if the specification was used."""
 
 
 class EffectName(Record):
@@ -59,18 +59,18 @@ class Finding(EffectName):
     label: str
     parameters: tuple[Quantity, ...]
     share: float
-    """Of the base residual's square that this effect accounts for."""
+    """Share of the base residual's sum of squares that this effect accounts for."""
     p_value: float
     probability: float | None = None
-    """That the effect or one of its alias set is there; null in schema 1."""
+    """Probability that the effect or one of its alias set is present; null in schema 1."""
     alias_set: tuple[EffectName, ...]
-    """The effect with those that these readings cannot distinguish from it."""
+    """The effect and those that these readings cannot distinguish from it."""
     remedy: str
     separating_experiment: str | None = None
 
 
 class JointCurve(Record):
-    """The learned curve of one joint over the angles that were visited."""
+    """The learned curve of one joint over the angles visited."""
 
     joint: int
     angle_deg: tuple[float, ...]
@@ -79,11 +79,11 @@ class JointCurve(Record):
 
 
 class StageErrors(Record):
-    """Measured less predicted under one model: readings learned, positions left out, fresh readings."""
+    """Measured less predicted under one model: readings learned, positions excluded, fresh readings."""
 
     model: str
     unknowns: int
-    """Of geometry, mechanism and effects; reading offsets are not counted."""
+    """Number of unknowns of geometry, mechanism and effects; reading offsets are not counted."""
     fit_rms_mm: float
     holdout_rms_mm: float
     holdout_max_mm: float
@@ -92,28 +92,28 @@ class StageErrors(Record):
 
 
 class StageAccuracy(StageErrors):
-    """The same with the position error that it predicts, and the true one where a tracker measured."""
+    """The same with the predicted position error, and the true one if a tracker measured it."""
 
     predicted_position_error_mm: PositionError
     true_position_error_mm: PositionError | None
 
 
 class Dependence(Record):
-    """Something that the residual depends on, found without the catalogue."""
+    """A quantity that the residual depends on, found without the catalogue."""
 
     depends_on: str
     strength: float
-    """Share of the residual's square that goes with it, 0 to 1."""
+    """Share of the residual's sum of squares that it accounts for, 0 to 1."""
     text: str
 
 
 class SmallestVisible(EffectName):
-    """One effect that was not found, and the size of it that these readings show with 80 % probability."""
+    """One effect that was not found, and the size that these readings detect with 80 % probability."""
 
     label: str
     parameter: str | None
     minimum_detectable: float | None
-    """Null when these readings cannot show the effect at all."""
+    """Null if these readings cannot detect the effect at all."""
     unit: str | None
     text: str
 
@@ -124,11 +124,11 @@ class ExplainedEffect(EffectName):
     label: str
     parameters: tuple[Quantity, ...]
     depends_on: str | None = None
-    """Of an unnamed one: "joint1", "joint2", "reading", "place", "time" or "approach"."""
+    """Dependence of an unnamed error: "joint1", "joint2", "reading", "place", "time" or "approach"."""
 
 
 class ExplanationRecord(Record):
-    """A set of errors that would account for the readings; none of them: the base model."""
+    """A set of errors that would account for the readings; the empty set is the base model."""
 
     effects: tuple[ExplainedEffect, ...]
     probability: float
@@ -136,12 +136,12 @@ class ExplanationRecord(Record):
 
 
 class ExperimentRecord(Record):
-    """Something that can be done to distinguish explanations."""
+    """An experiment that can distinguish explanations."""
 
     kind: str
     text: str
     decides: float
-    """Probability that it will settle the question."""
+    """Probability that it decides between the explanations."""
 
 
 class MistakeRecord(Record):
@@ -155,7 +155,7 @@ class MistakeRecord(Record):
 
 
 class RefusedDiagnosis(Record):
-    """What is written where a file cannot be diagnosed before a mistake in it is put right."""
+    """The document for a file that cannot be diagnosed before a mistake in it is corrected."""
 
     schema_: Annotated[Literal["station.diagnosis/2"], Field(alias="schema")] = "station.diagnosis/2"
     refused: str
@@ -169,29 +169,29 @@ class _Finite(Record):
 
 
 class TermOfModel(_Finite):
-    """One effect with its searched parameters settled."""
+    """One effect with its searched parameters fixed."""
 
     effect: str
     """Label in the catalogue."""
     on_joint: Annotated[int, Field(ge=1)] | None
     on_lengths: dict[str, float] | None
-    """mm per unit of strength; null as well as no joint: it acts on the reading."""
+    """mm per unit of strength; if this and the joint are null, it acts on the reading."""
     hidden: dict[str, float]
     amplitudes: Annotated[tuple[float, ...], Field(min_length=1)]
 
 
 class LearnedRanges(_Finite):
-    """What the readings that the model was learned on covered."""
+    """The ranges covered by the readings that the model was learned from."""
 
     joints_deg: Annotated[tuple[Span, ...], Field(min_length=2)]
     visited_deg: tuple[tuple[Span, ...], ...]
-    """Of each joint the stretches in which readings are dense enough."""
+    """For each joint, the intervals in which readings are dense enough."""
     travel_mm: Span | None
     time_s: Span
 
 
 class TemperatureReference(_Finite):
-    """From where temperatures are counted."""
+    """The reference that temperatures are counted from."""
 
     temperature_c: float | None
 
@@ -204,31 +204,31 @@ class ModelDocument(_Finite):
     names: tuple[str, ...]
     values: tuple[float, ...]
     covariance: tuple[tuple[float, ...], ...] | None
-    """Null where there are a hundred values or more."""
+    """Null for a hundred values or more."""
     terms: tuple[TermOfModel, ...]
     ranges: LearnedRanges
     reference: TemperatureReference
     stage: str | None = None
     confirmed: bool | None = None
-    """False: fresh readings refuted it; null: none were taken."""
+    """False: fresh readings refuted it; null: no fresh readings were taken."""
 
 
 class ReferenceOfReadings(TemperatureReference):
-    """What later readings are counted from."""
+    """The reference that later readings are counted from."""
 
     theta_rad: tuple[float, float]
     travel_mm: float
 
 
 class LearnedReadings(_Finite):
-    """The readings that a set of explanations was weighed on: its errors are laid out over them."""
+    """The readings that a set of explanations was weighed on: the shapes of its errors depend on them."""
 
     t_s: tuple[float, ...]
     theta_rad: tuple[tuple[float, float], ...]
     approach: tuple[tuple[int, int], ...]
     distance_mm: tuple[float, ...]
     came_from: tuple[tuple[float | None, float | None, float | None], ...]
-    """Joint angles, rad, and distance, mm, of the reading before; null where there is none."""
+    """Joint angles, rad, and distance, mm, of the previous reading; null if there is none."""
     mount: tuple[int, ...]
     mounts: tuple[str, ...]
     temperature_c: tuple[float, ...] | None
@@ -236,14 +236,14 @@ class LearnedReadings(_Finite):
 
 
 class ErrorOfModel(_Finite):
-    """One error of an explanation with everything about it settled."""
+    """One error of an explanation with all its parameters fixed."""
 
     family: int
     """Its number in the catalogue of explanations."""
     kind: str
     labels: tuple[str, ...]
     joints: tuple[int, ...]
-    """Joints whose angle it changes: it is not known where they have not been."""
+    """Joints whose angle it changes: it is unknown outside the range they visited."""
     by_approach: tuple[int, ...]
     """Joints whose side of approach it depends on."""
     hidden: dict[str, float]
@@ -268,16 +268,16 @@ class MixtureDocument(_Finite):
     values: tuple[float, ...]
     """Base parameters, mean over the explanations."""
     covariance: tuple[tuple[float, ...], ...]
-    """Of the base parameters, over the explanations."""
+    """Covariance of the base parameters, over the explanations."""
     explanations: Annotated[tuple[ExplanationOfModel, ...], Field(min_length=1)]
     start: tuple[float, ...]
-    """Base parameters at which the catalogue of explanations was laid out."""
+    """Base parameters at which the catalogue of explanations was made."""
     readings: LearnedReadings
     ranges: LearnedRanges
     reference: ReferenceOfReadings
     stage: str | None = None
     confirmed: bool | None = None
-    """False: nothing confirms it, or fresh readings contradict it; null: none were taken."""
+    """False: it is not confirmed, or fresh readings contradict it; null: no fresh readings were taken."""
 
 
 AnyModelDocument = Annotated[ModelDocument | MixtureDocument, Field(discriminator="schema_")]
@@ -287,7 +287,7 @@ DiagnosisSchema = Literal["station.diagnosis/1", "station.diagnosis/2"]
 
 
 class DiagnosisDocument(Record):
-    """What was found in one set of readings."""
+    """The findings from one set of readings."""
 
     schema_: Annotated[DiagnosisSchema, Field(alias="schema")] = "station.diagnosis/1"
     data: DataSource
@@ -309,8 +309,8 @@ class DiagnosisDocument(Record):
     outlier_reasons: tuple[str, ...] = ()
     fresh_outliers: tuple[int | str, ...] = ()
     explanations: tuple[ExplanationRecord, ...] = ()
-    """Every one with a probability of 0.01 or more, most probable first; none in schema 1."""
+    """All explanations with a probability of 0.01 or more, most probable first; none in schema 1."""
     experiments: tuple[ExperimentRecord, ...] = ()
-    """What can distinguish them, best first."""
+    """Experiments that can distinguish them, best first."""
     mistake: MistakeRecord | None = None
     model: AnyModelDocument

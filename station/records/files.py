@@ -1,4 +1,4 @@
-"""Files that people name."""
+"""Files that are named by a person."""
 
 from __future__ import annotations
 
@@ -8,9 +8,9 @@ from station.errors import InputRefused
 
 
 def content_of(path: Path, what: str = "") -> bytes:
-    """What a file holds.
+    """The content of a file.
 
-    :param what: the file is, as the beginning of a sentence
+    :param what: description of the file, as the beginning of a sentence
     :raises InputRefused: it cannot be read
     """
     try:

@@ -9,24 +9,24 @@ from dataclasses import dataclass
 NO_VALUE = frozenset(
     {"", "-", "--", "nan", "n/a", "na", "null", "none", "inf", "-inf", "#n/a", "#num!", "#value!"}
 )
-"""What stands in a cell where nothing was measured, in small letters."""
+"""Content of a cell without a measured value, in lower case."""
 _BLANKS = "\u00a0\u2007\u2009\u202f' "
-"""Signs that only group digits."""
+"""Characters that only group digits."""
 _NUMBER = re.compile(rf"[+-]?(\d[\d{_BLANKS}]*([.,]\d+)*[.,]?|[.,]\d+)(e[+-]?\d+)?", re.IGNORECASE)
 _GROUPED = {sign: re.compile(rf"[+-]?\d{{1,3}}({re.escape(sign)}\d{{3}})+") for sign in ".,"}
 
 
 @dataclass(frozen=True)
 class NumberSigns:
-    """How the numbers of one file are written."""
+    """The number format of one file."""
 
     decimal: str
     """`.` or `,`"""
     thousands: str = ""
-    """The other of the two, where it groups digits."""
+    """The other of the two, if it groups digits."""
 
     def plain(self, cell: str) -> str:
-        """A cell with a decimal point and without grouping; a cell that is no number stays as it is."""
+        """A cell with a decimal point and without grouping; a cell that is not a number is unchanged."""
         if not is_number(cell):
             return cell
         for sign in (*_BLANKS, *self.thousands):
@@ -35,22 +35,22 @@ class NumberSigns:
 
 
 def is_number(cell: str) -> bool:
-    """Whether a cell holds a number, in whatever way it is written."""
+    """Whether a cell contains a number, in any format."""
     return _NUMBER.fullmatch(cell) is not None
 
 
 def has_value(cell: str) -> bool:
-    """Whether anything was entered in a cell."""
+    """Whether a cell contains a value."""
     return cell.lower() not in NO_VALUE
 
 
 def signs_of(cells: Iterable[str], decimal: str = "") -> NumberSigns:
-    """How these cells are written.
+    """The number format of these cells.
 
-    The sign that comes last in a number that has both is the decimal sign.  Where no number has both, a
-    comma is one, unless every comma groups three digits and one number has several of them.
+    In a number with both signs the last one is the decimal sign. If no number has both, a comma is the
+    decimal sign, unless every comma groups three digits and one number has several of them.
 
-    :param decimal: the decimal sign, where it is known
+    :param decimal: the decimal sign, if known
     """
     numbers = [cell for cell in cells if is_number(cell)]
     if not decimal:

@@ -21,11 +21,11 @@ OLD_SPREADSHEET = b"\xd0\xcf\x11\xe0"
 
 
 def read_spreadsheet(content: bytes, source: str, wanted: str = "") -> list[list[str]]:
-    """The rows of one sheet: the one wanted, else the one with most numbers.
+    """The rows of one sheet: the requested one, otherwise the one with most numbers.
 
-    :raises InputRefused: not a spreadsheet, or no such sheet.
+    :raises InputRefused: the file is not a spreadsheet, or has no such sheet.
     """
-    from openpyxl import load_workbook  # here, because few files need it
+    from openpyxl import load_workbook  # imported here, because few files need it
     from openpyxl.utils.exceptions import InvalidFileException
 
     unreadable = (InvalidFileException, BadZipFile, KeyError, ValueError, TypeError, IndexError, EOFError)

@@ -1,4 +1,4 @@
-"""Tables as people have them: text or spreadsheet, with or without a header, units and lines before it."""
+"""Tables in common formats: text or spreadsheet, with or without a header, units and lines before it."""
 
 from __future__ import annotations
 
@@ -12,9 +12,9 @@ from station.records.foreign_text import read_text
 from station.records.units import unit_in
 
 _MOSTLY = 0.5
-"""Share of the cells of a row of readings that are numbers."""
+"""Minimum share of numbers in the cells of a row of readings."""
 Numbered = tuple[int, list[str]]
-"""A row and where in the file it stands, from 1."""
+"""A row and its number in the file, from 1."""
 
 
 @dataclass(frozen=True)
@@ -26,16 +26,16 @@ class ForeignTable:
     """Names of the columns; "1", "2", ... where the file has none."""
     rows: tuple[tuple[str, ...], ...]
     lines: tuple[int, ...]
-    """Where in the file each row stands, from 1."""
+    """Number of each row in the file, from 1."""
     separator: str
     decimal: str
     named: bool = True
     """Whether the file itself names the columns."""
     units: tuple[str, ...] = ()
-    """Of the columns, where a row below the names has them."""
+    """Units of the columns, if a row below the names contains them."""
 
     def column(self, name: str) -> list[str]:
-        """The cells of a column.  :raises InputRefused: there is no such column, or it is there twice."""
+        """The cells of a column.  :raises InputRefused: there is no such column, or it occurs twice."""
         places = [i for i, own in enumerate(self.header) if own == name]
         if len(places) != 1:
             what = "is missing" if not places else f"appears {len(places)} times"
@@ -44,7 +44,7 @@ class ForeignTable:
         return [row[places[0]] for row in self.rows]
 
     def unit(self, name: str) -> str:
-        """Of a column, by the row of units; empty where there is none."""
+        """Unit of a column, from the row of units; empty if there is none."""
         return self.units[self.header.index(name)] if self.units else ""
 
 
@@ -57,10 +57,10 @@ def read_foreign(
     decimal: str = "",
     sheet: str = "",
 ) -> ForeignTable:
-    """Rows of a text file or spreadsheet; what is not given is found.
+    """Rows of a text file or spreadsheet; options that are not given are detected.
 
-    :param header: whether a row names the columns; None: if there is one that is not all numbers
-    :raises InputRefused: not a table, or rows of different lengths.
+    :param header: whether a row names the columns; None: if the first row is not all numbers
+    :raises InputRefused: the file is not a table, or its rows have different lengths.
     """
     if content.startswith(OLD_SPREADSHEET):
         raise InputRefused(
@@ -92,7 +92,7 @@ def read_foreign(
 
 
 def _parted(rows: list[Numbered], source: str) -> tuple[list[Numbered], list[Numbered]]:
-    """What stands above the readings, and the readings.  :raises InputRefused: no table of numbers."""
+    """The lines above the readings, and the readings.  :raises InputRefused: there is no table of numbers."""
     numeric = [len(row) for _, row in rows if _of_numbers(row)]
     if not numeric:
         raise InputRefused(f"{source}: no rows of numbers were found.")
@@ -118,7 +118,7 @@ def _counts_columns(row: list[str]) -> bool:
 
 
 def _names(above: list[Numbered], width: int) -> tuple[tuple[str, ...], tuple[str, ...]]:
-    """Names and units of the columns, from the lines right above the readings; empty where they have none."""
+    """Names and units of the columns, from the lines directly above the readings; empty if there are none."""
     fitting = [cells for _, row in above[-3:] if len(cells := _fitted(row, width)) == width]
     units: tuple[str, ...] = ()
     if len(fitting) > 1 and all(unit_in(cell) or not cell.strip("[]()- ") for cell in fitting[-1]):
@@ -127,7 +127,7 @@ def _names(above: list[Numbered], width: int) -> tuple[tuple[str, ...], tuple[st
 
 
 def _fitted(row: list[str], width: int) -> list[str]:
-    """As long as a row of readings: the first column may go without a name, the last may be empty."""
+    """As long as a row of readings: the first column may be unnamed, the last may be empty."""
     if len(row) == width + 1 and not row[-1]:
         return row[:-1]
     return ["", *row] if len(row) == width - 1 else row

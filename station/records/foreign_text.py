@@ -1,4 +1,4 @@
-"""Text files as rows of cells: encodings, comments, and the sign between the columns."""
+"""Text files as rows of cells: encodings, comments, and the separator."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ _UTF_16 = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 
 def read_text(content: bytes, source: str, separator: str = "") -> tuple[list[tuple[int, list[str]]], str]:
-    """Rows with the lines that they end on, and the separator, found where it is not given.
+    """Rows with the numbers of their last lines, and the separator, detected if not given.
 
-    :raises InputRefused: not a text file.
+    :raises InputRefused: the file is not a text file.
     """
     text = _decoded(content, source)
     try:
@@ -45,12 +45,12 @@ def _decoded(content: bytes, source: str) -> str:
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError:
-        # what spreadsheets wrote before UTF-8: in China pairs of high bytes, in the West single ones
+        # encodings of spreadsheets before UTF-8: in China pairs of high bytes, in the West single ones
         return content.decode("gb18030" if _PAIRS.fullmatch(content) else "cp1252", errors="replace")
 
 
 def _split(text: str, separator: str) -> list[tuple[int, list[str]]]:
-    """Numbered from 1; empty lines are left out, and of a comment its sign."""
+    """Rows numbered from 1; empty lines are omitted, and the sign of a comment."""
     lines = text.splitlines()
     if separator == BLANKS:
         rows = [(k + 1, _uncommented(line).split()) for k, line in enumerate(lines)]
@@ -68,7 +68,7 @@ def _uncommented(line: str) -> str:
 
 
 def _separator(text: str) -> str:
-    """The sign that leaves most numbers in the rows of the commonest length."""
+    """The separator that gives most numbers in the rows of the most frequent length."""
     some = "\n".join(text.splitlines()[:_LOOKED_AT])
 
     def score(sign: str) -> tuple[float, int]:

@@ -1,4 +1,4 @@
-"""What a log did not record and its rows still tell: how each joint came, and which poses are one place."""
+"""Data that a log does not contain but its rows imply: the approach of each joint, and equal poses."""
 
 from __future__ import annotations
 
@@ -11,19 +11,19 @@ from station.records.measurements import Measurements
 from station.records.types import Index, Real
 
 STILL_RAD = 1e-4
-"""A joint that moved less between two rows was only holding its place."""
+"""A joint that moved less between two rows only held its position."""
 TIME = "time"
-"""Among what was guessed: the rows are in order, and nothing else is known of when they were taken."""
+"""Marks the time as guessed: the rows are in order, but their times are unknown."""
 EQUAL_S = 1e-3
 TURN = 2.0 * np.pi
 LEAST_GAP_RAD = 0.2
-"""Of a turn, that no reading visits, for a joint to be taken for one that does not turn all the way."""
+"""Minimum part of a turn without readings, for a joint to count as one that does not turn all the way."""
 SAME_POSE_DEG = 0.02
-"""Poses that agree so well in all joints are one place: an arm's drives do not stand still better."""
+"""Poses that agree this well in all joints are one position: an arm's drives are not more repeatable."""
 
 
 def with_guesses(m: Measurements) -> Measurements:
-    """The same readings, with approaches and places guessed where the file names none; marked as guessed."""
+    """The same readings, with missing approaches and positions inferred and marked as guessed."""
     guessed = []
     m = replace(m, theta=_unwrapped(m.theta))
     if not m.approach.any():
@@ -38,13 +38,13 @@ def with_guesses(m: Measurements) -> Measurements:
 
 
 def counts_rows(t_s: Real) -> bool:
-    """Whether a column of time only numbers the rows: nothing real keeps equal steps to the millisecond."""
+    """Whether a column of time only numbers the rows: no real clock has equal steps to the millisecond."""
     steps = np.diff(t_s)
     return bool(len(steps)) and bool(np.ptp(steps) < EQUAL_S)
 
 
 def guesses_in_words(m: Measurements, language: Language = "en") -> str:
-    """What was guessed, for people."""
+    """The inferred data, in words."""
     names = [report_text(f"guessed_{name}", language) for name in m.guessed if name != TIME]
     and_ = certificate_text("and", language)
     texts = [report_text("guessed", language, names=and_.join(names))] if names else []
@@ -54,9 +54,9 @@ def guesses_in_words(m: Measurements, language: Language = "en") -> str:
 
 
 def _unwrapped(theta: Real) -> Real:
-    """(K, n) the same poses, joints that seem to turn further than once brought into one turn.
+    """(K, n) the same poses; joints that seem to turn more than once are brought into one turn.
 
-    A controller that adds whole turns scatters a joint over two; the turn is cut where no reading stands.
+    A controller that adds whole turns spreads a joint over two; the turn is cut where there is no reading.
     """
     out = theta.copy()
     for i in np.flatnonzero(np.ptp(theta, axis=0) > TURN):
@@ -75,12 +75,12 @@ def _approaches(theta: Real) -> np.ndarray:
     """(K, n) sense of each joint's last motion in the order of the rows; 0 before the first."""
     way = np.diff(theta, axis=0, prepend=theta[:1])
     moved = np.where(np.abs(way) < STILL_RAD, 0.0, np.sign(way))
-    # a joint that stood still keeps the sense it came to rest with
+    # a joint at standstill retains the sense of its last motion
     last = np.maximum.accumulate(np.where(moved != 0.0, np.arange(len(theta))[:, None], 0), axis=0)
     return np.take_along_axis(moved, last, axis=0).astype(np.int8)
 
 
 def _places(theta: Real) -> Index:
-    """(K,) index of the place, equal for poses that agree."""
+    """(K,) index of the position, equal for poses that agree."""
     cells = np.round(np.degrees(theta) / SAME_POSE_DEG).astype(np.int64)
     return np.unique(cells, axis=0, return_inverse=True)[1].reshape(-1).astype(np.intp)

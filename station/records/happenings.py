@@ -1,4 +1,4 @@
-"""What the station tells others: events, and how far they were delivered."""
+"""Events for other systems, and their delivery."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ DeliveryState = Literal["waiting", "delivered", "refused", "expired"]
 
 
 class Event(Record):
-    """Something that happened; `n` rises from 1 without gaps, `uid` is the same at every delivery."""
+    """An event; `n` increases from 1 without gaps, `uid` is the same at every delivery."""
 
     n: int
     uid: str
@@ -24,7 +24,7 @@ class Event(Record):
 
 
 class Delivery(Record):
-    """One event on its way to one receiver."""
+    """The delivery of one event to one receiver."""
 
     id: int
     receiver: str
@@ -34,16 +34,16 @@ class Delivery(Record):
     state: DeliveryState
     tries: int
     detail: str
-    """What the receiver said last, or why it was given up."""
+    """Last answer of the receiver, or why the delivery was given up."""
     next_at: datetime | None
-    """Of the next try, while it waits."""
+    """Time of the next attempt, while it is pending."""
     ended_at: datetime | None
 
 
 class Backlog(Record):
-    """What waits for one receiver."""
+    """Pending deliveries of one receiver."""
 
     receiver: str
     count: int
     oldest_at: datetime
-    """When the oldest of these events happened."""
+    """Time of the oldest of these events."""

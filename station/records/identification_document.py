@@ -1,4 +1,4 @@
-"""What `station identify --json` writes (schema station.identification/1)."""
+"""The document of `station identify --json` (schema station.identification/1)."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from station.records.result import ZeroOffset
 
 
 class OutlierNote(Record):
-    """A reading that was left out, and why."""
+    """An excluded reading, and the reason."""
 
     reading: int | str
     residual_mm: float
@@ -23,7 +23,7 @@ class OutlierNote(Record):
 
 
 class ResidualSummary(Record):
-    """What the model leaves of the readings."""
+    """The residual of the readings under the model."""
 
     rms_mm: float
     max_mm: float
@@ -47,7 +47,7 @@ class PositionErrorAt(Record):
 
 
 class GateOfMemory(Record):
-    """Whether what earlier calibrations know took part, and how well the readings agree with it."""
+    """Whether the knowledge from earlier calibrations was used, and how well the readings agree with it."""
 
     used: bool
     p_value: float
@@ -59,26 +59,26 @@ class Convergence(Record):
 
     steps: int
     status: Literal["converged", "slow", "rounding", "stopped"] = "converged"
-    """All but `stopped` reached the minimum."""
+    """All except `stopped` reached the minimum."""
     message: str = "converged"
     gain_left: float = 0.0
-    """Reduction of the cost that one more step promised."""
+    """Reduction of the cost that one more step would give."""
 
 
 class JumpNote(Record):
-    """What jumped between two readings: the readout, or a joint's zero."""
+    """A jump between two readings: of the readout, or of a joint's zero."""
 
     reading: int | str
-    """The first one after it."""
+    """The first reading after it."""
     thing: Literal["readout", "joint 1", "joint 2"] | None
-    """null: the readings do not say which."""
+    """null: the readings do not determine which."""
     size_mm: float | None = None
     size_deg: float | None = None
     text: str
 
 
 class IdentificationDocument(Record):
-    """Everything that one fit of the measurement model says."""
+    """All results of one fit of the measurement model."""
 
     schema_: Annotated[Literal["station.identification/1"], Field(alias="schema")] = (
         "station.identification/1"
@@ -88,7 +88,7 @@ class IdentificationDocument(Record):
     noise: NoiseOfReadings
     zero_offsets: tuple[ZeroOffset, ...]
     modes: tuple[Quantity, ...]
-    """Of a five-bar: half the sum and half the difference of the zero offsets."""
+    """For a five-bar, half the sum and half the difference of the zero offsets."""
     parameters: tuple[Quantity, ...]
     coverage_factor: float
     """k of the 95 % interval."""
@@ -96,14 +96,14 @@ class IdentificationDocument(Record):
     singular_values: tuple[float, ...]
     residual: ResidualSummary
     sd_factor: float
-    """By which the uncertainties were multiplied because the model does not fit; 1 when it does."""
+    """Factor on the uncertainties where the model does not fit; 1 when it does."""
     before: PredictedAccuracy
     after: PredictedAccuracy
     position_error_map: tuple[PositionErrorAt, ...]
     outliers: tuple[OutlierNote, ...]
     jump: JumpNote | None = None
-    """Then the zero offsets are not those of the machine as it is now, and `adequate` is false."""
+    """If not null, the zero offsets are not those of the present machine, and `adequate` is false."""
     references: tuple[ReferenceUse, ...] = ()
-    """What other instruments measured, and how well it agrees with the rest."""
+    """References from other instruments, and how well they agree with the other data."""
     memory: GateOfMemory | None
     convergence: Convergence

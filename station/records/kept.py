@@ -1,4 +1,4 @@
-"""What the store keeps beside runs: robot files and events."""
+"""Stored data beside runs: robot files and events."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ class KeptRobot(Record):
 
 
 class StoredEvent(Record):
-    """Something worth remembering: who aborted, what a device said."""
+    """A noteworthy event: who aborted, a message of a device."""
 
     id: int
     at: datetime | None

@@ -1,4 +1,4 @@
-"""A log made elsewhere as it was given, with all that is needed to read it again."""
+"""An imported log as received, with everything needed to read it again."""
 
 from __future__ import annotations
 
@@ -15,13 +15,13 @@ class KeptLog:
     """One file."""
 
     part: LogPart
-    """What is learned from, or what judges it."""
+    """`file`: the model is learned from it; `fresh`: it confirms the model."""
     name: str
     content: bytes
     columns: str = ""
-    """Its column map, JSON; empty for none."""
+    """Its column map, JSON; empty if there is none."""
     measured: Measured = "position"
-    """Which columns count where it has both."""
+    """Which measurement to use if the log contains both."""
 
     @property
     def sha256(self) -> str:
@@ -30,7 +30,7 @@ class KeptLog:
 
 @dataclass(frozen=True, slots=True)
 class LogDocuments:
-    """What was found in a log; finding it again may take half a minute."""
+    """The results from a log; computing them again may take half a minute."""
 
     residuals: str
     """JSON: `effects` and one row of `items` for each reading."""
@@ -40,9 +40,9 @@ class LogDocuments:
 
 @dataclass(frozen=True, slots=True)
 class ImportedLog:
-    """What is kept of a run that is made from a log."""
+    """The stored data of a run that is made from a log."""
 
     files: tuple[KeptLog, ...]
     documents: LogDocuments
     readings: int
-    """In all files."""
+    """Number of readings in all files."""

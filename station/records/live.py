@@ -1,4 +1,4 @@
-"""The station at one moment, as the page and the terminal are told of it."""
+"""The current state of the station, for the page and the terminal."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ DeviceState = Literal["ok", "lost", "fault", "unknown"]
 
 
 class StationInfo(Record):
-    """What the station is and can do."""
+    """Identity and capabilities of the station."""
 
     name: str
     emulated: bool
@@ -26,13 +26,13 @@ class StationInfo(Record):
     plans: tuple[PlanName, ...]
     """Plans that this station can run."""
     recommended_plan: PlanName
-    """Where nothing speaks for another one."""
+    """The default plan."""
     open: bool = False
-    """Whether anybody at this computer may do everything without signing in."""
+    """Whether users at this computer have all rights without signing in."""
 
 
 class DeviceView(Record):
-    """What is known of one device."""
+    """The state of one device."""
 
     name: str
     kind: Literal["scale", "axis"]
@@ -46,32 +46,32 @@ class Trip(Record):
 
     run: int
     text: str
-    """What was noticed."""
+    """The detected condition."""
     stop_frame_ms: float | None
-    """From noticing it until the stop frames of both drives were sent; null where none was."""
+    """Time from detection until the stop frames of both drives were sent; null if none was."""
     standstill_ms: float
-    """From noticing it until both drives were seen to stand."""
+    """Time from detection until standstill of both drives was confirmed."""
 
 
 class Interlock(Record):
-    """One condition that must hold before and during motion."""
+    """One condition for motion, before and during it."""
 
     id: str
     text: str
     ok: bool
     detail: str = ""
-    """What is wrong; empty when it holds."""
+    """The trouble; empty if the condition holds."""
     own_text: bool = False
-    """Whether `text` is the station file's, to be shown as it is in every language."""
+    """Whether `text` is from the station file, to be shown unchanged in every language."""
     limits: dict[str, float] = Field(default_factory=dict)
-    """As the station file declares them, by name with unit, or its defaults."""
+    """Limits from the station file, by name with unit, or the defaults."""
     shows: str = ""
-    """The value that was looked at last, with its unit, where there is one."""
+    """The last value with its unit, if there is one."""
     last_trip: Trip | None = None
-    """When it last ended a motion, since the station was started."""
+    """Its last trip since the station was started."""
 
     def without_value(self) -> Interlock:
-        """The same without what changes all the time."""
+        """The same without values that change continuously."""
         return self.model_copy(update={"shows": ""})
 
 
@@ -91,21 +91,21 @@ class RetractView(Record):
 
     needed: bool
     excess_mm: float | None
-    """How far outside it stands; null when that is not known or the linkage cannot close there."""
+    """Distance outside the workspace; null if unknown or if the linkage cannot close there."""
     text: str
 
 
 class CalibrationHolds(Record):
-    """Whether calibrated work of a robot may go on."""
+    """Whether work with the calibration of a robot is permitted."""
 
     robot_serial: str
     locked: bool
     """A check has failed, and neither a passed calibration nor an engineer has cleared it."""
     text: str
     check: int | None = None
-    """The run that says so."""
+    """The run that determines it."""
     calibration_valid_until: datetime | None = None
-    """Of the last passed check; null where there is none since the last calibration."""
+    """From the last passed check; null if there is none since the last calibration."""
 
 
 class Workspace(Record):
@@ -116,14 +116,14 @@ class Workspace(Record):
 
 
 class SequenceTitle(Record):
-    """The measurement sequence under way."""
+    """The active measurement sequence."""
 
     number: int
     title: str
 
 
 class RunStop(Record):
-    """One position of the sequence under way."""
+    """One position of the active sequence."""
 
     position: str
     x_mm: float
@@ -132,13 +132,13 @@ class RunStop(Record):
 
 
 class SequenceView(SequenceTitle):
-    """A sequence as it begins."""
+    """A sequence at its beginning."""
 
     stops: tuple[RunStop, ...]
 
 
 class ResidualOfReading(Record):
-    """What an identification says of one reading."""
+    """The result of an identification for one reading."""
 
     reading: int
     residual_mm: float | None = None
@@ -146,7 +146,7 @@ class ResidualOfReading(Record):
 
 
 class RunReading(ResidualOfReading):
-    """One reading of the run under way."""
+    """One reading of the active run."""
 
     position: str
     x_mm: float | None = None
@@ -176,12 +176,12 @@ class RunBrief(Record):
     remaining_s: float | None = None
     walk: SequenceTitle | None = None
     progress: float = 0.0
-    """Of the whole run, 0 to 1; an estimate that never falls."""
+    """Progress of the whole run, 0 to 1; an estimate that never decreases."""
     step: int | None = None
     steps: int | None = None
     iterations: tuple[Iteration, ...] = ()
     prompt: Prompt | None = None
-    """What the run waits to be told, in state `waiting`."""
+    """The prompt that the run waits for, in state `waiting`."""
 
 
 class RunView(RunBrief):
@@ -192,22 +192,22 @@ class RunView(RunBrief):
 
 
 class StationView(Record):
-    """The whole station at one moment; also the `data` of the live feed's snapshot."""
+    """The complete state of the station; also the `data` of the live feed's snapshot."""
 
     station: StationInfo
     devices: tuple[DeviceView, ...]
     interlocks: tuple[Interlock, ...]
     machine: MachineView | None
-    """Null while it is not known where the arm stands."""
+    """Null while the position of the arm is unknown."""
     workspace: Workspace
     retract: RetractView
     calibration: CalibrationHolds
-    """Of the robot measured last."""
+    """Calibration of the robot measured last."""
     run: RunView | None
     last: CalibrationSummary | None
     finished: RunView | None = None
-    """The last run with its positions and readings; null while another is under way."""
+    """The last run with its positions and readings; null while another is active."""
 
     def as_open(self, open: bool) -> StationView:
-        """The same of a station that is open, or is not."""
+        """The same for a station that is open, or not."""
         return self.model_copy(update={"station": self.station.model_copy(update={"open": open})})

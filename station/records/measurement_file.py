@@ -1,7 +1,7 @@
 """The measurement file of the contract: CSV, UTF-8, header row, decimal point.
 
-Reading it either gives arrays that can be trusted or raises `InputRefused` with the row, the
-column and what to do; nothing is guessed and nothing is skipped.
+Reading it either gives valid arrays or raises `InputRefused` with the row, the column and the remedy; nothing
+is guessed and nothing is skipped.
 """
 
 from __future__ import annotations
@@ -29,25 +29,25 @@ log = logging.getLogger(__name__)
 MINIMUM_READINGS = 5
 """Four unknowns and the reading offset (paper, section 5: K >= 5)."""
 LARGEST_NUMBER = 1e12
-"""Whatever its unit, also of seconds since 1970; its square is still a number."""
+"""Limit for any unit, also seconds since 1970; its square is still finite."""
 
 
 @dataclass(frozen=True, slots=True)
 class Columns:
-    """What a mechanism's file must and may hold."""
+    """Required and optional columns of a mechanism's file."""
 
     joints: int = 2
     distance: str = "scale_mm"
     """Distance column; required, unless `either`."""
     tracker: tuple[str, ...] = ("tracker_x_mm", "tracker_y_mm")
     either: bool = False
-    """Whether the position columns may stand in for the distance."""
+    """Whether the position columns may replace the distance."""
     time_ordered: bool = True
-    """The station writes rows as it measures: one out of order is a fault.  Other machines' logs may jump."""
+    """The station writes rows in time order: one out of order is a fault. Logs of other machines may jump."""
     sliding: tuple[int, ...] = ()
-    """Joints that slide, from 1."""
+    """Joints that slide, counted from 1."""
     more: tuple[str, ...] = ()
-    """Further columns that may be there."""
+    """Further optional columns."""
 
     @property
     def theta(self) -> tuple[str, ...]:
@@ -56,7 +56,7 @@ class Columns:
 
     @property
     def to_internal(self) -> Real:
-        """(n,) of the joint columns: to rad, and to m of joints that slide."""
+        """(n,) factors of the joint columns: to rad, and to m for sliding joints."""
         joints = range(1, self.joints + 1)
         return np.array([1e-3 if i in self.sliding else np.radians(1.0) for i in joints])
 
@@ -86,7 +86,7 @@ FIVE_BAR = Columns()
 
 
 class Table:
-    """The cells of one file, with refusals that say where."""
+    """The cells of one file, with refusals that state the position."""
 
     def __init__(self, source: str, header: list[str], rows: list[list[str]], lines: list[int]) -> None:
         self.source = source
@@ -119,7 +119,7 @@ class Table:
         return values
 
     def optional_numbers(self, column: str) -> Real | None:
-        """None when the column is missing or empty throughout."""
+        """None if the column is missing or empty throughout."""
         if not self.has(column) or not any(self.text(column)):
             return None
         return self.numbers(column)
@@ -128,7 +128,7 @@ class Table:
 def read_measurements(path: Path, columns: Columns = FIVE_BAR) -> Measurements:
     """Read a measurement file.
 
-    :raises InputRefused: anything malformed, with row, column and what to do.
+    :raises InputRefused: the file is malformed; the error gives row, column and remedy.
     """
     return parse_measurements(content_of(path), columns, source=path.name)
 
@@ -141,7 +141,7 @@ def parse_measurements(
 
 
 def recorded_columns(content: bytes) -> set[str]:
-    """Columns that have something in them, of a measurement file that was read without complaint."""
+    """Columns with content, of a measurement file that was read without an error."""
     header, *rows = [row for row in csv.reader(io.StringIO(content.decode("utf-8-sig"))) if any(row)]
     return {name.strip() for i, name in enumerate(header) if any(row[i].strip() for row in rows)}
 
@@ -156,9 +156,10 @@ def parse_readings(
 ) -> list[Reading]:
     """The file's rows as records of a sequence, as the store keeps them.
 
-    Ids that are whole numbers rising from beyond `after` stay; else rows are numbered from there.
+    Ids that are whole numbers increasing from above `after` are retained; otherwise rows are numbered from
+    there.
 
-    :param in_order: refuse time that runs backwards; else the caller judges the column
+    :param in_order: refuse decreasing times; otherwise the caller checks the column
     :raises InputRefused: as `parse`.
     """
     table = read_table(content, FIVE_BAR.required, FIVE_BAR.optional, source)
@@ -186,7 +187,7 @@ def parse_readings(
 
 
 def _measurements(table: Table, columns: Columns) -> Measurements:
-    """Every row checked.  :raises InputRefused:"""
+    """Measurements with every row checked. :raises InputRefused:"""
     ids = _ids(table)
     t_s = table.numbers("t_s")
     backwards = np.flatnonzero(np.diff(t_s) < 0)
@@ -200,7 +201,7 @@ def _measurements(table: Table, columns: Columns) -> Measurements:
     mount, mounts = number(table.text("mount") if table.has("mount") else [""] * len(ids))
     setup, setups = number(table.text("setup") if table.has("setup") else [""] * len(ids))
     place = table.text("position") if table.has("position") else [""] * len(ids)
-    # a reading without a place label is a place of its own
+    # a reading without a position label is a position of its own
     position = number([label or f"\0{k}" for k, label in enumerate(place)])[0]
     measurements = Measurements(
         ids=ids,
@@ -228,7 +229,7 @@ def _measurements(table: Table, columns: Columns) -> Measurements:
 
 
 def read_table(content: bytes, required: Sequence[str], optional: Sequence[str], source: str) -> Table:
-    """The cells of a CSV file with a header.  :raises InputRefused: anything that is not one."""
+    """The cells of a CSV file with a header.  :raises InputRefused: the file is not one."""
     if not content.strip():
         raise InputRefused(f"{source} is empty; a header row and readings are needed.")
     if b"\0" in content:
@@ -296,7 +297,7 @@ def _ids(table: Table) -> tuple[int | str, ...]:
 
 
 def _distance(table: Table, columns: Columns) -> Real:
-    """(K,) mm; NaN where positions stand in for it.  :raises InputRefused: neither is there."""
+    """(K,) mm; NaN where positions replace it. :raises InputRefused: both are missing."""
     if not columns.either or table.has(columns.distance):
         return table.numbers(columns.distance)
     if not all(table.has(name) for name in columns.tracker):
@@ -313,7 +314,7 @@ def _tracker(table: Table, columns: Columns) -> Real | None:
 
 
 def approaches(table: Table, column: str) -> Real:
-    """(K,) -1, 0 or 1; zeros where there is no such column.  :raises InputRefused:"""
+    """(K,) -1, 0 or 1; zeros if there is no such column.  :raises InputRefused:"""
     if not table.has(column):
         return np.zeros(len(table.rows))
     values = np.zeros(len(table.rows))
@@ -325,7 +326,7 @@ def approaches(table: Table, column: str) -> Real:
 
 
 RUN_UID = "run_uid"
-"""Says in each row of an export of which run it is; read back, nothing depends on it."""
+"""Column with the run's identity in each row of an export; it has no effect when the file is read."""
 HEADER = (
     "reading", "t_s", "theta1_deg", "theta2_deg", "approach1", "approach2", "scale_mm", "position",
     "temperature_c", "payload_kg", "mount", RUN_UID,
@@ -333,9 +334,9 @@ HEADER = (
 
 
 def readings_to_csv(readings: Iterable[Reading], *, run_uid: str | None = None) -> str:
-    """The readings of a run as a measurement file; optional columns only where something is in them.
+    """The readings of a run as a measurement file; optional columns only if they have content.
 
-    :param run_uid: identity of the run, of a file that leaves the station
+    :param run_uid: identity of the run, for a file that leaves the station
     """
     rows: list[Sequence[object]] = [
         (

@@ -1,6 +1,6 @@
-"""Readings as arrays: what identification and diagnosis work on.
+"""Readings as arrays: the input of identification and diagnosis.
 
-One row a reading, whatever it came from: a file, a run in the store or a simulated sequence.
+One row per reading, whatever the source: a file, a run in the store or a simulated sequence.
 """
 
 from __future__ import annotations
@@ -32,28 +32,29 @@ class Measurements:
     distance: Real
     """(K,) head reading or range, mm."""
     position: Index
-    """(K,) index of the place; equal for repeats and other approaches of one place."""
+    """(K,) index of the position; equal for repeats and other approaches of one position."""
     mount: Index
     """(K,) index into `mounts`."""
     samples: Index
-    """(K,) how many samples of the head each distance is the mean of."""
+    """(K,) number of samples of the head in the mean of each distance."""
     mounts: tuple[str, ...] = ("",)
     setup: Index | None = None
-    """(K,) index into `setups`; None where machine and instrument stood still throughout."""
+    """(K,) index into `setups`; None if machine and instrument were never moved."""
     setups: tuple[str, ...] = ("",)
     sliding: tuple[int, ...] = ()
-    """Joints that slide, from 1; their `theta` is in metres: a metre and a radian move the end alike."""
+    """Sliding joints, counted from 1; `theta` in metres: a metre and a radian move the end similarly."""
     resolution_mm: float = 0.0
-    """Step of the readout where it is coarser than the noise of a sample, else 0."""
+    """Step of the readout if it is coarser than the noise of a sample, otherwise 0."""
     temperature_c: Real | None = None
     payload_kg: Real | None = None
     tracker: Real | None = None
     """(K, 2 or 3) independent position, mm."""
     guessed: tuple[str, ...] = ()
-    """What was not recorded but worked out from the order of the rows: "approach", "position"."""
+    """Data that were not recorded but inferred from the order of the rows: "approach", "position"."""
     came_from: Real | None = None
-    """(K, n + 1) joint angles and distance of the reading before, NaN before the first; filled in when
-    left out, and kept by `take`, so that leaving a reading out does not change another's history."""
+    """(K, n + 1) joint angles and distance of the previous reading, NaN before the first; computed if
+    omitted, and retained by `take`, so that excluding a reading does not change another's history.
+    """
 
     def __post_init__(self) -> None:
         if self.came_from is None:
@@ -85,7 +86,9 @@ class Measurements:
 
     @cached_property
     def repeat_group(self) -> Index:
-        """(K,) index of readings alike in place, approach, mount and set-up: their scatter is pure error."""
+        """(K,) index of readings with one position, approach, mount and set-up: their scatter is pure
+        error.
+        """
         key = np.zeros(len(self), dtype=np.intp)
         for part in (self.position, *self.approach.T, self.mount, self.setup_index):
             least, most = (int(part.min()), int(part.max())) if len(self) else (0, 0)
@@ -100,12 +103,12 @@ def number(labels: Sequence[Hashable]) -> tuple[Index, tuple[Hashable, ...]]:
 
 
 def from_readings(readings: Sequence[Reading], mounts: Sequence[str] = ()) -> Measurements:
-    """Readings of one run as the orchestrator and the store hold them.
+    """Arrays from the readings of one run in the orchestrator or the store.
 
-    :param mounts: those of the readings that they belong to, where these may lack some
+    :param mounts: mounts of the readings that they belong to, if these may lack some
     """
     labels = [r.mount or "" for r in readings]
-    # the robot file's own mounting point comes first, whenever it was measured at
+    # the robot file's own mounting point comes first, whenever it was measured
     mounts = tuple(dict.fromkeys([*mounts, *[label for label in labels if not label], *labels])) or ("",)
     mount = np.array([mounts.index(label) for label in labels], dtype=np.intp)
 

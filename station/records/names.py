@@ -1,4 +1,4 @@
-"""Serials and names as people give them: what can be printed, told apart and put into an address."""
+"""Serials and names given by people: printable, distinguishable, and usable in an address."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ _INVISIBLE = ("Cc", "Cs", "Zl", "Zp")
 def checked_serial(text: str) -> str:
     """The serial of a robot.
 
-    :raises InputRefused: one that could be a path, or be mistaken for another that looks the same.
+    :raises InputRefused: it could be a path, or be confused with another that looks the same.
     """
     said = f"Serial {shown(text)}"
     if not text or len(text) > LONGEST:
@@ -44,7 +44,7 @@ def checked_name(text: str) -> str:
 
 
 def shown(text: str) -> str:
-    """In quotation marks, with what cannot be seen as an escape."""
+    """In quotation marks, with invisible characters as escapes."""
     return ascii(text) if not text.isprintable() else repr(text)
 
 

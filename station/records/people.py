@@ -1,4 +1,4 @@
-"""Who uses the station: roles, users, keys, and what was done by whom."""
+"""The users of the station: roles, users, keys, and their actions."""
 
 from __future__ import annotations
 
@@ -11,8 +11,9 @@ from station.records.record import Record
 
 Role = Literal["viewer", "operator", "engineer", "administrator", "mes"]
 Via = Literal["user", "key", "panel", "open", "terminal", "station"]
-"""How somebody is known: signed in, by a key, standing at the panel, in open mode, at the computer's own
-terminal; or the station by itself."""
+"""How a person is identified: by sign-in, by a key, at the panel, in open mode, at the computer's own
+terminal; or the station itself.
+"""
 
 PersonName = Annotated[
     str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64, pattern=r"^[\w.@+\- ]+$")
@@ -20,41 +21,41 @@ PersonName = Annotated[
 
 
 class Actor(Record):
-    """Who does something."""
+    """The author of an action."""
 
     name: str
     via: Via
     role: Role | None = None
-    """Null where nobody is signed in."""
+    """Null if nobody is signed in."""
 
 
 STATION = Actor(name="station", via="station")
 
 
 class User(Record):
-    """Somebody who signs in with a password, or with badge and PIN."""
+    """A person who signs in with a password, or with badge and PIN."""
 
     id: int
     name: str
     role: Role
     has_badge: bool
     by_provider: bool = False
-    """Signs in with the plant's provider, which also decides the role."""
+    """The user signs in with the plant's provider, which also decides the role."""
     disabled: bool
-    """Kept, but may not sign in."""
+    """The account exists, but cannot sign in."""
     created_at: datetime | None
 
 
 class Credentials(Record):
-    """A user with what the sign-in is checked against."""
+    """A user with the reference for checking the sign-in."""
 
     user: User
     secret_hash: str
-    """Of the password, or of the PIN; argon2."""
+    """Hash of the password, or of the PIN; argon2."""
 
 
 class ApiKey(Record):
-    """A key of a program; the key itself is not kept."""
+    """A key of a program; the key itself is not stored."""
 
     id: int
     name: str
@@ -67,47 +68,47 @@ class ApiKey(Record):
 
 
 class Session(Record):
-    """Somebody who is signed in at the page."""
+    """A person who is signed in at the page."""
 
     user: User
     seen_at: datetime
 
 
 class SignedIn(Record):
-    """Who asks: the answer about a session."""
+    """The person of a request: the answer about a session."""
 
     name: str
     role: Role | None
     via: Via
     signs_off_after_s: float | None = None
-    """Without activity, while nothing runs; null for those who are not signed in with a password."""
+    """Time without activity while no run is active; null for users who are not signed in with a password."""
     sign_out_at: str | None = None
-    """Where a page goes next, so that the provider signs out as well; null for the station's own users."""
+    """Next address for a page, so that the provider signs out as well; null for the station's own users."""
 
 
 class AuditEntry(Record):
-    """One deed.  Entries are chained by their hashes and never changed."""
+    """One action. Entries are chained by their hashes and never changed."""
 
     n: int
     at: datetime
     who: str | None
-    """Null when the person's name was erased."""
+    """Null if the person's name was erased."""
     via: Via
     role: Role | None
     action: str
     subject: str
-    """What it was done to, for instance `run 7`."""
+    """The object of the action, for instance `run 7`."""
     before: JsonValue
     after: JsonValue
     hash: str
 
 
 class AuditChecked(Record):
-    """What became of a look at the whole trail."""
+    """The result of checking the whole audit."""
 
     entries: int
-    """As they were written, up to the first that is not."""
+    """Number of unchanged entries, up to the first changed one."""
     head: str
     """Hash of the last of these."""
     broken: int | None
-    """Number of the first entry that is not as it was written."""
+    """Number of the first changed entry."""

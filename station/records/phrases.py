@@ -1,4 +1,4 @@
-"""A sentence by its code, with parameters that may be sentences or parts of one themselves."""
+"""A sentence by its code, with parameters that may be sentences or parts of sentences themselves."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from station.records.record import Record
 
 
 class Phrase(Record):
-    """`code` is a template in `station.messages`; every language says it from the same parameters."""
+    """`code` is a template in `station.messages`; every language uses the same parameters."""
 
     code: str
     params: Annotated[dict[str, PhraseValue], Field(default_factory=dict)]
@@ -31,7 +31,7 @@ PhraseValue = float | int | str | Phrase | tuple[str | Phrase, ...]
 
 
 def phrase(code: str, **params: PhraseValue) -> Phrase:
-    """Its sentence is made at once, so that a missing parameter is found where it is missing."""
+    """The sentence is made at once, so that a missing parameter is detected at its origin."""
     made = Phrase(code=code, params=params)
     made.text()
     return made

@@ -1,4 +1,4 @@
-"""Tables as CSV that a spreadsheet shows and never computes."""
+"""Tables as CSV that a spreadsheet displays and never computes."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from station.records.csv_cells import harmless
 
 
 def csv_text(header: Sequence[str], rows: Iterable[Iterable[object]]) -> str:
-    """With a header row."""
+    """The table with a header row."""
     text = io.StringIO()
     writer = csv.writer(text)
     writer.writerow(header)

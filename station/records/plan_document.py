@@ -1,4 +1,4 @@
-"""What `station plan --json` writes (schema station.plan/1)."""
+"""The document of `station plan --json` (schema station.plan/1)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from station.records.run import PlanName
 
 
 class PredictedSd(Record):
-    """Standard uncertainty of the position at one place of the workspace."""
+    """Standard uncertainty of the position at one point of the workspace."""
 
     x_mm: float
     y_mm: float
@@ -20,19 +20,20 @@ class PredictedSd(Record):
 
 
 class PlanPrediction(Record):
-    """The accuracy that a plan promises, by specification."""
+    """The predicted accuracy of a plan, by specification."""
 
     zero_offset_sd_deg: tuple[float, float]
     common_sd_deg: float
-    """Of both zero offsets together."""
+    """Standard uncertainty of the common mode of both zero offsets."""
     position_error_mm: PositionError
     bound_95_mm: float
-    """With 95 % probability no position error is larger, of a machine within the tolerances that gets its
-    zeros into the drives and nothing else."""
+    """With 95 % probability no position error is larger, for a machine within the tolerances whose drives get
+    the zeros and nothing else.
+    """
     duration_s: float | None = None
-    """Of all stops at the station's own speeds, in real time, without the fresh readings that verify."""
+    """Duration of all stops at the station's speeds, in real time, without the verification."""
     travel_deg: float | None = None
-    """Of the joint that goes further, summed over the stops."""
+    """Motion of the joint with the longer one, summed over the stops."""
     map: tuple[PredictedSd, ...]
 
 

@@ -10,11 +10,11 @@ from station.errors import InputRefused
 from station.records.foreign_numbers import has_value
 
 ROTATION = 1e-2
-"""How far a printed rotation matrix may be from an orthonormal one."""
+"""Maximum deviation of a printed rotation matrix from an orthonormal one."""
 
 
 def position_columns(cells: Sequence[Sequence[str]], where: str) -> tuple[int, int, int]:
-    """Which of 12 or 16 columns are x, y and z.  :raises InputRefused: they are not the parts of a pose."""
+    """Which of 12 or 16 columns are x, y and z.  :raises InputRefused: they do not form a pose."""
     try:
         values = np.array([[float(c) if has_value(c) else np.nan for c in column] for column in cells]).T
     except ValueError:

@@ -1,4 +1,4 @@
-"""What a run does, step by step, as a generator."""
+"""The steps of a run, as a generator."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from station.records.result import CalibrationResult
 from station.records.run import Step
 
 Procedure = Generator[Step, Any, CalibrationResult]
-"""Yields steps and is sent what each came to: readings of a sequence, shifts of the zeros, the distance back.
+"""Yields steps and receives the result of each: readings of a sequence, shifts of zeros, the distance back.
 
-An error in a step is raised where it was yielded, so that the procedure may still put something right.
-A procedure never touches a device: the orchestrator moves, stores and sends.
+An error in a step is raised where it was yielded, so that the procedure may still recover. A procedure never
+uses a device: the orchestrator moves, stores and sends.
 """

@@ -1,4 +1,4 @@
-"""What a run in state `waiting` asks of a person."""
+"""The question of a run in state `waiting` to a person."""
 
 from __future__ import annotations
 
@@ -12,10 +12,10 @@ class Prompt(Record):
     """A question with a time limit."""
 
     id: str
-    """To be given with the answer."""
+    """Identifier to return with the answer."""
     text: str
     kind: PromptKind
-    """Whether a number is asked for."""
+    """Whether a number is requested."""
     unit: str | None
     expires_at: datetime
-    """Without an answer the run ends then."""
+    """Without an answer the run ends at this time."""

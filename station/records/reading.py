@@ -1,4 +1,4 @@
-"""One reading as the store and the procedures hold it."""
+"""One reading in the store and in procedures."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """One row of contract.md's measurement file, plus the raw samples behind it."""
+    """One row of contract.md's measurement file, and the raw samples of it."""
 
     reading: int
     """Unique within its calibration, from 1."""

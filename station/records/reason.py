@@ -1,4 +1,4 @@
-"""Why a run ended as it did: a code with parameters, and the sentence in English."""
+"""Why a run ended with its outcome: a code with parameters, and the sentence in English."""
 
 from __future__ import annotations
 
@@ -15,24 +15,24 @@ ReasonValue = float | int | str | Phrase
 
 
 class Reason(Record):
-    """`code` is one of the reasons in `station.messages`; other languages say it from the same parameters."""
+    """`code` is one of the reasons in `station.messages`; other languages use the same parameters."""
 
     code: str
     params: Annotated[dict[str, ReasonValue], Field(default_factory=dict)]
 
     @property
     def text(self) -> str:
-        """In English."""
+        """The sentence in English."""
         return reason_in(self.code, self.params, "en")
 
 
 def reason_in(code: str, params: Mapping[str, ReasonValue], language: Language) -> str:
-    """The sentence in a language.  :raises KeyError: an unknown code, or a parameter that is missing."""
+    """The sentence in a language.  :raises KeyError: the code is unknown, or a parameter is missing."""
     plain = {name: p.text(language) if isinstance(p, Phrase) else p for name, p in params.items()}
     return reason_text(code, plain, language)
 
 
 def because(code: str, **params: ReasonValue) -> Reason:
-    """A reason; its sentence is made at once, so that a missing parameter is found where it is missing."""
+    """A reason; its sentence is made at once, so that a missing parameter is detected at its origin."""
     reason_in(code, params, "en")
     return Reason(code=code, params=params)

@@ -13,7 +13,7 @@ from pydantic_core import CoreSchema
 
 
 def field_docstrings(model: type[BaseModel]) -> dict[str, str]:
-    """The text below each field of a model of ours and of its bases, by name."""
+    """The docstring below each field of one of our models and of its bases, by name."""
     found = {}
     for base in reversed(model.__mro__):
         if base is BaseModel or not issubclass(base, BaseModel):
@@ -28,7 +28,7 @@ def field_docstrings(model: type[BaseModel]) -> dict[str, str]:
 
 
 class Record(BaseModel):
-    """Immutable.  A field is always there, null when nothing is known; a docstring below it describes it."""
+    """Immutable. A field is always present, null if unknown; a docstring below it describes it."""
 
     model_config = ConfigDict(
         frozen=True,
@@ -42,7 +42,7 @@ class Record(BaseModel):
     def __get_pydantic_json_schema__(
         cls, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
-        # Docstrings are looked for only here: every command would spend a fifth of a second on them.
+        # Docstrings are read only here: otherwise every command would need a fifth of a second for them.
         document = handler(schema)
         fields = handler.resolve_ref_schema(document).get("properties", {})
         for name, text in field_docstrings(cls).items():

@@ -1,6 +1,6 @@
-"""References: one cheap look from outside that is worth more than many readings.
+"""References: single external measurements, each worth more than many readings.
 
-Each measures one unknown of the model, with an uncertainty of its own.
+Each measures one unknown of the model, with its own uncertainty.
 """
 
 from __future__ import annotations
@@ -16,40 +16,40 @@ from station.records.study_design import StudyDesign
 
 
 class JointAngle(Section):
-    """The angle of a proximal link, seen by an instrument in the robot's frame while the drive stands."""
+    """The angle of a proximal link, measured in the robot's frame at standstill of the drive."""
 
     kind: Literal["joint_angle"] = "joint_angle"
     joint: Literal[1, 2]
     at_deg: Finite
-    """What the drive's feedback says at that moment."""
+    """Feedback of the drive at that moment."""
     reads_deg: Finite
-    """What the instrument says."""
+    """Reading of the instrument."""
     sd_deg: Positive
     """Standard uncertainty of the instrument, its alignment included."""
 
     @property
     def unit(self) -> str:
-        """Of what is measured."""
+        """Unit of the measured quantity."""
         return "deg"
 
     @property
     def parameter(self) -> str:
-        """The unknown that is measured."""
+        """The measured unknown."""
         return f"dtheta{self.joint}"
 
     @property
     def offset_deg(self) -> float:
-        """The zero offset as seen: actual less nominal angle, within half a turn."""
+        """The measured zero offset: actual less nominal angle, within half a turn."""
         return math.remainder(self.reads_deg - self.at_deg, 360.0)
 
     @property
     def words(self) -> str:
-        """For people."""
+        """The reference in words."""
         return f"joint {self.joint} at {self.at_deg:g} deg reads {self.reads_deg:g} deg"
 
 
 class MountingError(Section):
-    """An error of the mechanism's mounting (MAEMM), measured: of c + d, sideways or in height."""
+    """A measured error of the mechanism's mounting (MAEMM): of c + d, sideways or in height."""
 
     kind: Literal["drm_x", "drm_y"]
     """Sideways or in height."""
@@ -60,17 +60,17 @@ class MountingError(Section):
 
     @property
     def unit(self) -> str:
-        """Of what is measured."""
+        """Unit of the measured quantity."""
         return "mm"
 
     @property
     def parameter(self) -> str:
-        """The unknown that is measured."""
+        """The measured unknown."""
         return {"drm_x": "rMx", "drm_y": "rMy"}[self.kind]
 
     @property
     def words(self) -> str:
-        """For people."""
+        """The reference in words."""
         return f"{self.kind} = {self.value_mm:g} mm"
 
 
@@ -78,7 +78,7 @@ AnyReference = Annotated[JointAngle | MountingError, Field(discriminator="kind")
 
 
 class Asked(Record):
-    """What a start request says of accuracy, references and a gauge study."""
+    """Accuracy, references and gauge study of a start request."""
 
     references: tuple[AnyReference, ...] = ()
     until_mm: float | None = None
@@ -87,14 +87,15 @@ class Asked(Record):
 
 
 class ReferenceUse(Record):
-    """A reference that took part in a fit, and how well everything else agrees with it."""
+    """A reference that was used in a fit, and how well all other data agree with it."""
 
     reference: AnyReference
     residual: float | None = None
-    """Reference less what everything else says, in the unit of the parameter; null when nothing else says
-    anything of it."""
+    """Reference less the value from all other data, in the unit of the parameter; null if the other data do
+    not determine it.
+    """
     sd: float | None = None
     """Standard uncertainty of that difference."""
     unit: str
     p_value: float | None = None
-    """Of a difference that large, if both are right; null where that was not judged."""
+    """p-value of that difference, if both are correct; null if it was not tested."""

@@ -1,4 +1,4 @@
-"""What a passed run leaves to the robot's next one."""
+"""Data that a passed run leaves to the robot's next one."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from station.records.result import FleetPrior, LastingParameters
 
 
 class MemorySummary(Record):
-    """What the robot's next run will start from."""
+    """The start values of the robot's next run."""
 
     from_calibration: int
     at: datetime
@@ -22,21 +22,21 @@ class MemorySummary(Record):
 
 @dataclass(frozen=True, slots=True)
 class Remembered:
-    """What a passed run left to the robot's next one."""
+    """Data that a passed run left to the robot's next one."""
 
     calibration_id: int
     at: datetime
     memory: LastingParameters
     as_of: datetime | None = None
-    """When a run uses it; None is now."""
+    """Time at which a run uses it; None is now."""
 
     @property
     def age_days(self) -> float:
-        """Never negative, also when the clock was set back."""
+        """Never negative, even if the clock was set back."""
         return max(((self.as_of or datetime.now(UTC)) - self.at).total_seconds(), 0.0) / 86_400.0
 
     def summary(self) -> MemorySummary:
-        """For people: where it comes from, its age, what is known."""
+        """Source, age and content, for people."""
         variances = [row[i] for i, row in enumerate(self.memory.covariance)]
         return MemorySummary(
             from_calibration=self.calibration_id,
@@ -50,4 +50,4 @@ class Remembered:
 
 
 Beforehand = Remembered | FleetPrior
-"""What is known of a robot before a run: what its own runs left, else what others of its type show."""
+"""Knowledge of a robot before a run: from its own runs, otherwise from others of its type."""

@@ -1,4 +1,4 @@
-"""The residuals of a result, one row a reading."""
+"""The residuals of a result, one row per reading."""
 
 from __future__ import annotations
 

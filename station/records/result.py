@@ -1,4 +1,4 @@
-"""What a run ends with: its numbers, its verdict and the reason of it."""
+"""The result of a run: its numbers, its verdict and the reason for it."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ Outcome = Literal[
     "aborted",
     "interrupted",
 ]
-"""What the robot's owner has to do: use it, repair it, decide, look further, measure again."""
+"""Next action for the robot's owner: use it, repair it, decide, investigate further, measure again."""
 
 
 class ZeroOffset(Record):
@@ -38,17 +38,17 @@ class ZeroOffset(Record):
 
 
 class Accuracy(Record):
-    """How well the robot positions, before or after; of a diagnosis, without its effects or with them."""
+    """Position accuracy of the robot, before or after; for a diagnosis, without its effects or with them."""
 
     reading_rms_mm: float | None = None
     fresh_reading_rms_mm: float | None = None
-    """Of readings that took no part in the fit."""
+    """RMS of readings that were not used in the fit."""
     fresh_reading_max_mm: float | None = None
     predicted_position_error_mm: PositionError | None = None
 
 
 class Residual(Record):
-    """Measured less predicted, of one reading."""
+    """Residual of one reading: measured less predicted."""
 
     reading: int
     position: str | None = None
@@ -69,109 +69,109 @@ class Iteration(Record):
 
 
 class MemoryUse(Record):
-    """Whether what earlier runs know of geometry and mechanism took part."""
+    """Whether the knowledge of geometry and mechanism from earlier runs was used."""
 
     used: bool
     p_value: float | None = None
-    """Of the readings under the memory."""
+    """p-value of the readings under the memory."""
     text: str
     from_calibration: int
     age_days: float | None = None
 
 
 class FleetPrior(Record):
-    """Geometry of a robot as others of its type let expect it, before it is measured: mm and mm^2."""
+    """Expected geometry of a robot from others of its type, before it is measured: mm and mm^2."""
 
     type: str
-    """As the robot files name it."""
+    """Type as in the robot files."""
     serials: tuple[str, ...]
-    """Of those others."""
+    """Serials of those others."""
     names: tuple[str, ...]
     mean: tuple[float, ...]
     covariance: tuple[tuple[float, ...], ...]
 
     @property
     def age_days(self) -> float:
-        """It is made when a run begins."""
+        """Age; the prior is made when a run begins."""
         return 0.0
 
 
 class FleetUse(Record):
-    """Whether what other robots of the type showed took part."""
+    """Whether the prior from other robots of the type was used."""
 
     used: bool
     p_value: float | None = None
-    """Of the readings under that prior."""
+    """p-value of the readings under that prior."""
     text: str
     prior: FleetPrior
 
 
 class CheckFound(Record):
-    """How small a shift of the zeros a check would have found, and what it found."""
+    """The smallest shift of the zeros that a check detects, and the shift found."""
 
     smallest_shift_deg: float
-    """A shift of either zero of this size is found with 99 % probability."""
+    """A shift of either zero of this size is detected with 99 % probability."""
     smallest_by_joint_deg: tuple[float, float]
     shift_deg: tuple[float, float]
     """The shift of each zero that explains the readings best."""
     p_value: float
-    """Of the readings, if nothing has changed."""
+    """p-value of the readings, if nothing has changed."""
     blind: str
-    """The direction of both zeros together in which a shift shows least."""
+    """The direction of both zeros together in which a shift has the smallest effect."""
     blind_shift_deg: float
-    """The shift that is found along it."""
+    """The smallest shift detected along it."""
     valid_until: datetime | None = None
-    """Until when the check holds; null when it failed."""
+    """End of the check's validity; null if it failed."""
 
 
 class LastingParameters(Record):
-    """What a pass leaves to the robot's next run: geometry and mechanism, mm and mm^2."""
+    """Data that a pass leaves to the robot's next run: geometry and mechanism, mm and mm^2."""
 
     names: tuple[str, ...]
     mean: tuple[float, ...]
     covariance: tuple[tuple[float, ...], ...]
     references: tuple[MountingError, ...] = ()
-    """Measurements of the mounting that took part."""
+    """Measurements of the mounting that were used."""
     noise_ratio: float = 1.0
-    """Noise of a reading over its specification, as repeats showed it."""
+    """Noise of a reading over its specification, from the repeats."""
     fleet: FleetPrior | None = None
-    """What other robots had told before this one was measured first; null for its tolerances alone."""
+    """Prior from other robots before this one was first measured; null if only its tolerances were used."""
 
 
 class ResultParts(Record):
-    """What is kept of a result beside its verdict and zero offsets."""
+    """Stored data of a result beside its verdict and zero offsets."""
 
     method: str | None = None
     parameters: tuple[Quantity, ...] = ()
-    """Every identified parameter but the zero offsets."""
+    """Every identified parameter except the zero offsets."""
     weak_direction: WeakDirection | None = None
     before: Accuracy | None = None
-    """With no compensation."""
+    """Accuracy without compensation."""
     after: Accuracy | None = None
-    """With the identified offsets applied."""
+    """Accuracy with the identified offsets applied."""
     accuracy: AccuracyReached | None = None
-    """What is promised of positions, beside what was wanted; null where no offsets were identified."""
+    """Predicted position accuracy, with the required one; null if no offsets were identified."""
     advice: tuple[Advice, ...] = ()
-    """What would help most, by gain per minute; only what helps."""
+    """The most effective measures, by gain per minute; only those with a benefit."""
     check: CheckFound | None = None
-    """Of a check."""
+    """Result of a check."""
     iterations: tuple[Iteration, ...] = ()
     residuals: tuple[Residual, ...] = ()
-    """Of the readings of the fit."""
+    """Residuals of the readings of the fit."""
     memory: MemoryUse | None = None
-    """Null when nothing was known of this robot before."""
+    """Null if there was no knowledge of this robot before."""
     fleet: FleetUse | None = None
-    """Null when this robot was known, or no others of its type were."""
+    """Null if there was knowledge of this robot, or of no others of its type."""
     references: tuple[ReferenceUse, ...] = ()
-    """What other instruments measured, and how well it agrees with the rest."""
+    """References from other instruments, and how well they agree with the other data."""
     lack_of_fit: str | None = None
-    """What the model does not account for; null when it fits or none was judged."""
+    """The misfit of the model; null if it fits or was not tested."""
     findings: tuple[Finding, ...] = ()
     """Effects that the model lacked, strongest first."""
 
 
 class CalibrationResult(ResultParts):
-    """What a run ends with.  `verdict` is "pass" only when every check passed on finite numbers."""
+    """The end result of a run. `verdict` is "pass" only if every check passed on finite numbers."""
 
     verdict: Verdict
     outcome: Outcome
@@ -180,4 +180,4 @@ class CalibrationResult(ResultParts):
     """dtheta1, dtheta2 in deg."""
     lasting: LastingParameters | None = None
     diagnosis: DiagnosisDocument | None = None
-    """The whole document; None when none was asked for."""
+    """The whole document; None if none was requested."""

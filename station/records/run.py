@@ -1,6 +1,6 @@
-"""A run: its state, what was asked for, and the steps that its procedure takes.
+"""A run: its state, its request, and the steps of its procedure.
 
-Records carry ids and units in their names; nothing is matched by order.
+Records have ids, and units in their names; nothing is matched by order.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from station.records.study_design import StudyDesign
 
 
 class State(StrEnum):
-    """Of a calibration run."""
+    """State of a calibration run."""
 
     QUEUED = "queued"
     RUNNING = "running"
@@ -38,41 +38,41 @@ PlanName = str
 """A name of `station.plans.PLANS`."""
 
 _LABELS = {"separate": "separating", "import": "dataset"}
-"""Kinds of run whose `plan` had another name before kinds had names."""
+"""Kinds of runs whose `plan` had another name before kinds had names."""
 
 
 @dataclass(frozen=True, slots=True)
 class CalibrationRequest:
-    """What the operator or the MES asks for."""
+    """A request of the operator or the MES."""
 
     robot_serial: str
     kind: str
-    """What the run is to do: a name of `station.run_kinds`."""
+    """Kind of run: a name of `station.run_kinds`."""
     operator: str
     plan: PlanName | None = None
-    """Of a run that measures by a plan; else None."""
+    """Plan of a run that measures by one; otherwise None."""
     work_order: str | None = None
     metadata: dict[str, Any] = field(default_factory=dict)
     of: int | None = None
-    """The earlier run that this one is about or continues; else None."""
+    """The earlier run that this one refers to or continues; otherwise None."""
     references: tuple[AnyReference, ...] = ()
-    """What other instruments say, for this run."""
+    """References from other instruments, for this run."""
     until_mm: float | None = None
     """Bound on the largest position error at which plan `adaptive` ends."""
     accuracy_mm: float | None = None
-    """Largest position error that is wanted."""
+    """Required accuracy: largest position error."""
     study: StudyDesign | None = None
-    """How often plan `gauge_study` calibrates; None: as usual."""
+    """Design of plan `gauge_study`; None: the default."""
 
     @property
     def label(self) -> str:
-        """What REST and the store show as `plan`, also of a run that measures by none."""
+        """Value of `plan` in REST and the store, also for a run without a plan."""
         return self.plan or _LABELS.get(self.kind, self.kind)
 
 
 @dataclass(frozen=True, slots=True)
 class Submitted:
-    """What a request came to; `created` is False when its idempotency key had been used before."""
+    """The result of a request; `created` is False if its idempotency key had been used before."""
 
     id: int
     created: bool
@@ -80,16 +80,16 @@ class Submitted:
 
 @dataclass(frozen=True, slots=True)
 class Stop:
-    """One place to measure at."""
+    """One position to measure."""
 
     position: str
-    """Label of the place; stops that share it are repeats or other approaches of one place."""
+    """Label of the position; stops that share it are repeats or other approaches of one position."""
     target_mm: tuple[float, float]
-    """Where P is meant to be, mm in O-xy."""
+    """Target position of P, mm in O-xy."""
     theta_deg: tuple[float, float]
     """Joint commands in the drives' nominal frame, compensation already subtracted."""
     approach: tuple[int, int] = (0, 0)
-    """Wanted sign of each joint's last motion; 0 leaves it to the way there."""
+    """Requested sign of each joint's last motion; 0 accepts that of the motion there."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,36 +97,36 @@ class MeasurementSequence:
     """A sequence of stops to be measured in this order."""
 
     title: str
-    """In the operator's words, e.g. "Measuring, pass 2"."""
+    """Title for the operator, e.g. "Measuring, pass 2"."""
     number: int
     """1, 2, ...; stored with each of its readings."""
     stops: tuple[Stop, ...]
     mount: str | None = None
-    """Where the mechanism is mounted; None: at the robot file's `c`."""
+    """Mounting point of the mechanism; None: at the robot file's `c`."""
     last: bool = False
-    """Whether nothing is measured after it, as far as can be known."""
+    """Whether it is the last measurement, as far as known."""
 
 
 @dataclass(frozen=True, slots=True)
 class Ask:
-    """Something that only a person can do or see; answered with the number, None where none was asked for."""
+    """A task that only a person can do; the answer is the number, None if none was requested."""
 
     title: str
     number: int
     text: str
-    """What to do, in words."""
+    """The task, in words."""
     kind: PromptKind
     unit: str | None = None
     low: float = -math.inf
-    """Smallest number that can be."""
+    """Smallest possible number."""
     high: float = math.inf
     mounted_at: tuple[float, float] | None = None
-    """Where the mechanism is mounted once this is confirmed, mm."""
+    """Mounting point of the mechanism once this is confirmed, mm."""
     mounting: int = 0
-    """1, 2, ... where it is mounted there once more: each time it has an error of its own."""
+    """1, 2, ... if it is remounted there: each mounting has a separate error."""
 
     def checked(self, value: float | None) -> float | None:
-        """An answer that can be.  :raises FieldRefused: it is missing, or no such number can be."""
+        """The answer, validated. :raises FieldRefused: it is missing, or the number is impossible."""
         if self.kind == "confirm":
             return None
         if value is None:
@@ -141,26 +141,26 @@ class Ask:
 
 @dataclass(frozen=True, slots=True)
 class SetZeros:
-    """Drives to be given new zeros; answered with the shift (2) of their frames since run `of`, deg."""
+    """New zeros for the drives; the answer is the shift (2) of their frames since run `of`, deg."""
 
     title: str
     number: int
     of: int
-    """The run in whose frame the offsets are meant."""
+    """The run whose frame the offsets refer to."""
     offsets_deg: tuple[float, float]
-    """Zero offset of each joint to be taken out, actual minus nominal angle; 0 puts the old zero back."""
+    """Zero offset of each joint to be taken out, actual minus nominal angle; 0 restores the old zero."""
 
 
 @dataclass(frozen=True, slots=True)
 class Retract:
-    """The arm to be brought back into the workspace; answered with how far outside it stood, mm."""
+    """Return of the arm into the workspace; the answer is how far outside it was, mm."""
 
     title: str
     number: int
 
 
 Step = MeasurementSequence | SetZeros | Retract | Ask
-"""What a procedure may ask for."""
+"""The possible steps of a procedure."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -172,17 +172,17 @@ class ZeroWrite:
     of: int
     joint: int
     offset_deg: float
-    """What it was to take out, see `SetZeros`."""
+    """The offset to be taken out, see `SetZeros`."""
     from_deg: float
-    """Feedback before, in the frame until then."""
+    """Feedback before, in the previous frame."""
     to_deg: float | None
     """Feedback read back."""
     taken: bool | None
-    """None: the drive may or may not have taken it."""
+    """None: it is unknown whether the drive accepted it."""
 
     @property
     def shift_deg(self) -> float | None:
-        """None while it is not known."""
+        """None while unknown."""
         if self.taken and self.to_deg is not None:
             return self.from_deg - self.to_deg
         return None if self.taken is None else 0.0

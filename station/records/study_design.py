@@ -1,4 +1,4 @@
-"""How many times a gauge study calibrates the same robot."""
+"""The number of calibrations of one robot in a gauge study."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ class StudyDesign(Section):
 
     operators: Times = 3
     mountings: Times = 2
-    """Of each operator."""
+    """Mountings of each operator."""
     repeats: Times = 2
     """Calibrations with each mounting."""
 
@@ -25,7 +25,7 @@ class StudyDesign(Section):
         return self.operators * self.mountings
 
     def operator_of(self, mounting: int) -> int:
-        """The operator 1, 2, ... of mounting 0, 1, ...: they take turns, so that a drift belongs to none."""
+        """The operator 1, 2, ... of mounting 0, 1, ...: in turn, so that a drift affects all equally."""
         return mounting % self.operators + 1
 
     def sequence_of(self, mounting: int, repeat: int) -> int:

@@ -1,4 +1,4 @@
-"""Joint positions that somebody has taught, and what becomes of them under new zeros."""
+"""Taught joint positions, and their translation to new zeros."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ COLUMNS = ("position", "theta1_deg", "theta2_deg")
 
 
 class TaughtPosition(Section):
-    """One position as the robot's controller keeps it."""
+    """One position as stored in the robot's controller."""
 
     position: str
     theta1_deg: Finite
@@ -31,14 +31,15 @@ class TranslatedPosition(Record):
     theta1_deg: float
     theta2_deg: float
     u95_mm: float | None
-    """With 95 % probability the platform stands within this of where it stood; null where the linkage cannot
-    close."""
+    """With 95 % probability the platform is within this of its earlier position; null if the linkage cannot
+    close.
+    """
     within_limits: bool
     """False near a limit of the workspace or of a joint, or where the distal links are nearly in line."""
 
 
 def read_taught(text: str, source: str) -> tuple[TaughtPosition, ...]:
-    """A CSV of positions; other columns are left out.  :raises InputRefused: with row and column."""
+    """Positions from a CSV file; other columns are ignored. :raises InputRefused: with row and column."""
     rows = csv.DictReader(io.StringIO(text.removeprefix("\ufeff")))
     missing = [name for name in COLUMNS if name not in (rows.fieldnames or ())]
     if missing:
@@ -57,7 +58,7 @@ def read_taught(text: str, source: str) -> tuple[TaughtPosition, ...]:
 
 
 def translated_to_csv(positions: Sequence[TranslatedPosition]) -> str:
-    """The same columns, and what is said of each."""
+    """The same columns, with the results for each position."""
     out = io.StringIO()
     writer = csv.writer(out, lineterminator="\n")
     writer.writerow([*COLUMNS, "u95_mm", "within_limits"])

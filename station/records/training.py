@@ -1,4 +1,4 @@
-"""Exercises at the training desk: what was wrong with the emulated machine, and what the station said."""
+"""Exercises at the training desk: the error of the emulated machine, and the station's finding."""
 
 from __future__ import annotations
 
@@ -11,13 +11,13 @@ from station.records.result import Outcome, Verdict
 from station.records.run import State
 
 ChallengeGroup = Literal["catalogue", "unnamed", "fault"]
-"""An effect that the diagnosis knows, one that it does not know, a fault of a device or a line."""
+"""An effect in the diagnosis's catalogue, one outside it, or a fault of a device or a line."""
 Score = Literal["found", "partly", "noticed", "wrong", "missed", "withstood"]
 """See `Exercise.score`."""
 
 
 class Challenge(Record):
-    """Something that can be wrong with the emulated machine."""
+    """A possible error of the emulated machine."""
 
     kind: str
     group: ChallengeGroup
@@ -51,7 +51,7 @@ class Said(Record):
 
 
 class Exercise(Record):
-    """One machine that something is wrong with."""
+    """One machine with an error."""
 
     n: int
     unseen: bool = Field(description="drawn by the station")
@@ -62,15 +62,16 @@ class Exercise(Record):
     repaired: bool
     said: Said | None = Field(description="null until a run of this exercise has ended")
     score: Score | None
-    """`found`: named, alone or with what cannot be distinguished from it; an error without a name is found
-    when the residual is not accounted for and no cause is confirmed; a fault, when the run failed and names
-    the device.  `partly`: something else is named beside it, or it is a possible explanation only.
-    `noticed`: no pass, without the cause.  `wrong`: another cause is named.  `missed`: passed as good.
-    `withstood`: a fault that the run got over."""
+    """`found`: named, alone or with causes that cannot be distinguished from it; an unnamed error is found if
+    the residual is not accounted for and no cause is confirmed; a fault, if the run failed and names the
+    device. `partly`: another cause is named as well, or it is only a possible explanation. `noticed`: no
+    pass, without the cause. `wrong`: another cause is named. `missed`: passed as good. `withstood`: a fault
+    that did not prevent the run.
+    """
 
 
 class TrainingView(Record):
-    """The desk at this moment."""
+    """The current state of the desk."""
 
     challenges: tuple[Challenge, ...]
     current: Exercise | None

@@ -1,4 +1,4 @@
-"""A foreign file in the contract's form, by its column map."""
+"""Conversion of a foreign file to the contract's form, by its column map."""
 
 from __future__ import annotations
 
@@ -18,32 +18,32 @@ from station.records.pose_matrix import position_columns
 from station.records.units import TO_CONTRACT, Unit
 
 POSE = "pose"
-"""In a map: the 12 or 16 numbers of a pose matrix, of which the position counts."""
+"""In a map: the 12 or 16 numbers of a pose matrix, of which the position is used."""
 CLOCKS = (
     "%d.%m.%Y %H:%M:%S.%f", "%d.%m.%Y %H:%M:%S", "%Y/%m/%d %H:%M:%S.%f", "%Y/%m/%d %H:%M:%S", "%H:%M:%S.%f",
     "%H:%M:%S",
 )  # fmt: skip
-"""Ways to write a time, beside those of ISO 8601."""
+"""Time formats, beside those of ISO 8601."""
 T = TypeVar("T")
 Cells = dict[str, list[str]]
-"""By the contract's name of the column."""
+"""Cells by the contract's name of the column."""
 
 
 @dataclass(frozen=True)
 class Translated:
-    """What is left to be read as any measurement file."""
+    """The converted file, to be read like any measurement file."""
 
     content: bytes
     names: tuple[str, ...]
-    """Of its columns."""
+    """Names of its columns."""
     lost: int
-    """Readings that are left out because the instrument had lost its target."""
+    """Readings that are excluded because the instrument had lost its target."""
 
 
 def translated(content: bytes, mapping: ColumnMap | None, columns: Columns, source: str) -> Translated:
-    """The file as the contract has it; every row stays on its line, so that a refusal names it.
+    """The file in the contract's form; every row retains its line number for refusals.
 
-    :raises InputRefused: not a table, a column that is not there, a cell that is no number.
+    :raises InputRefused: the file is not a table, a column is missing, or a cell is not a number.
     """
     m = mapping or ColumnMap()
     table = read_foreign(
@@ -63,7 +63,7 @@ def translated(content: bytes, mapping: ColumnMap | None, columns: Columns, sour
 
 
 def _at_points(cells: Cells, points: Sequence[Cells]) -> list[Cells]:
-    """All columns of each point that was measured; every reading has an id of its own."""
+    """All columns of each measured point; every reading has a separate id."""
     return [
         {
             **cells,
@@ -100,7 +100,7 @@ def _written(
 
 
 def _lost(position: list[str], missing: list[float] | None) -> bool:
-    """Whether a row has at its position what stands for none."""
+    """Whether the position of a row contains the value for a missing one."""
     if not all(map(has_value, position)):
         return True
     try:
@@ -111,7 +111,7 @@ def _lost(position: list[str], missing: list[float] | None) -> bool:
 
 
 def _cells(table: ForeignTable, name: str, given: Source | Group, columns: Columns) -> list[Cells]:
-    """One column of the contract, or all of a group; several where several points were measured."""
+    """One column of the contract, or all of a group; several if several points were measured."""
     groups = {"theta_deg": columns.theta, "approach": columns.approach, "tracker_mm": columns.tracker}
     known = (*columns.required, *columns.optional)
     where = f"{table.source}: [columns.{name}]"
@@ -178,7 +178,7 @@ def _group(table: ForeignTable, where: str, own: Sequence[str], given: FromColum
 
 
 def _each(given: T | Sequence[T], count: int, where: str) -> Sequence[T]:
-    """One for each column."""
+    """One item for each column."""
     if isinstance(given, str) or not isinstance(given, Sequence):
         return [given] * count
     if len(given) != count:
@@ -233,7 +233,7 @@ def _number(table: ForeignTable, name: str, k: int, cell: str) -> float:
 
 
 def seconds(table: ForeignTable, cells: list[str], scale: float) -> list[str]:
-    """Since the first row, of numbers or of dates with times."""
+    """Seconds since the first row, from numbers or from dates with times."""
     try:
         times = [float(cell) * scale for cell in cells]
     except ValueError:

@@ -1,4 +1,4 @@
-"""One run, or one effect that it found, as a point of a trend."""
+"""One run, or one effect found by it, as a point of a trend."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from station.records.run import State
 
 
 class TrendPoint(Record):
-    """What a finished run found, and how it ended."""
+    """Result and end of a finished run."""
 
     id: int
     uid: str
@@ -27,13 +27,13 @@ class TrendPoint(Record):
     dtheta2_deg: float | None = None
     dtheta2_sd_deg: float | None = None
     position_error_mm: float | None = None
-    """95 % bound of the largest position error, of runs that fresh readings verified; null for others."""
+    """95 % bound of the largest position error, for runs that fresh readings verified; null for others."""
     software: str | None = None
-    """Version that measured; null where it was not recorded."""
+    """Software version of the measurement; null if not recorded."""
 
 
 class EffectPoint(Record):
-    """The size of one effect that a finished run found: the first of its parameters."""
+    """The size of one effect found by a finished run: the first of its parameters."""
 
     run: int
     effect: str

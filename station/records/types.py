@@ -20,4 +20,4 @@ Flags = NDArray[np.bool_]
 
 
 LARGEST_ID = 2**63 - 1
-"""SQLite's largest row id; the database takes no larger number."""
+"""SQLite's largest row id; the database accepts no larger number."""

@@ -1,4 +1,4 @@
-"""Units of foreign files, how they are written, and what makes those of the contract of them."""
+"""Units of foreign files: their spellings, and their conversion to those of the contract."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ TO_CONTRACT: dict[str, dict[str, float]] = {
     "c": {"C": 1.0},
     "kg": {"kg": 1.0, "g": 1e-3},
 }
-"""Unit in a column's name -> factor of each unit that a file may have."""
+"""Unit in a column's name -> factor for each unit that a file may have."""
 _WRITTEN: dict[str, Unit] = {
     "deg": "deg", "degree": "deg", "degrees": "deg", "°": "deg", "grad": "deg",
     "degré": "deg", "degrés": "deg",
@@ -33,12 +33,12 @@ _AT_THE_END = re.compile(
 
 
 def unit_in(text: str) -> Unit | Literal[""]:
-    """The unit that a cell is, alone or in brackets; empty for none."""
+    """The unit in a cell, alone or in brackets; empty if there is none."""
     return _WRITTEN.get(text.strip("[](){} ").lower(), "")
 
 
 def unit_in_name(name: str) -> Unit | Literal[""]:
-    """The unit in a column's name, in brackets or at its end; empty for none."""
+    """The unit in a column's name, in brackets or at its end; empty if there is none."""
     for found in (*_IN_BRACKETS.findall(name), *_AT_THE_END.findall(name)):
         if unit := unit_in(found):
             return unit

@@ -1,4 +1,4 @@
-"""Where joints have been: the stretches in which readings lie close enough for a curve to be known there."""
+"""Visited ranges of the joints: intervals in which readings are dense enough to determine a curve."""
 
 from __future__ import annotations
 
@@ -8,14 +8,14 @@ from station.records.types import Real
 
 CELL_RAD = np.radians(5.0)
 FEWEST = 3
-"""Readings in a cell."""
+"""Minimum number of readings in a cell."""
 
 Stretches = list[tuple[float, float]]
-"""Of one joint, ascending, rad."""
+"""Intervals of one joint, ascending, rad."""
 
 
 def visited_ranges(theta: Real) -> list[Stretches]:
-    """The stretches of each joint of theta (K, n), rad: neighbouring cells with enough readings as one."""
+    """The intervals of each joint of theta (K, n), rad: neighbouring cells with readings are joined."""
     return [_stretches(angle) for angle in theta.T]
 
 
@@ -33,7 +33,7 @@ def _stretches(angle: Real) -> Stretches:
 
 
 def inside_visited(theta: Real, stretches: list[Stretches]) -> np.ndarray:
-    """(K,) whether all joints of theta (K, n) stand where they have been."""
+    """(K,) whether all joints of theta (K, n) are within their visited ranges."""
     within = np.ones(len(theta), dtype=bool)
     for angle, own in zip(theta.T, stretches, strict=True):
         within &= np.any([(angle >= low) & (angle < high) for low, high in own], axis=0) if own else False

@@ -1,4 +1,4 @@
-"""What a wire log begins with: the station that it was recorded at."""
+"""The header of a wire log: the station that it was recorded at."""
 
 from __future__ import annotations
 
@@ -22,4 +22,4 @@ class WireHeader(Record):
     interlocks: dict[str, JsonValue] = Field(default_factory=dict)
     """`[interlocks]`, likewise."""
     speed: float
-    """How much faster than real time the machine lived."""
+    """Speed of the machine over real time."""

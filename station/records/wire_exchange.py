@@ -1,4 +1,4 @@
-"""One request on a wire with what came back, in plain words."""
+"""One request on a wire with its answer, in plain words."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from station.records.record import Record
 
 
 class WireExchange(Record):
-    """What was asked of one device, and what it answered."""
+    """A request to one device, and its answer."""
 
     at_s: float = Field(description="since the run began")
     device: Literal["scale", "drive 1", "drive 2", "line"] = Field(

@@ -1,4 +1,4 @@
-"""The files that people write: station file and robot file from their models, the measurement file's columns."""
+"""Files written by people: station file and robot file from their models, the measurement file's columns."""
 
 from __future__ import annotations
 
@@ -148,7 +148,7 @@ def _options(model: type[BaseModel]) -> str:
 
 
 def _model_of(annotation: Any) -> type[BaseModel] | None:
-    """The model that a section is made of; of a list of sections, of one."""
+    """The model of a section, or of one item in a list of sections."""
     if isinstance(annotation, type) and issubclass(annotation, BaseModel):
         return annotation
     return next((m for arg in get_args(annotation) if (m := _model_of(arg)) is not None), None)

@@ -13,12 +13,12 @@ def page(title: str, introduction: str, *parts: str) -> str:
 
 
 def section(title: str, *parts: str, level: int = 2) -> str:
-    """A heading and what follows it; empty parts are left out."""
+    """A heading and its content; empty parts are omitted."""
     return "\n".join(["", f"{'#' * level} {title}", *(part for part in parts if part)])
 
 
 def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
-    """Empty without rows."""
+    """A table; empty without rows."""
     lines = ["| " + " | ".join(_cell(cell) for cell in row) + " |" for row in rows]
     if not lines:
         return ""
@@ -27,7 +27,7 @@ def table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 
 
 def code(text: str) -> str:
-    """As it is typed."""
+    """Text in code format."""
     return f"`{text}`"
 
 

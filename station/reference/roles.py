@@ -1,4 +1,4 @@
-"""Who may call what: the table of routes and roles, from the routes themselves."""
+"""Permissions of the routes: the table of routes and roles, from the routes themselves."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ class RouteNeed:
 
 
 def route_needs() -> Iterator[RouteNeed]:
-    """Every route of the interface.  :raises LookupError: one that declares nothing, or twice."""
+    """Every route of the interface.  :raises LookupError: a route declares no permission, or two."""
     prefixed = [(module, API) for module in (*ROUTES, *PROVIDER_ROUTES, *LIVE_ROUTES)] + [
         (module, "") for module in TOP_ROUTES
     ]

@@ -1,4 +1,4 @@
-"""A report as one HTML page that needs nothing but itself."""
+"""A report as one self-contained HTML page."""
 
 from __future__ import annotations
 
@@ -11,12 +11,12 @@ from station.report.templates import environment
 from station.report.words import ENGLISH, Words
 
 LONG = 24
-"""Letters of a cell beyond which it is no number."""
+"""Length of a cell beyond which it is not a number."""
 
 
 @dataclass(frozen=True)
 class Table:
-    """Cells are texts or numbers already rounded for people."""
+    """Cells are texts or numbers already rounded for display."""
 
     columns: Sequence[str]
     rows: Sequence[Sequence[object]]
@@ -24,14 +24,14 @@ class Table:
 
     @property
     def in_words(self) -> tuple[bool, ...]:
-        """Whether a column says something at length: it stands at the left, and its lines may break."""
+        """Whether a column contains longer text: it is left-aligned, and its lines may break."""
         columns = zip(*self.rows, strict=True) if self.rows else ((),) * len(self.columns)
         return tuple(any(isinstance(c, str) and len(c) > LONG for c in cells) for cells in columns)
 
 
 @dataclass(frozen=True)
 class Chart:
-    """An SVG of `station.report.svg` and what it shows."""
+    """An SVG of `station.report.svg` and its description."""
 
     svg: Markup
     caption: str

@@ -22,7 +22,7 @@ from reportlab.platypus import Table as Grid
 from station.report.page import Page, Table
 
 Style = list[tuple[str, tuple[int, int], tuple[int, int], *tuple[Any, ...]]]
-"""As ReportLab wants it."""
+"""A ReportLab style."""
 _MARGIN = 16 * mm
 _QUIET, _LINE = HexColor("#555555"), HexColor("#bbbbbb")
 _TEXT = ParagraphStyle("text", fontName="Vera", fontSize=8.5, leading=12, spaceAfter=4)
@@ -34,7 +34,7 @@ _H2 = ParagraphStyle("h2", parent=_H1, fontSize=10.5, leading=14, spaceBefore=8)
 
 
 def pdf_of(page: Page) -> bytes:
-    """The same bytes for the same page."""
+    """The PDF; the same bytes for the same page."""
     folder = Path(reportlab.__file__).parent / "fonts"
     for name, file in (("Vera", "Vera.ttf"), ("VeraBd", "VeraBd.ttf")):
         pdfmetrics.registerFont(TTFont(name, folder / file))

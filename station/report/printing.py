@@ -6,8 +6,8 @@ from station.report.page import Page
 
 
 def as_pdf(page: Page) -> bytes:
-    """Without the charts."""
-    # here, because the library takes a second to load and few ask for it
+    """The report without the charts."""
+    # imported here, because the library takes a second to load and is rarely needed
     from station.report.pdf import pdf_of
 
     return pdf_of(page)

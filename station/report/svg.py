@@ -1,6 +1,6 @@
 """Small charts as inline SVG: lines, points, bars, with axes, units and a legend.
 
-Colours are Okabe and Ito's, which the colour-blind tell apart; lines differ in dash as well.
+Colours are Okabe and Ito's, which colour-blind readers can distinguish; lines differ in dash as well.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ WIDTH, HEIGHT = 560, 320
 LEFT, RIGHT, TOP, BOTTOM = 64, 12, 12, 46
 TICKS = 6
 FEW = 60
-"""Points up to which those of a line are marked."""
+"""Up to this number the points of a line are marked."""
 LARGEST_DISC = 11.0
 """Radius, px."""
 
@@ -37,14 +37,14 @@ class Series:
     low: Sequence[float] | None = None
     high: Sequence[float] | None = None
     points_only: bool = False
-    """In a chart of lines: drawn as points."""
+    """In a chart of lines: drawn as points only."""
     like: int | None = None
-    """Number of the series whose colour and dash it shares; it is a part of that one."""
+    """Number of the series whose colour and dash it shares, being a part of that one."""
 
 
 @dataclass(frozen=True)
 class _Axis:
-    """From values to pixels."""
+    """Conversion from values to pixels."""
 
     first: float
     last: float
@@ -72,7 +72,7 @@ class _Axis:
 def line(
     series: Sequence[Series], x_label: str, y_label: str, *, log_y: bool = False, words: Words = ENGLISH
 ) -> Markup:
-    """Points joined in their order, with a band where `low` and `high` are given."""
+    """Points joined in order, with a band if `low` and `high` are given."""
     return _chart("line", series, x_label, y_label, log_y, words)
 
 
@@ -85,14 +85,14 @@ def scatter(
     x_names: Sequence[str] | None = None,
     words: Words = ENGLISH,
 ) -> Markup:
-    """Points, with whiskers where `low` and `high` are given; x_names stand at x = 0, 1, ... for numbers."""
+    """Points, with whiskers if `low` and `high` are given; x_names are labels at x = 0, 1, ..."""
     return _chart("scatter", series, x_label, y_label, log_y, words, x_names)
 
 
 def place_map(
     x: Sequence[float], y: Sequence[float], value: Sequence[float], unit: str, *, words: Words = ENGLISH
 ) -> Markup:
-    """Discs at places of the workspace (mm), their area as the size of a value, their colour its sign."""
+    """Discs at positions of the workspace (mm): area is the size of a value, colour its sign."""
     x_axis = _Axis(*_range(x, 0.08), LEFT, WIDTH - RIGHT, words=words)
     y_axis = _Axis(*_range(y, 0.12), HEIGHT - BOTTOM, TOP, words=words)
     largest = max(map(abs, value)) or 1.0
@@ -117,7 +117,7 @@ def place_map(
 
 
 def standalone(drawing: Markup) -> str:
-    """A chart as a file of its own, with the styles that a page would give it."""
+    """A chart as a separate file, with the styles that a page would supply."""
     head = (
         '<svg xmlns="http://www.w3.org/2000/svg" '
         'style="font: 12px sans-serif; background: white; fill: #222; color: #222" '
@@ -131,7 +131,7 @@ def standalone(drawing: Markup) -> str:
 
 
 def bar(categories: Sequence[str], series: Sequence[Series], y_label: str) -> Markup:
-    """One group of bars a category; the x of the series is ignored."""
+    """One group of bars for each category; the x of the series is ignored."""
     highest = max(max(s.high or s.y) for s in series)
     across = _Axis(0.0, len(categories), LEFT, WIDTH - RIGHT)
     up = _Axis(0.0, highest * 1.08 or 1.0, HEIGHT - BOTTOM, TOP)
@@ -213,7 +213,7 @@ def _render(labels: Sequence[Series], words: Words = ENGLISH, **parts: object) -
         "top": TOP,
         "bottom": HEIGHT - BOTTOM,
     }
-    # the template has escaped what it was given
+    # the template has escaped its values
     return Markup(environment().get_template("chart.svg.j2").render(legend=legend, **frame, **parts))  # noqa: S704
 
 
@@ -230,6 +230,6 @@ def _decades(values: Sequence[float]) -> tuple[float, float]:
 
 
 def _round_step(rough: float) -> float:
-    """The 1, 2 or 5 times a power of ten nearest above."""
+    """The next 1, 2 or 5 times a power of ten above."""
     power = 10.0 ** math.floor(math.log10(rough))
     return next(m * power for m in (1.0, 2.0, 5.0, 10.0) if m * power >= rough * (1 - 1e-9))

@@ -1,4 +1,4 @@
-"""The templates of a package; everything put into them is escaped."""
+"""The templates of a package; all values in them are escaped."""
 
 from __future__ import annotations
 

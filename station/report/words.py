@@ -1,4 +1,4 @@
-"""The few words of a chart and a page of their own, for whoever draws them in another language."""
+"""The few fixed words of a chart and a page, replaceable for another language."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 @dataclass(frozen=True)
 class Words:
-    """As a language says it."""
+    """The words in one language."""
 
     language: str = "en"
     decimal: str = "."
@@ -17,11 +17,11 @@ class Words:
     positive: str = "positive; largest disc {size}"
 
     def number(self, text: str) -> str:
-        """A number that is a text already."""
+        """A number that is already formatted."""
         return text.replace(".", self.decimal)
 
     def numbers(self, *texts: str) -> str:
-        """Several, with what is no decimal sign between them."""
+        """Several numbers, with a separator that is not a decimal sign."""
         return ("; " if self.decimal == "," else ", ").join(map(self.number, texts))
 
 

@@ -1,4 +1,4 @@
-"""What a run can do, one kind a module.  Importing the package registers them all."""
+"""The kinds of runs, one per module. Importing the package registers all of them."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""Plan `adaptive`: the next position is the one that serves the wanted accuracy most for each second.
+"""Plan `adaptive`: the next position is the one with the largest benefit for the accuracy per second.
 
-It stops when the bound is met and the readings could have contradicted a wrong memory; when the wish cannot
-be met it says so early.  Each reading is predicted before it is used: that is its verification.
+It stops when the bound is met and the readings could have contradicted a wrong memory; if the requirement
+cannot be met, it stops early.  Each reading is predicted before it is used: that is its verification.
 """
 
 from __future__ import annotations
@@ -52,33 +52,34 @@ from station.records import (
 from station.run_kinds.fits import aged, with_memory_use
 
 FEWEST = 4
-"""Readings: two zero offsets, the offset of the readout, and one that is predicted."""
+"""Minimum number of readings: two zero offsets, the offset of the readout, and one that is predicted."""
 FEWEST_WITHOUT_MEMORY = 6
-"""The same where geometry and mechanism are known by their tolerances alone."""
+"""The same where only the tolerances of geometry and mechanism are known."""
 MOST_AT_ONCE = 6
 MOST = 120
 FIRST_GRID = (7, 4)
 RECENT, APART_DEG = 12, 1.0
-"""A position must be that far from those of so many readings before: elsewhere tells more."""
+"""A position must be this far from those of this many previous readings: others have more information."""
 NEAR, NEARER = 1.1, 1.05
-"""Share of the best bound that readings can reach at which further ones are not worth their time, and the one
-that the first readings aim at."""
+"""Share of the best achievable bound at which further readings are not worth their time, and the share that
+the first readings aim at.
+"""
 TIGHTEST = 1.02
-"""The same where a wish is tighter than that."""
+"""The same where the requirement is tighter than that."""
 CLEARLY = 1.15
-"""Share of the wish above which the best bound must lie before a run gives up early."""
+"""Share of the requirement above which the best bound must be before a run stops early."""
 POWER = 0.985
 CONTRADICTED_P = 1e-4
-"""Of a memory that is dropped before the run would stop."""
+"""p-value of a memory that is dropped before the run would stop."""
 REMOUNT_MM, LINK_MM = 1.0, 0.3
-"""Changes since the last run that must be noticed."""
+"""Changes since the last run that must be detected."""
 OTHER_TYPE_MM = 1.0
-"""Of a link: a robot that is not of the type whose others it is expected to be like."""
+"""Deviation of a link for a robot that is not of the type of the others in its prior."""
 VISIBLE_SDS = 5.0
-"""If a full run would see them so clearly."""
+"""Only if a full run would see them with this many standard deviations."""
 FULL_VISITS = 5
 GEOMETRY = slice(2, 10)
-"""Where it stands among the unknowns."""
+"""Indices of the geometry among the unknowns."""
 
 Stopped = Literal[
     "the wanted accuracy is reached",
@@ -90,7 +91,7 @@ Stopped = Literal[
 
 @dataclass(frozen=True)
 class Aim:
-    """What a run is to reach, and what it may choose from."""
+    """The target of a run, and its candidates."""
 
     wanted_mm: float | None
     pace: Pace
@@ -99,7 +100,7 @@ class Aim:
     first: Complex
     """(28,) mm, candidates of the first readings."""
     of_full: Complex
-    """(24,) mm, what a full run would measure."""
+    """(24,) mm, positions of a full run."""
 
     @classmethod
     def of(cls, robot: Robot, wanted_mm: float | None, pace: Pace) -> Aim:
@@ -110,34 +111,35 @@ class Aim:
 
 @dataclass(frozen=True)
 class Situation:
-    """What is known, and what follows for the next step."""
+    """The current knowledge, and the decision on the next step."""
 
     known: Known
     aim: Aim
     here_deg: Real
-    """(2,) where the joints stand."""
+    """(2,) current joint angles."""
 
     @cached_property
     def bound_mm(self) -> float:
-        """With the zeros in the drives only."""
+        """The bound with the zeros in the drives only."""
         return bounds_mm(self.known.found)[0]
 
     @cached_property
     def best_mm(self) -> float:
-        """The bound that as many readings as a full run takes could reach, on average."""
+        """The bound that the number of readings of a full run could reach, on average."""
         rows = replace(self.known, samples=self.aim.pace.samples).rows(self.aim.of_full)
         left = with_readings(self.known.covariance, np.repeat(rows, FULL_VISITS, axis=0))
         return expected_bound_mm(*self.known.position_jacobian(), self.known.covariance, _positive(left))
 
     @cached_property
     def _rows_of_full(self) -> Real:
-        """(120, P) of as many readings as a full run takes, each of one sample: what is to be noticed and how
-        accurate few readings are is judged carefully."""
+        """(120, P) rows of as many readings as a full run has, each with one sample: a conservative basis for
+        detectable changes and for the accuracy of few readings.
+        """
         return np.repeat(self.known.rows(self.aim.of_full), FULL_VISITS, axis=0)
 
     @cached_property
     def trusted(self) -> bool:
-        """Whether the readings could have contradicted a memory that is wrong."""
+        """Whether the readings could have contradicted a wrong memory."""
         if len(self.known.readings) < self._fewest:
             return False
         if self.known.memory is None:
@@ -152,7 +154,7 @@ class Situation:
         return FEWEST if self.known.measured_before else FEWEST_WITHOUT_MEMORY
 
     def stops_because(self) -> Stopped | None:
-        """None: go on."""
+        """The reason to stop; None: continue."""
         if not self.trusted:
             return "the most readings are taken" if len(self.known.readings) >= MOST else None
         if self.aim.wanted_mm is not None:
@@ -165,7 +167,7 @@ class Situation:
         return "the most readings are taken" if len(self.known.readings) >= MOST else None
 
     def first_places(self) -> list[complex]:
-        """The quickest few positions that should do, before anything is known of the zero offsets."""
+        """The fastest few positions that should be sufficient, before the zero offsets are known."""
         places, known = self.aim.first, self.known
         test, changes = self._test if known.memory else (None, np.zeros((0, 0)))
         weight, stays = self._by_zeros
@@ -188,7 +190,7 @@ class Situation:
         return [complex(places[k]) for k in chosen]
 
     def next_place(self) -> complex:
-        """Where one more reading is worth most for each second."""
+        """The position with the largest benefit of one more reading per second."""
         places = self.aim.places
         theta_deg = self._commands(places)
         duration_s = self.aim.pace.duration_s(self.here_deg[None], theta_deg, np.zeros_like(theta_deg))
@@ -198,7 +200,7 @@ class Situation:
         return complex(places[int(np.argmax(np.where(fresh, self._worth(places) / duration_s, -np.inf)))])
 
     def stop_at(self, place: complex) -> Stop:
-        """Commanded with the zero offsets as known now."""
+        """A stop commanded with the current zero offsets."""
         theta_deg = self._commands(np.array([place]))[0]
         return Stop(
             position=f"A{len(self.known.readings) + 1}",
@@ -217,7 +219,7 @@ class Situation:
 
     @cached_property
     def _by_zeros(self) -> tuple[Real, float]:
-        """The same with the zeros in the drives only: M, and what the geometry leaves in any case, mm^2."""
+        """The same with the zeros in the drives only: M, and the remaining error of the geometry, mm^2."""
         weight = self._weight.copy()
         weight[GEOMETRY, GEOMETRY] = 0.0
         error = self.known.position_jacobian()[0]
@@ -225,7 +227,7 @@ class Situation:
         return weight, float(np.mean(np.sum(error**2, axis=1)) + shape)
 
     def _worth(self, places: Complex) -> Real:
-        """(N,) of a reading at each place."""
+        """(N,) benefit of a reading at each position."""
         rows = self.known.rows(places)
         if not self.trusted and self.known.memory is not None:
             test, changes = self._test
@@ -235,13 +237,13 @@ class Situation:
 
     @cached_property
     def _information(self) -> Real:
-        """(P, P) of the readings alone."""
+        """(P, P) information of the readings alone."""
         J = self.known.found.solution.jacobian
         return np.asarray(J.T @ J)
 
     @cached_property
     def _test(self) -> tuple[Contradiction, Real]:
-        """Of the memory, and the changes (D, M) that a full run would see."""
+        """Test of the memory, and the changes (D, M) that a full run would see."""
         test, names = memory_test(self.known)
         changes = changes_of(names, REMOUNT_MM, LINK_MM if self.known.measured_before else OTHER_TYPE_MM)
         full = self._rows_of_full
@@ -250,7 +252,7 @@ class Situation:
 
 
 def memory_test(known: Known) -> tuple[Contradiction, tuple[str, ...]]:
-    """How readings of one mount could contradict what is remembered, and what that is.
+    """The ability of readings of one mount to contradict the memory, and the memory.
 
     Only where there is a memory.
     """
@@ -266,7 +268,7 @@ def memory_test(known: Known) -> tuple[Contradiction, tuple[str, ...]]:
 
 
 def _positive(covariance: Real) -> Real:
-    """The same with what rounding or an exchanged block made negative taken out."""
+    """The same without negative parts from rounding or an exchanged block."""
     values, vectors = np.linalg.eigh(covariance)
     return np.asarray((vectors * np.maximum(values, 0.0)) @ vectors.T)
 
@@ -274,7 +276,7 @@ def _positive(covariance: Real) -> Real:
 def adaptive_run(
     robot: Robot, remembered: Beforehand | None, wanted_mm: float | None, pace: Pace
 ) -> Procedure:
-    """Reading after reading until there is a reason to stop."""
+    """Reading by reading until there is a reason to stop."""
     age_days = remembered.age_days if remembered else 0.0
     memory = aged(remembered, robot, age_days).informed(robot)[0] if remembered else None
     aim = Aim.of(robot, wanted_mm, pace)
@@ -317,7 +319,7 @@ def _result(known: Known, wanted_mm: float | None, stopped: Stopped, last: Situa
 def fit_in_sequence(
     robot: Robot, readings: list[Reading], memory: Beforehand | None, age_days: float
 ) -> Identification[FiveBar]:
-    """The fit of an ended run again, from its readings.
+    """The fit of a finished run, repeated from its readings.
 
     :raises InputRefused: they do not determine the machine.
     """

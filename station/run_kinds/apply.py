@@ -1,8 +1,8 @@
-"""Zero offsets written to the drives, verified at fresh positions, taken back when that fails.
+"""Zero offsets written to the drives, verified at fresh positions, rolled back when that fails.
 
-Before anything is written a few fresh readings show that the machine is still the one that was
-calibrated.  The model of that calibration stays frozen; only the frame of its angles moves, by what
-the drives were told.  The readout may have been switched off since, so its offset is left open.
+Before anything is written a few fresh readings show that the machine is still the one that was calibrated.
+The model of that calibration stays fixed; only the frame of its angles moves, by the values written to the
+drives. The readout may have been switched off since, so its offset is free.
 """
 
 from __future__ import annotations
@@ -47,20 +47,20 @@ _Measured = Generator[MeasurementSequence | SetZeros, Any, tuple[list[Reading], 
 
 @dataclass(frozen=True)
 class Source:
-    """A passed calibration: its frozen model, and the offsets that its result states."""
+    """A passed calibration: its fixed model, and the offsets of its result."""
 
     id: int
     fit: Identification[FiveBar]
     offsets_deg: Angles
     fresh: tuple[Reading, ...] = ()
-    """Readings that verified it: they took no part in the fit."""
+    """Readings that verified it: they were not used in the fit."""
 
 
 def source_of(store: Store, calibration_id: int) -> Source:
-    """Fitted again from the stored readings, with the memory that took part then.
+    """Fitted again from the stored readings, with the memory that was used then.
 
     :raises NotFound: no such calibration.
-    :raises InputRefused: its readings do not hold the measurement model.
+    :raises InputRefused: its readings do not satisfy the measurement model.
     """
     calibration = store.calibration(calibration_id)
     everything = store.readings(calibration_id)
@@ -68,7 +68,7 @@ def source_of(store: Store, calibration_id: int) -> Source:
         verified = calibration.after is not None and calibration.after.fresh_reading_rms_mm is not None
         last = everything[-1].sequence if verified else None
         fresh = [r for r in everything if r.sequence == last]
-        # a place's passes stand at different angles: they are no repeats
+        # a position's passes have different angles: they are no repeats
         readings = passes_apart([r for r in everything if r.sequence != last])
     else:  # the second sequence verified
         readings = [r for r in everything if r.sequence == 1]
@@ -100,7 +100,7 @@ def start_roll_back(start: Start) -> Procedure:
 
 
 def apply(source: Source) -> Procedure:
-    """Check, write, verify; whatever fails after the first zero was written takes them back."""
+    """Check, write, verify; any failure after the first zero was written rolls them back."""
     doubt = prediction_fault((yield from _measured(source.fit, "Checking the machine", 1, CHECK_PLACES))[1])
     if doubt:
         raise StepFailed(
@@ -122,9 +122,9 @@ def apply(source: Source) -> Procedure:
 
 
 def roll_back(source: Source, verified_shift: Angles | None) -> Procedure:
-    """Take the zeros back.
+    """Restore the previous zeros.
 
-    :param verified_shift: what a verified application left behind and the drives must still hold.
+    :param verified_shift: the shift that a verified application wrote and the drives must still have.
     """
     readings: list[Reading] = []
     check = None
@@ -140,7 +140,7 @@ def roll_back(source: Source, verified_shift: Angles | None) -> Procedure:
 
 
 def _measured(fit: Identification[FiveBar], title: str, number: int, count: int | None = None) -> _Measured:
-    """Fresh readings and what they say about a model."""
+    """Fresh readings compared with a model."""
     stops = fresh_stops(fit, seed=number) if count is None else fresh_stops(fit, count, number, "C")
     readings: list[Reading] = yield MeasurementSequence(title, number, stops, last=True)
     fresh = from_readings(readings, fit.measurements.mounts)
@@ -163,7 +163,7 @@ def _result(
     readings: list[Reading],
     check: Verification | None,
 ) -> CalibrationResult:
-    """What is left of the offsets in the drives as they now count, and how well that was confirmed."""
+    """The remaining zero offsets in the drives as they now count, and how well that was confirmed."""
     fit = source.fit.moved(shift)
     quantities = fit.quantities()
     return CalibrationResult(

@@ -1,4 +1,4 @@
-"""An arm's log made elsewhere becomes a finished run: the file kept as it is, its residual traced."""
+"""Import of an arm's log as a finished run: the file is stored unchanged and its residual diagnosed."""
 
 from __future__ import annotations
 
@@ -31,13 +31,13 @@ from station.store import Store, request_hash
 
 @dataclass(frozen=True, slots=True)
 class ArmLog:
-    """What is given: the arm, the log, and what judges it."""
+    """The input: the arm, the log, and the readings for confirmation."""
 
     arm: Arm
     file: KeptLog
     fresh: KeptLog | None = None
     hold_out: bool = False
-    """Whether a quarter of the file judges what was learned from the rest."""
+    """Whether a quarter of the file confirms the model learned from the other readings."""
 
 
 def import_log(
@@ -48,11 +48,11 @@ def import_log(
     idempotency_key: str | None = None,
     by: Actor = STATION,
 ) -> Submitted:
-    """Diagnose a log and keep it; nothing is stored before everything is known.
+    """Diagnose a log and store it; nothing is stored before the diagnosis is complete.
 
-    :raises InputRefused: a malformed file, or readings that are not enough to judge.
+    :raises InputRefused: the file is malformed, or there are too few readings.
     :raises NotApplicable: the serial is that of another kind of machine.
-    :raises KeyReused: the key came with another request or other files.
+    :raises KeyReused: the key was used for another request or other files.
     """
     files = [part for part in (log.file, log.fresh) if part is not None]
     request = replace(
@@ -87,10 +87,10 @@ def import_measured(
     idempotency_key: str | None = None,
     by: Actor = STATION,
 ) -> Submitted:
-    """A file of the robot that is kept under its serial, five-bar or arm.
+    """Import a file of the robot that is stored under its serial, five-bar or arm.
 
-    :raises InputRefused: a malformed file, too many readings, or not enough to judge.
-    :raises KeyReused: the key came with another request or other files.
+    :raises InputRefused: the file is malformed, or there are too many or too few readings.
+    :raises KeyReused: the key was used for another request or other files.
     """
     arm = _kept_arm(store, request.robot_serial)
     if arm is None:
@@ -115,7 +115,7 @@ def _kept_arm(store: Store, serial: str) -> Arm | None:
 
 
 def _readings(log: ArmLog) -> tuple[Measurements, Measurements | None]:
-    """:raises InputRefused: both ways to judge at once, or as reading a log does."""
+    """:raises InputRefused: both ways to confirm are given, or as for reading a log."""
     readings = _read(log.arm, log.file)
     if log.hold_out:
         if log.fresh is not None:
@@ -134,7 +134,7 @@ def _read(arm: Arm, log: KeptLog) -> Measurements:
 def _result(found: Findings, data: DataSource) -> CalibrationResult:
     document, view = found.document(data), found.residual
     joints = found.measurements.joints
-    # a joint that slides has its zero in mm, and stands among the other parameters
+    # a sliding joint has its zero in mm, listed among the other parameters
     zeros = tuple(q for q in found.parameters[:joints] if q.unit == "deg")
     return CalibrationResult(
         verdict="pass" if found.decision.outcome == "good" else "fail",
@@ -158,7 +158,7 @@ def _result(found: Findings, data: DataSource) -> CalibrationResult:
 
 
 def _documents(found: Findings, name: str) -> LogDocuments:
-    """The readings by number; where the log calls them otherwise, that is their position."""
+    """The readings by number; other labels in the log are stored as their position."""
     numbers = _numbered(found.measurements.ids)
     rows = residuals(
         found, {own: label for own, (_, label) in zip(found.measurements.ids, numbers, strict=True)}
@@ -169,7 +169,7 @@ def _documents(found: Findings, name: str) -> LogDocuments:
 
 
 def _numbered(ids: Sequence[int | str]) -> list[tuple[int, str]]:
-    """A number for each reading, its own where all are numbered, and what the log calls it."""
+    """A number for each reading (its own, if all are numbered), and its label in the log."""
     own = [one for one in ids if isinstance(one, int)]
     numbers = own if len(own) == len(ids) else range(1, len(ids) + 1)
     return [(number, f"reading {name}") for number, name in zip(numbers, ids, strict=True)]

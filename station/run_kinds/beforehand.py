@@ -1,4 +1,4 @@
-"""What is known of a robot before a run: by its own runs, else by other robots of its type."""
+"""Prior knowledge of a robot before a run: from its own runs, otherwise from other robots of its type."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from station.run_kinds.kind import Start
 
 
 def known_before(start: Start) -> Beforehand | None:
-    """What the store knows now; None where there is nothing."""
+    """The current knowledge in the store; None without any."""
     robot = start.robot
     own = start.store.memory(robot.serial, start.began_at)
     if own is not None or robot.type is None:

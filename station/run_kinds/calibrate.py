@@ -1,4 +1,4 @@
-"""A calibration: measure by a plan, identify, verify by readings that took no part in the fit."""
+"""A calibration: measure by a plan, identify, verify with readings that were not used in the fit."""
 
 from __future__ import annotations
 
@@ -43,20 +43,20 @@ def calibrate(start: Start) -> Procedure:
 
     :raises InputRefused: the plan cannot be made for this robot.
     """
-    if start.plan == "paper":  # the published method has no use for what earlier runs know
+    if start.plan == "paper":  # the published method does not use knowledge from earlier runs
         return published(start.robot, start.wanted_mm)
     memory = start.known_before() if start.known_before else known_before(start)
     if guided := GUIDED.get(start.plan):
         return guided(start, memory)
     if start.plan == "adaptive":
         return adaptive_run(start.robot, memory, start.wanted_mm, start.pace)
-    # an ended run is carried out again for its verdict, and advice is most of the work
+    # a finished run is evaluated again for its verdict, and advice is most of the work
     again = start.known_before is not None
     return measured_and_verified(start.plan, start.robot, memory, start.wanted_mm, advised=not again)
 
 
 def published(robot: Robot, wanted_mm: float | None = None) -> Procedure:
-    """Section 4 and 5: measure, identify, compensate, again until mu < mu_0 (eq. 32, 33); then verify."""
+    """Sections 4 and 5: measure, identify, compensate, repeat until mu < mu_0 (eq. 32, 33); then verify."""
     run = PublishedRun(robot)
     everything: list[Reading] = []
     for number in range(1, MAX_PASSES + 1):
@@ -80,7 +80,7 @@ def published(robot: Robot, wanted_mm: float | None = None) -> Procedure:
 def _published_accuracy(
     run: PublishedRun, readings: list[Reading], wanted_mm: float | None
 ) -> AccuracyReached:
-    """What the published offsets promise, judged by the measurement model on the same readings."""
+    """The predicted accuracy of the published offsets, from the measurement model on the same readings."""
     try:
         fit = fit_of(run.robot, passes_apart(readings), None, 0.0)
     except InputRefused:
@@ -89,12 +89,12 @@ def _published_accuracy(
 
 
 def passes_apart(readings: list[Reading]) -> list[Reading]:
-    """Of plan `paper`: a position's passes stand at different angles, they are no repeats."""
+    """For plan `paper`: a position's passes have different angles and are no repeats."""
     return [replace(r, position=f"{r.position} pass {r.sequence}") for r in readings]
 
 
 def _verified(run: PublishedRun, result: CalibrationResult, fresh: list[Reading]) -> CalibrationResult:
-    """A pass, if fresh readings are as the result predicts them."""
+    """A pass if fresh readings agree with the prediction of the result."""
     residual, covariance = run.predicted(fresh)
     square = float(residual @ np.linalg.solve(covariance, residual))
     check = Verification(residual, np.sqrt(np.diag(covariance)), float(chdtrc(len(residual), square)))
@@ -123,9 +123,9 @@ def measured_and_verified(
     *,
     advised: bool = True,
 ) -> Procedure:
-    """The measurement model on a chosen plan, then fresh positions that took no part in the fit.
+    """The measurement model on a chosen plan, then fresh positions that are not used in the fit.
 
-    :param advised: with what would make the calibration better
+    :param advised: whether to list measures that would improve the calibration
     """
     readings: list[Reading] = yield MeasurementSequence("Measuring", 1, make_plan(plan, robot).stops)
     return (yield from identified_and_verified(robot, readings, memory, wanted_mm, advised=advised))

@@ -1,7 +1,7 @@
-"""Plan `check`: is the robot still as its last calibration left it?
+"""Plan `check`: has the robot changed since its last calibration?
 
-Four readings against what that calibration predicts of them, its uncertainty and the noise included.  The
-offset of the readout is left open: it may have been switched off since.
+Four readings are compared with the prediction of that calibration, including its uncertainty and the noise.
+The offset of the readout is free: the readout may have been switched off since.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ MOST_LOOKED_AT = 500
 
 
 def compared_with(store: Store, serial: str) -> CalibrationSummary | None:
-    """The last applied run of a robot, else its last pass; None where there is neither."""
+    """The last applied run of a robot, otherwise its last pass; None without either."""
     passes = store.calibrations(limit=MOST_LOOKED_AT, robot_serial=serial, verdict="pass").items
     for run in passes:
         if run.kind == "apply" and run.of is not None:
@@ -51,7 +51,7 @@ def compared_with(store: Store, serial: str) -> CalibrationSummary | None:
 
 
 def check_check(store: Store, request: CalibrationRequest) -> None:
-    """:raises NotApplicable: there is nothing to compare with."""
+    """:raises NotApplicable: there is no calibration to compare with."""
     if compared_with(store, request.robot_serial) is None:
         raise NotApplicable(
             f"Robot {request.robot_serial} has no passed calibration to be checked against; calibrate first."
@@ -72,7 +72,7 @@ def start_check(start: Start) -> Procedure:
 
 
 def check_run(fit: Identification[FiveBar], age_days: float, until: datetime) -> Procedure:
-    """Four readings, and whether they are as predicted."""
+    """Four readings, and whether they agree with the prediction."""
     robot = fit.mechanism.robot
     stops = make_plan("check", robot, fit.dtheta).stops
     readings: list[Reading] = yield MeasurementSequence("Checking", 1, stops, last=True)
@@ -85,7 +85,7 @@ def check_run(fit: Identification[FiveBar], age_days: float, until: datetime) ->
     test = ShiftTest(rows[:, :2], covariance, fit.noise.dof)
     difference = mechanism.measured - at.value
     difference = difference - difference.mean()
-    # of what is shown: the offset of the readout, which nothing limits, goes out with the mean
+    # in the displayed values the unlimited offset of the readout is removed with the mean
     beside = at.by_parameter - at.by_parameter.mean(axis=0)
     difference_sd = np.sqrt(np.sum(beside @ known * beside, axis=1) + sd**2)
     shift, shift_p, rest_p = test.shift(difference / sd)

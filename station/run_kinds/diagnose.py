@@ -1,4 +1,4 @@
-"""The closed loop on the machine: sequence, residual, cause, model, fresh readings that judge it."""
+"""The closed loop on the machine: sequence, residual, cause, model, confirmation with fresh readings."""
 
 from __future__ import annotations
 
@@ -40,9 +40,9 @@ def start_diagnostic(start: Start) -> Procedure:
 def diagnostic(
     robot: Robot, wanted_mm: float | None = None
 ) -> Generator[MeasurementSequence, list[Reading], CalibrationResult]:
-    """Find the cause of what the model leaves over, then judge it by fresh readings.
+    """Find the cause of the residual, then confirm it with fresh readings.
 
-    :raises InputRefused: the readings are not enough to judge, or not of this robot.
+    :raises InputRefused: there are too few readings, or they are impossible for this robot.
     """
     readings = yield MeasurementSequence("Looking for the cause", 1, make_plan("diagnostic", robot).stops)
     return (yield from judged(robot, readings, wanted_mm))
@@ -51,7 +51,7 @@ def diagnostic(
 def judged(
     robot: Robot, readings: list[Reading], wanted_mm: float | None = None
 ) -> Generator[MeasurementSequence, list[Reading], CalibrationResult]:
-    """What readings tell of the cause, judged by fresh ones at other places.
+    """The cause found from readings, confirmed with fresh ones at other positions.
 
     :raises InputRefused: as `diagnose`.
     """
@@ -69,9 +69,9 @@ def judged(
 
 
 def diagnosed(robot: Robot, readings: list[Reading], context: Context | None = None) -> Findings:
-    """The diagnosis of a run's readings: the first sequence is learned from, later ones judge.
+    """The diagnosis of a run's readings: it learns from the first sequence and confirms with later ones.
 
-    :param context: what their file recorded; None as the readings show
+    :param context: what their file recorded; None: inferred from the readings
     :raises InputRefused: as `diagnose`.
     """
     learned = [r for r in readings if r.sequence == 1]
@@ -83,9 +83,9 @@ def diagnosed(robot: Robot, readings: list[Reading], context: Context | None = N
 def result_of(
     findings: Findings, readings: list[Reading], data: DataSource, robot: Robot | None = None
 ) -> CalibrationResult:
-    """What the run ends with; `readings` are those that were learned from, `data` says where from.
+    """The result of the run; `readings` are those that were learned from, `data` describes their source.
 
-    A pass only where the robot may be used as it is: nothing is missing, and fresh readings confirm it.
+    It is a pass only if the robot may be used as it is: the model is complete, and fresh readings confirm it.
     """
     document = findings.document(data)
     by_id = {r.reading: r for r in readings}
@@ -112,14 +112,14 @@ def result_of(
 
 
 def _described(readings: list[Reading]) -> DataSource:
-    """What a document was made from, as its `data` says."""
+    """The source of a document, as in its `data`."""
     text = readings_to_csv(readings).encode()
     digest = hashlib.sha256(text).hexdigest()
     return DataSource(file="measurement sequence 1", readings=len(readings), sha256=digest)
 
 
 def stage_accuracy(stage: StageAccuracy) -> Accuracy:
-    """As a result shows it."""
+    """The accuracy of a stage as a result shows it."""
     return Accuracy(
         reading_rms_mm=stage.fit_rms_mm,
         fresh_reading_rms_mm=stage.confirm_rms_mm,
@@ -128,7 +128,7 @@ def stage_accuracy(stage: StageAccuracy) -> Accuracy:
 
 
 def _seed(sequence: Measurements) -> int:
-    """From the readings themselves: new places each run, and the same again from what is stored."""
+    """Seed from the readings: new positions for each run, reproducible from the stored readings."""
     return zlib.crc32(np.ascontiguousarray(sequence.distance).tobytes())
 
 

@@ -1,7 +1,8 @@
 """The expected position error of a robot over its workspace before and after a run, from what is stored.
 
-The run's readings are fitted again, as for an application.  The bound that the run promised holds for all
-places together; the bounds of single places are drawn in proportion, so that the largest is that promise.
+The run's readings are fitted again, as for an application.  The bound of the run's result applies to all
+positions together; the bounds of single positions are drawn in proportion, so that the largest equals that
+bound.
 """
 
 from __future__ import annotations
@@ -34,29 +35,30 @@ from station.settings import JointSettings
 from station.store import Store
 
 STEPS = 36
-"""Of the grid along the longer side of the workspace."""
+"""Number of steps of the grid along the longer side of the workspace."""
 DIGITS = 6
 """Decimals of a millimetre: nanometres."""
 
 
 @dataclass(frozen=True)
 class _Known:
-    """What a run says of the machine."""
+    """The knowledge of the machine from a run."""
 
     robot: Robot
     wanted: Calibration
-    """The run that a wanted accuracy was given for."""
+    """The run for which a required accuracy was given."""
     fields: Callable[[Complex], ErrorFields]
     bound_mm: float | None
     fresh: tuple[FreshReading, ...]
 
 
 def error_map(store: Store, run: int, joints: Sequence[JointSettings]) -> ErrorMap:
-    """Of a run that identified or wrote zero offsets.
+    """The error map of a run that identified or wrote zero offsets.
 
-    :param joints: how far each joint may be sent
+    :param joints: range of the commands of each joint
     :raises NotFound: no such run.
-    :raises NotApplicable: it has no zero offsets, or its readings do not hold the model; says why.
+    :raises NotApplicable: it has no zero offsets, or its readings do not satisfy the model; the error states
+    why.
     """
     calibration = store.calibration(run)
     known_of = _BY_KIND.get(calibration.kind)
@@ -107,13 +109,13 @@ def _of_calibration(store: Store, calibration: Calibration) -> _Known:
 
 
 def _of_application(store: Store, calibration: Calibration) -> _Known:
-    """What the run left in the drives, not what it meant to write."""
+    """The values that the run left in the drives, not those that it intended to write."""
     assert calibration.of is not None
     source, applied = source_of(store, calibration.of), store.calibration(calibration.of)
     writes = store.zero_writes(calibration.robot_serial, since=calibration.of)
     shift = np.radians(shift_of([write for write in writes if write.run_id <= calibration.id]))
     taken = [r for r in store.readings(calibration.id) if r.sequence > 1]
-    if not taken or calibration.verdict != "pass":  # zeros that were taken back were others when it read
+    if not taken or calibration.verdict != "pass":  # zeros that were rolled back differed when it measured
         return _known(source, applied, -shift, ())
     moved = source.fit.moved((float(np.degrees(shift[0])), float(np.degrees(shift[1]))))
     later = from_readings(taken, source.fit.measurements.mounts)
@@ -137,7 +139,7 @@ def _of_diagnosis(store: Store, calibration: Calibration) -> _Known:
 
     def fields(places: Complex) -> ErrorFields:
         known = findings.error_fields(places)
-        assert known is not None  # of a five-bar it is
+        assert known is not None  # a five-bar always has it
         return known
 
     return _Known(robot, calibration, fields, findings.zeros_only_bound_mm, findings.fresh)
@@ -157,7 +159,7 @@ def _measurements(source: Source) -> Measurements:
 
 
 def _published_residual(store: Store, source: Source) -> Real:
-    """(K,) fresh readings less what the published method predicts of them, mm."""
+    """(K,) fresh readings less the prediction of the published method, mm."""
     run = PublishedRun(source.fit.mechanism.robot)
     fresh = {reading.reading for reading in source.fresh}
     readings = [r for r in store.readings(source.id) if r.reading not in fresh]
@@ -167,7 +169,7 @@ def _published_residual(store: Store, source: Source) -> Real:
 
 
 def _axes(robot: Robot) -> tuple[Real, Real]:
-    """x and y of the grid, mm, about as far apart along both."""
+    """x and y of the grid, mm, with about equal steps in both directions."""
     spans = [high - low for low, high in (robot.workspace_x, robot.workspace_y)]
     step = max(spans) / STEPS
     counts = [max(round(span / step), 1) + 1 for span in spans]
@@ -186,7 +188,7 @@ def _open_to(robot: Robot, places: Complex, joints: Sequence[JointSettings]) -> 
 
 
 def _rows(values: Real, where: Flags, width: int) -> tuple[tuple[float | None, ...], ...]:
-    """Values (N,) of the places that are open, row by row; null where there is none."""
+    """Values (N,) of the reachable positions, row by row; null for the others."""
     everywhere = np.full(len(where), np.nan)
     everywhere[where] = np.round(values, DIGITS)
     cells = [None if np.isnan(value) else float(value) for value in everywhere]

@@ -1,4 +1,4 @@
-"""Readings of a run and what earlier runs know, fitted together: during the run and ever after."""
+"""Readings of a run fitted together with the knowledge from earlier runs: during the run and afterwards."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ UNKNOWN_OFFSET_MM = 1e4
 
 
 def aged(memory: Beforehand, robot: Robot, age_days: float) -> Memory:
-    """What is known before a run; what is remembered is less sure by what may have changed since."""
+    """The prior knowledge of a run; the uncertainty of the memory grows with its age."""
     if isinstance(memory, FleetPrior):
         return Memory.of_fleet(memory)
     mechanism = FiveBar(robot, from_readings([]))
@@ -32,9 +32,9 @@ def aged(memory: Beforehand, robot: Robot, age_days: float) -> Memory:
 def fit_of(
     robot: Robot, readings: list[Reading], memory: Beforehand | None, age_days: float
 ) -> Identification[FiveBar]:
-    """The measurement model on readings, with what is remembered as it was at that age.
+    """The measurement model on readings, with the memory at that age.
 
-    Where the mechanism was moved between the readings, what is remembered of its mounting is of no use.
+    Where the mechanism was moved between the readings, the memory of its mounting is not used.
 
     :raises InputRefused: as `identify`.
     """
@@ -45,7 +45,7 @@ def fit_of(
 
 
 def wandered(fit: Identification[FiveBar], age_days: float) -> Real:
-    """(P, P) covariance of a fit that is so old; of the readout's offsets nothing is known any more."""
+    """(P, P) covariance of a fit of that age; the readout's offsets are unknown again."""
     parameters = fit.mechanism.parameters
     names = [p.name for p in parameters]
     covariance = fit.covariance.copy()
@@ -62,7 +62,7 @@ def wandered(fit: Identification[FiveBar], age_days: float) -> Real:
 def with_memory_use(
     result: CalibrationResult, gate: Gate | None, memory: Beforehand | None, age_days: float
 ) -> CalibrationResult:
-    """The result, with what became of the memory."""
+    """The result, with the use of the memory."""
     if memory is None or gate is None:
         return result
     if isinstance(memory, FleetPrior):

@@ -1,8 +1,9 @@
-"""What gauge studies say of the station: of the runs of one robot each, all of the same design.
+"""Evaluation of gauge studies for the station: runs of one robot each, all of the same design.
 
-Each calibration of a study is identified by its own readings alone.  What of its scatter the readout, the
-drives and the solver account for is reckoned from its readings: the scatter of the samples of a reading, that
-of readings alike in place and approach, and that of answers from other starts, each carried through the fit.
+Each calibration of a study is identified by its own readings alone.  The contributions of the readout, the
+drives and the solver to its scatter are computed from its readings: the scatter of the samples of a reading,
+that of readings with the same position and approach, and that of results from other starts, each propagated
+through the fit.
 """
 
 from __future__ import annotations
@@ -27,24 +28,24 @@ from station.store import Store
 
 Schema = Literal["station.gauge-study/1"]
 STARTS = 4
-"""From which each fit is solved again."""
+"""Start points from which each fit is solved again."""
 SEED = 18
 
 
 class Sources(Record):
-    """What of the gauge's scatter comes from where: standard deviations in degrees."""
+    """Contributions to the gauge's scatter: standard deviations in degrees."""
 
     readout: float
     drives: float
-    """Scatter of readings alike in place and approach, beyond that of the readout."""
+    """Scatter of readings with the same position and approach, beyond that of the readout."""
     solver: float
-    """From one start of the fit to another."""
+    """Scatter between different starts of the fit."""
     unexplained: float
-    """Of the scatter with one mounting, beyond what readout, drives and solver account for."""
+    """Part of the scatter with one mounting that readout, drives and solver do not account for."""
     mounting: float
     operators: float
     percent: dict[str, float]
-    """Of the variance of the gauge; they add to 100."""
+    """Percentages of the gauge's variance; they add up to 100."""
 
 
 class JointStudied(JointGauge):
@@ -75,17 +76,18 @@ class StationGauge(Record):
     people: tuple[tuple[str, ...], ...]
     """Who confirmed the mountings of operator 1, 2, ..."""
     tolerance_deg: float
-    """From the lower to the upper limit of a zero offset."""
+    """Width of the tolerance interval of a zero offset."""
     joints: tuple[JointStudied, JointStudied]
     values: tuple[StudiedValue, ...]
 
 
 def station_gauge(store: Store, runs: Sequence[int], zero_offset_deg: float) -> StationGauge:
-    """Of finished gauge studies, one a robot.
+    """The evaluation of finished gauge studies, one per robot.
 
-    :param zero_offset_deg: what a zero offset may be, to either side
+    :param zero_offset_deg: tolerance of a zero offset, to either side
     :raises NotFound: no such run.
-    :raises NotApplicable: a run is no finished gauge study, or it does not belong to the others; says which.
+    :raises NotApplicable: a run is no finished gauge study, or it does not match the others; the error states
+    which.
     """
     designs = {run: _design(store, run) for run in runs}
     robots = [store.summary(run).robot_serial for run in runs]
@@ -155,7 +157,7 @@ class _Calibration:
         return np.asarray(parts * np.degrees(1.0) ** 2)
 
     def _readout_sd_mm(self) -> float:
-        """Of a reading, by the scatter of its samples; by the specification where none are kept."""
+        """Standard deviation of a reading, from its samples; from the specification if none are stored."""
         kept = [r.samples_mm for r in self.readings if len(r.samples_mm) > 1]
         variances = [np.var(samples, ddof=1) / len(samples) for samples in kept]
         if not variances:
@@ -180,7 +182,7 @@ def _studied(found: JointGauge, caused: Real) -> JointStudied:
     square = found.repeat**2
     explained = float(caused.sum())
     unexplained = max(square - explained, 0.0)
-    # what is reckoned may be more than what the few repeats showed: then its parts share what they showed
+    # the computed contributions may exceed the scatter of the few repeats: then they share that scatter
     share = square / max(explained + unexplained, np.finfo(float).tiny)
     readout, drives, solver = (float(part) for part in caused)
     variances = {
@@ -205,7 +207,7 @@ def _studied(found: JointGauge, caused: Real) -> JointStudied:
 
 
 def _people(store: Store, runs: Sequence[int], design: StudyDesign) -> tuple[tuple[str, ...], ...]:
-    """By operator, everybody who confirmed a mounting of theirs that took part."""
+    """For each operator, everyone who confirmed one of their mountings that were used."""
     confirmed: list[set[str]] = [set() for _ in range(design.operators)]
     for run in runs:
         of: int | None = run

@@ -6,7 +6,7 @@ from station.report import Chart, Page, Section, Series, Table, bar, scatter
 from station.run_kinds.gauge_evaluation import JointStudied, StationGauge
 
 GOOD, BAD = 10.0, 30.0
-"""Percent of the total variation below which a gauge is good, and above which it is not fit (AIAG)."""
+"""Percent of the total variation below which a gauge is good, and above which it is not acceptable (AIAG)."""
 _COMPONENTS = {
     "repeat": "calibrations with one mounting",
     "mounting": "mountings of one operator",
@@ -27,7 +27,7 @@ _SOURCES = {
 
 
 def gauge_page(study: StationGauge) -> Page:
-    """With every value that it rests on."""
+    """The report with every value that it is based on."""
     design = study.design
     runs = ", ".join(map(str, study.runs))
     return Page(
@@ -47,7 +47,7 @@ def gauge_page(study: StationGauge) -> Page:
 
 
 def judgement(joint: JointStudied) -> str:
-    """One sentence."""
+    """The assessment in one sentence."""
     percent = joint.grr_percent
     word = "good" if percent < GOOD else "not fit for the purpose" if percent > BAD else "of limited use"
     of = "the total variation" if joint.against == "robots" else "the tolerance"

@@ -1,7 +1,7 @@
-"""Gauge study: operators in turn mount the mechanism once more, and the station calibrates each time.
+"""Gauge study: operators in turn remount the mechanism, and the station calibrates each time.
 
-What it says of the station is found from its readings (`gauge_evaluation`); it says nothing of the robot, so
-it has no verdict.  A study that was interrupted goes on after the last mounting that it finished.
+Its readings are evaluated for the station (`gauge_evaluation`); it does not evaluate the robot, so it has no
+verdict. An interrupted study continues after the last mounting that it finished.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ KIND = "gauge_study"
 
 
 def design_of(store: Store, run: int) -> StudyDesign:
-    """How often a study calibrates; one that goes on does so as it began.  :raises NotFound:"""
+    """The design of a study; a continued one has the design of the earlier one.  :raises NotFound:"""
     request = request_of(store, run)
     while request.of is not None:
         request = request_of(store, request.of)
@@ -70,11 +70,11 @@ def gauge_study(start: Start) -> Procedure:
                 stops,
                 last=mounting + 1 == design.all_mountings and repeat + 1 == design.repeats,
             )
-            # at once: a study of readings that cannot be of this robot ends here
+            # at once: a study whose readings are impossible for this robot ends here
             zeros_deg += zero_offsets_deg(start.robot, taken)
     sd_deg = gauge_sd(in_cells(zeros_deg, design)[None])
     return CalibrationResult(
-        verdict="fail",  # of no robot: the run has none
+        verdict="fail",  # the run has no robot to judge
         outcome="good",
         reason=because(
             "gauge_studied",
@@ -103,14 +103,14 @@ def by_sequence(readings: list[Reading]) -> list[list[Reading]]:
 
 
 def in_cells(of_sequences: Sequence[Real], design: StudyDesign) -> Real:
-    """(operators, mountings, repeats, ...) from one value a sequence, in order."""
+    """(operators, mountings, repeats, ...) from one value per sequence, in order."""
     values = np.array(of_sequences)
     turns = values.reshape(design.mountings, design.operators, design.repeats, *values.shape[1:])
     return np.asarray(np.swapaxes(turns, 0, 1))
 
 
 def mountings_taken(store: Store, run: int) -> int:
-    """How many mountings a study measured to their end.  :raises NotFound:"""
+    """Number of mountings that a study measured completely. :raises NotFound:"""
     design = design_of(store, run)
     stops = len(make_plan(KIND, store.robot_of(run)).stops)
     whole = [len(taken) == stops for taken in by_sequence(store.readings(run))]
@@ -124,7 +124,7 @@ def taken_over(store: Store, run: int) -> list[Reading]:
 
 
 def check_gauge_study(store: Store, request: CalibrationRequest) -> None:
-    """:raises NotApplicable: the earlier study cannot go on; says why.  :raises NotFound: no such run."""
+    """:raises NotApplicable: the earlier study cannot be continued, with the reason. :raises NotFound:"""
     if request.of is None:
         return
     run = store.summary(request.of)
@@ -143,7 +143,7 @@ def check_gauge_study(store: Store, request: CalibrationRequest) -> None:
 
 
 def continued(store: Store, request: CalibrationRequest) -> Continued | None:
-    """What a study that goes on has measured already, and the time since it began."""
+    """Readings that a continued study already has, and the time since it began."""
     if request.of is None or not (readings := taken_over(store, request.of)):
         return None
     began = store.summary(request.of).started_at

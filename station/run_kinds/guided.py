@@ -1,4 +1,4 @@
-"""Plans that need a person once: an angle is read, or the mechanism moved to its second mounting point."""
+"""Plans that need a person once: to read an angle, or to move the mechanism to its second mounting point."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ JOINT: Literal[1] = 1
 
 
 def reference(start: Start, memory: Beforehand | None) -> Procedure:
-    """Six positions, then the angle of one arm as a level sees it, where the arm stands last."""
+    """Six positions, then the angle of one arm from a level, at the arm's last position."""
     stops = make_plan("reference", start.robot).stops
     readings: list[Reading] = yield MeasurementSequence("Measuring", 1, stops)
     at_deg = readings[-1].theta_deg[JOINT - 1]
@@ -42,10 +42,10 @@ def reference(start: Start, memory: Beforehand | None) -> Procedure:
 
 
 def two_mounts(start: Start, memory: Beforehand | None) -> Procedure:
-    """The same positions from two mounting points; each has a mounting error and an offset of its own.
+    """The same positions from two mounting points; each has a separate mounting error and offset.
 
-    The second mounting point comes first: what is measured and verified last is the mechanism as it stays
-    mounted, so the mounting error that later runs use is that of the first mounting point.
+    The second mounting point comes first: the mechanism is measured and verified last at the point where it
+    remains mounted, so the mounting error that later runs use is that of the first mounting point.
     """
     robot = start.robot
     label, c = robot.second_mount

@@ -1,4 +1,4 @@
-"""A measurement file made elsewhere becomes a finished run: its readings kept, its residual traced."""
+"""Import of a measurement file as a finished run: its readings are stored and its residual diagnosed."""
 
 from __future__ import annotations
 
@@ -23,12 +23,12 @@ from station.run_kinds.kind import RunKind, register
 from station.store import Store, request_hash
 
 MOST_READINGS = 2000
-"""Of both files together.  The loop takes about a second for these, and its time grows with their square."""
+"""Limit for both files together. The loop takes a second for these; time grows with their square."""
 
 
 @dataclass(frozen=True, slots=True)
 class Upload:
-    """A measurement file as it was given."""
+    """A measurement file as received."""
 
     name: str
     content: bytes
@@ -48,14 +48,14 @@ def import_dataset(
     idempotency_key: str | None = None,
     by: Actor = STATION,
 ) -> Submitted:
-    """Diagnose the readings of a file and keep both; `fresh` ones, taken afterwards, confirm.
+    """Diagnose the readings of a file and store both; `fresh` readings, taken afterwards, confirm the result.
 
-    :param robot: by default the one kept for the serial, else the nominal one
+    :param robot: by default the one stored for the serial, otherwise the nominal one
 
-    Nothing is stored before everything is known, so that a refusal leaves nothing behind.
+    Nothing is stored before the diagnosis is complete, so a refusal leaves no data.
 
-    :raises InputRefused: a malformed file, or readings that are not enough to judge.
-    :raises KeyReused: the key came with another request or other files.
+    :raises InputRefused: the file is malformed, or there are too few readings.
+    :raises KeyReused: the key was used for another request or other files.
     """
     files = {"file": learned, "fresh": fresh}
     request = replace(

@@ -1,7 +1,7 @@
-"""What a kind of run is, and the register of all kinds.
+"""The definition of a run kind, and the register of all kinds.
 
 A further kind is one module that registers itself (docs/how-to/add-a-run-kind.md): its checks, its procedure
-and, in `station.messages`, its texts.  The orchestrator knows none by name.
+and, in `station.messages`, its texts.  The orchestrator refers to none by name.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from station.store import Store
 
 @dataclass(frozen=True, slots=True)
 class Start:
-    """What a procedure is made from."""
+    """The input of a procedure."""
 
     store: Store
     request: CalibrationRequest
@@ -37,18 +37,18 @@ class Start:
     began_at: datetime | None = None
     """The station's clock when the run was created; None is now."""
     limits: LimitSettings = field(default_factory=LimitSettings)
-    """Of this station."""
+    """Limits of this station."""
     known_before: Callable[[], Beforehand | None] | None = None
-    """What was known when an ended run is carried out again; None: what the store knows."""
+    """The knowledge before a finished run that is evaluated again; None: the current one in the store."""
 
     @property
     def pace(self) -> Pace:
-        """How fast this station is."""
+        """The speed of this station."""
         return Pace.of(self.limits)
 
     @property
     def of(self) -> int:
-        """The earlier run that this one is about.  Only for kinds that are about one."""
+        """The earlier run that this one refers to. Only for kinds that refer to one."""
         if self.request.of is None:
             raise ValueError(f"a run of kind {self.request.kind} names no earlier run")
         return self.request.of
@@ -62,14 +62,14 @@ class Start:
 
     @property
     def wanted_mm(self) -> float | None:
-        """Largest position error that is wanted; None where nobody said."""
+        """Required accuracy: largest position error; None if not specified."""
         request = self.request
         return request.until_mm or request.accuracy_mm or self.robot.accuracy_mm
 
 
 @dataclass(frozen=True, slots=True)
 class Continued:
-    """What a run takes over from an earlier one: its readings, and its clock."""
+    """Data from an earlier run that a run continues: its readings, and its clock."""
 
     readings: list[Reading]
     elapsed_s: float
@@ -82,26 +82,26 @@ def _nothing_to_check(store: Store, request: CalibrationRequest) -> None:
 
 @dataclass(frozen=True)
 class RunKind:
-    """One thing that a run can do."""
+    """One kind of run."""
 
     name: str
     procedure: Callable[[Start], Procedure] | None
     """Makes the procedure, not yet started; None where nothing is measured on the rig.
 
-    :raises InputRefused: it cannot be made for this robot.
+    :raises InputRefused: it is not possible for this robot.
     """
     check: Callable[[Store, CalibrationRequest], None] = _nothing_to_check
-    """Before anything is stored.  :raises NotApplicable: the earlier run does not allow it; says why."""
+    """Check before storing anything. :raises NotApplicable: the earlier run does not permit it."""
     done_by: Callable[[Store, int], int | None] | None = None
-    """The run that has done this for an earlier run already, so that asking again is harmless."""
+    """The run that has already done this for an earlier run, so that a repeated request is harmless."""
     continues: Callable[[Store, CalibrationRequest], Continued | None] | None = None
-    """What is taken over from the earlier run before anything moves; None: nothing."""
+    """The data taken over from the earlier run before anything moves; None: nothing."""
     from_outside: bool = False
-    """Whether it may start where the arm stands outside its workspace, or the scale does not read."""
+    """Whether it may start with the arm outside its workspace, or without a valid scale reading."""
     judged: bool = True
     """Whether it ends with a verdict on the robot."""
     rests_on_scale: bool = True
-    """Whether its verdict needs a scale with a valid certificate; not what only writes zeros of a pass."""
+    """Whether its verdict needs a certified scale; not for kinds that only write the zeros of a pass."""
     offsets: bool = False
     """Whether the zero offsets of a pass may be written to the drives."""
 
@@ -112,7 +112,7 @@ class RunKind:
 
 
 def robot_as_measured(store: Store, calibration: Calibration) -> Robot:
-    """The robot file of an ended run, with the references that it was started with.
+    """The robot file of a finished run, with the references that it was started with.
 
     :raises NotFound: no such run.
     """
@@ -127,7 +127,7 @@ RUN_KINDS: Mapping[str, RunKind] = MappingProxyType(_KINDS)
 
 
 def register(kind: RunKind) -> RunKind:
-    """Make a kind known.  :raises ValueError: its name is taken."""
+    """Register a kind. :raises ValueError: its name is in use."""
     if kind.name in _KINDS:
         raise ValueError(f"the run kind {kind.name} is registered already")
     _KINDS[kind.name] = kind
@@ -140,7 +140,7 @@ def kind_of_plan(plan: PlanName) -> str:
 
 
 def has_offsets(run: CalibrationSummary) -> bool:
-    """Whether a pass of its kind has zero offsets to write; the history may hold kinds that are no more."""
+    """Whether a pass of its kind has zero offsets to write; the history may contain former kinds."""
     kind = RUN_KINDS.get(run.kind)
     return kind is not None and kind.offsets
 

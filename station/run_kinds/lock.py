@@ -1,4 +1,4 @@
-"""A failed check locks calibrated work: commands and offsets of a calibration that holds no longer."""
+"""A failed check locks work with the calibration: its commands and offsets are no longer valid."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ MOST_LOOKED_AT = 500
 
 
 def calibration_holds(store: Store, serial: str) -> CalibrationHolds:
-    """Whether calibrated work of a robot may go on, as its checks and calibrations say."""
+    """Whether work with the calibration of a robot is permitted, from its checks and calibrations."""
     newest = _newest(store, serial)
     if newest is None:
         return CalibrationHolds(robot_serial=serial, locked=False, text="Not checked yet.")
@@ -35,10 +35,10 @@ def calibration_holds(store: Store, serial: str) -> CalibrationHolds:
 
 
 def _newest(store: Store, serial: str) -> CalibrationSummary | None:
-    """The failed check that still counts, else the last passed one; None where there is neither.
+    """The failed check that is still in force, otherwise the last passed one; None without either.
 
-    A failed check counts until a calibration has passed or somebody has cleared it; a check that passes later
-    does not clear it.
+    A failed check is in force until a calibration has passed or a person has cleared it; a check that passes
+    later does not clear it.
     """
     passed = None
     for run in store.calibrations(limit=MOST_LOOKED_AT, robot_serial=serial).items:
@@ -60,7 +60,7 @@ def check_not_locked(store: Store, calibration_id: int) -> None:
 
 
 def clear_failed_check(store: Store, serial: str, who: str, reason: str) -> None:
-    """Let calibrated work go on; who and why stay on record.
+    """Permit work with the calibration again; the person and the reason are recorded.
 
     :raises NotFound: no such robot.
     :raises NotApplicable: nothing is locked.

@@ -1,4 +1,4 @@
-"""The way back: a stop, a crash or a power cut may leave the arm where no other run may start."""
+"""The recovery run: a stop, a crash or a power failure may leave the arm where no other run may start."""
 
 from __future__ import annotations
 

@@ -1,7 +1,8 @@
-"""Further diagnosis: the motion that distinguishes causes which an earlier diagnostic run left open.
+"""Further diagnosis: the motion that distinguishes causes which an earlier diagnostic run left undecided.
 
 Its readings continue the numbers and the clock of that run, and all of them are diagnosed together: effects
-of time are the ones that motion separates best, and they need one clock.  New fresh readings then confirm.
+of time are the ones that motion separates best, and they need one clock. New fresh readings then confirm the
+result.
 """
 
 from __future__ import annotations
@@ -30,18 +31,19 @@ NOTHING = "No further motion can distinguish these causes. Each lists the experi
 
 @dataclass(frozen=True, slots=True)
 class Planned:
-    """What a separating run would do."""
+    """The plan of a separating run."""
 
     experiment: Experiment
     duration_s: float
-    """At the pace of the run it goes on from, fresh readings included."""
+    """Duration at the pace of the run it continues, fresh readings included."""
 
 
 def planned(store: Store, calibration_id: int) -> Planned:
-    """The experiment that separates what a run found from its aliases.
+    """The experiment that separates the effects found by a run from their aliases.
 
     :raises NotFound: no such run, or it has no diagnosis.
-    :raises NotApplicable: there is none, or the machine is no longer the one that was measured; says why.
+    :raises NotApplicable: there is none, or the machine has changed since the measurement; the error states
+    why.
     """
     store.diagnosis(calibration_id)
     run = store.summary(calibration_id)
@@ -64,7 +66,7 @@ def planned(store: Store, calibration_id: int) -> Planned:
 
 
 def check_separate(store: Store, request: CalibrationRequest) -> None:
-    """:raises NotApplicable: saying why; :raises NotFound: no such run, or it has no diagnosis."""
+    """:raises NotApplicable: with the reason; :raises NotFound: no such run, or it has no diagnosis."""
     planned(store, request.of or 0)
 
 
@@ -77,7 +79,7 @@ def separate(start: Start) -> Procedure:
 def separating(
     robot: Robot, readings: list[Reading]
 ) -> Generator[MeasurementSequence, list[Reading], CalibrationResult]:
-    """Read where the aliases differ most, and judge by fresh readings what is left of them.
+    """Measure where the aliases differ most, and test the remaining ones with fresh readings.
 
     :param readings: all of the diagnostic run
     """
@@ -89,7 +91,7 @@ def separating(
 
 
 def learned(readings: list[Reading]) -> list[Reading]:
-    """Those that a run goes on from."""
+    """The readings that a run continues."""
     return [r for r in readings if r.sequence == 1]
 
 

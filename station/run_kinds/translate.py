@@ -1,7 +1,7 @@
-"""Taught positions survive new zeros: joint angles of the same physical positions under the present ones.
+"""Translation of taught positions to new zeros: joint angles of the same physical positions.
 
-The actual angle of a joint is what its drive says plus what the drive's zero is off.  What is known of that
-before and now, each with its uncertainty, gives the new angle and how far off the platform may then stand.
+The actual angle of a joint is the angle of its drive plus the drive's zero offset. The zero offsets before
+and now, each with its uncertainty, give the new angle and the resulting position uncertainty of the platform.
 """
 
 from __future__ import annotations
@@ -23,24 +23,24 @@ from station.settings import JointSettings
 from station.store import Store
 
 NEAR_SINGULAR = 0.15
-"""Sine of the angle between the distal links below which the platform is hardly held."""
+"""Sine of the angle between the distal links below which the platform is nearly unconstrained."""
 MARGIN_MM = 5.0
 K95 = 2.4477
-"""Radius that holds 95 % of two-dimensional normal errors, in standard deviations of the larger axis."""
+"""Radius that contains 95 % of two-dimensional normal errors, in standard deviations of the larger axis."""
 
 
 @dataclass(frozen=True)
 class Change:
-    """From the frame in which positions were taught to the one that the drives have now."""
+    """The change from the frame in which positions were taught to the present frame of the drives."""
 
     robot: Robot
     shift: Real
     """(2,) rad, to be added to taught angles."""
     covariance: Real
-    """(2, 2) rad^2, of what the actual angles then differ by."""
+    """(2, 2) rad^2, covariance of the remaining difference of the actual angles."""
 
     def back(self) -> Change:
-        """What takes translated positions back to what they were."""
+        """The inverse change, which restores the original positions."""
         return replace(self, shift=-self.shift)
 
 
@@ -48,7 +48,7 @@ def change_of(store: Store, run_id: int, taught_under: int | None = None) -> Cha
     """:param taught_under: the run after whose application positions were taught; None: before `run_id` was.
 
     :raises NotFound: no such run.
-    :raises NotApplicable: it is not applied, or what the drives hold is not known; says why.
+    :raises NotApplicable: it is not applied, or the zeros in the drives are unknown; the error states why.
     """
     run = store.calibration(run_id)
     known = application(store, run)
@@ -61,7 +61,7 @@ def change_of(store: Store, run_id: int, taught_under: int | None = None) -> Cha
     robot = store.robot_of(run_id)
     now = shift_of(store.zero_writes(run.robot_serial, since=run_id))
     if taught_under is None:
-        # the drives' own frames moved by what was written, and nothing else did
+        # the drives' own frames moved by the written values only
         return Change(robot, -np.radians(now), np.eye(2) * 2.0 * np.radians(robot.pulse_deg) ** 2 / 12.0)
     earlier = store.calibration(taught_under)
     if earlier.robot_serial != run.robot_serial:
@@ -76,7 +76,7 @@ def change_of(store: Store, run_id: int, taught_under: int | None = None) -> Cha
 
 
 def _same_mounting(store: Store, earlier: int, later: int) -> bool:
-    """Whether every run between them found the mechanism as the run before it had left it."""
+    """Whether every run between them found the mechanism as the previous run had left it."""
     while later > earlier:
         use = store.calibration(later).memory
         if use is None or not use.used:

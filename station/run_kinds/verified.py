@@ -1,4 +1,4 @@
-"""From readings to a verified result: identify, then fresh positions that took no part in the fit."""
+"""From readings to a verified result: identify, then fresh positions that are not used in the fit."""
 
 from __future__ import annotations
 
@@ -25,9 +25,9 @@ def identified_and_verified(
     *,
     advised: bool = True,
 ) -> Procedure:
-    """The measurement model on readings, and a verdict by fresh ones.
+    """The measurement model on readings, and a verdict from fresh ones.
 
-    :param advised: with what would make the calibration better
+    :param advised: whether to list measures that would improve the calibration
     """
     age_days = memory.age_days if memory else 0.0
     try:

@@ -1,6 +1,7 @@
-"""What has become of a calibration's zero offsets: written to the drives, verified, rolled back, or in doubt.
+"""The state of a calibration's zero offsets: written to the drives, verified, rolled back, or in doubt.
 
-Told from the journal of zeros alone, so that it is right after an abort, a crash or a power cut too.
+It is derived from the journal of zeros alone, so it is also correct after an abort, a crash or a power
+failure.
 """
 
 from __future__ import annotations
@@ -34,7 +35,7 @@ _TEXTS: dict[ApplicationState, str] = {
 
 
 def application(store: Store, calibration: CalibrationSummary) -> Application | None:
-    """What the drives hold of a calibration; None where there is nothing to apply."""
+    """The part of a calibration that the drives have; None where there is nothing to apply."""
     if calibration.verdict != "pass" or not has_offsets(calibration):
         return None
     runs = store.runs_of(calibration.id)
@@ -55,12 +56,12 @@ def application(store: Store, calibration: CalibrationSummary) -> Application | 
 
 
 def check_apply(store: Store, request: CalibrationRequest) -> None:
-    """:raises NotApplicable: saying why; :raises NotFound: no such run."""
+    """:raises NotApplicable: with the reason; :raises NotFound: no such run."""
     _check_apply(store, request.of or 0)
 
 
 def check_roll_back(store: Store, request: CalibrationRequest) -> None:
-    """:raises NotApplicable: saying why; :raises NotFound: no such run."""
+    """:raises NotApplicable: with the reason; :raises NotFound: no such run."""
     _check_roll_back(store, request.of or 0)
 
 
@@ -88,7 +89,7 @@ def _check_roll_back(store: Store, calibration_id: int) -> None:
 
 
 def rolled_back_by(store: Store, calibration_id: int) -> int | None:
-    """The run that put the old zeros back and was the last to write any; None when there is none."""
+    """The run that restored the old zeros and was the last to write any; None without one."""
     calibration = store.summary(calibration_id)
     known = application(store, calibration)
     if known is None or known.state != "rolled back":

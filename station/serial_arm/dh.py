@@ -1,12 +1,12 @@
-"""Kinematics of a serial arm: a chain of elementary turns and shifts, with every derivative in closed form.
+"""Kinematics of a serial arm: a chain of rotations and translations, with every derivative in closed form.
 
-A joint turns about z or slides along z; the variable of a joint that slides is in metres, so that one unit
-of any joint moves the end about equally.
+A joint rotates about z or slides along z; the variable of a sliding joint is in metres, so that one unit of
+any joint moves the end about equally.
 
-Standard Denavit-Hartenberg form turns and shifts about z by theta and d, then about x by alpha and a; in the
-modified form (Craig) the pair about x comes first.  Between the two each link has one more shift along y and
-one more turn about y (Hayati and Mirmirani, 1985), so that six errors a link say all that a rigid link can
-be wrong by, parallel axes included.
+The standard Denavit-Hartenberg form rotates and translates about z by theta and d, then about x by alpha and
+a; in the modified form (Craig) the pair about x comes first. Between the two each link has one more
+translation along y and one more rotation about y (Hayati and Mirmirani, 1985), so that six errors per link
+describe every error of a rigid link, parallel axes included.
 """
 
 from __future__ import annotations
@@ -21,9 +21,9 @@ from station.records import Real
 Convention = Literal["standard", "modified"]
 
 LINK_ERRORS = ("dtheta", "d", "a", "alpha", "b", "beta")
-"""Of one link: about z, along z, along x, about x, along y, about y."""
+"""Errors of one link: about z, along z, along x, about x, along y, about y."""
 MM = 1000.0
-"""Of a metre."""
+"""Millimetres per metre."""
 _X, _Y, _Z = 0, 1, 2
 _STANDARD = (
     ("turn", _Z, "dtheta"), ("shift", _Z, "d"), ("shift", _X, "a"), ("turn", _X, "alpha"),
@@ -49,7 +49,7 @@ class Links:
     """(n,) rad, added to the joint angle."""
     convention: Convention = "standard"
     sliding: tuple[int, ...] = ()
-    """Joints that slide, from 0."""
+    """Joints that slide, counted from 0."""
 
     def __len__(self) -> int:
         return len(self.a)
@@ -77,8 +77,8 @@ class Reach(NamedTuple):
 def reach(links: Links, errors: Real, tool: Real, theta: Real) -> Reach:
     """Forward kinematics and its derivatives.
 
-    errors (n, 6) in the order of `LINK_ERRORS`; tool (3,) or (K, 3) mm in the frame of the last link;
-    theta (K, n) rad, m of joints that slide.
+    errors (n, 6) in the order of `LINK_ERRORS`; tool (3,) or (K, 3) mm in the frame of the last link; theta
+    (K, n) rad, m for sliding joints.
     """
     count, n = theta.shape
     frame: Real = np.tile(np.eye(3), (count, 1, 1))
@@ -118,7 +118,7 @@ def reach(links: Links, errors: Real, tool: Real, theta: Real) -> Reach:
 
 
 def _turned(frame: Real, axis: int, angle: float | Real) -> Real:
-    """(K, 3, 3) frames turned about their own axis by an angle or (K,) angles, rad."""
+    """(K, 3, 3) frames rotated about one of their axes by an angle or (K,) angles, rad."""
     c, s = np.cos(angle), np.sin(angle)
     if np.ndim(angle):
         c, s = c[:, None], s[:, None]

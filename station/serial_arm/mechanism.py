@@ -1,8 +1,8 @@
 """A serial arm as a mechanism: joint angles in, tracker positions or distances out, with derivatives.
 
 Position of the target: s_k = t + R p(theta_k + dtheta; links, tool).  Distance from the instrument's origin,
-which the base frame sees at o: s_k = |p(theta_k + dtheta; links, tool) - o|.  Base pose and tool point belong
-to the fit; where they start comes from the readings themselves.
+at o in the base frame: s_k = |p(theta_k + dtheta; links, tool) - o|.  Base pose and tool point belong to the
+fit; their start values come from the readings.
 """
 
 from __future__ import annotations
@@ -20,17 +20,17 @@ from station.serial_arm.placement import DEGREES, Placement
 from station.serial_arm.robot_file import ARM_MODEL, Arm
 
 METRES = 0.02
-"""Of the length of an arm, within which no target of it can stay."""
+"""Maximum length of an arm, in metres, that contains every target."""
 MISFIT = 0.03
-"""Misfit over the arm's length beyond which angles and positions are not of one machine."""
+"""Misfit over the arm's length beyond which angles and positions belong to different machines."""
 _OTHERS = LINK_ERRORS[1:]
-"""Errors of a link beside the zero offset of its joint; a joint that slides has it along z,"""
+"""Errors of a link beside the zero offset of its joint; for a sliding joint the zero is along z,"""
 _OTHERS_SLIDING = ("theta", *LINK_ERRORS[2:])
-"""and the one about z beside it."""
+"""and the error about z is listed here."""
 
 
 class SerialArm:
-    """Parameters: zero offsets of the n joints, five more errors a link, tool points, poses of the base.
+    """Parameters: zero offsets of the n joints, five more errors per link, tool points, poses of the base.
 
     With distances only, the pose of the base is the instrument's origin (three numbers): turning the whole
     arm about that origin changes no distance.
@@ -39,10 +39,10 @@ class SerialArm:
     model = ARM_MODEL
     needs_repeats = False
     workspace: Complex = np.zeros(0, dtype=complex)
-    """None is declared: an arm is judged at the poses that were measured."""
+    """No workspace is declared: an arm is evaluated at its measured poses."""
 
     def __init__(self, robot: Arm, measurements: Measurements, frame: Real | None = None) -> None:
-        """`frame` (S, 3, 3): orientations of the base that its turns count from; found when left out."""
+        """`frame` (S, 3, 3): reference orientations of the base; computed if omitted."""
         self.robot = robot
         self.measurements = measurements
         self.theta = measurements.theta
@@ -79,21 +79,21 @@ class SerialArm:
 
     @cached_property
     def row_sd(self) -> Real:
-        """(R,) the instrument's and the arm's own repeatability."""
+        """(R,) standard deviation from the instrument's and the arm's own repeatability."""
         return np.full(len(self.measured), self.robot.reading_sd_mm)
 
     @cached_property
     def start(self) -> Real:
-        """(P,) nominal links; the base where the readings put it: by Kabsch's rotation, or by trilateration.
+        """(P,) nominal links; the base from the readings: by Kabsch's rotation, or by trilateration.
 
-        :raises InputRefused: no pose of the base brings angles and readings together.
+        :raises InputRefused: no pose of the base matches angles and readings.
         """
         p = np.array([q.prior_mean for q in self.parameters])
         at = self._reach(p, self.theta).end
-        setups = self._placement.setups(p[self._links_size :])  # a view: what is set here is set in p
+        setups = self._placement.setups(p[self._links_size :])  # a view: values set here are set in p
         for s, rows in enumerate(self._placement.rows):
             if not len(rows):
-                continue  # of fresh readings: the set-up was placed by those learned from
+                continue  # fresh readings: the set-up was placed from those learned from
             if self.by_range:
                 setups[s] = _trilaterated(at[rows], self.measured[rows])
             else:
@@ -107,11 +107,11 @@ class SerialArm:
         return "nominal", tuple(p.name for p in self.parameters if p.role == "placement")
 
     def of(self, measurements: Measurements) -> SerialArm:
-        """The same arm under other readings, its base where it was."""
+        """The same arm with other readings, its base unchanged."""
         return SerialArm(self.robot, measurements, None if self.by_range else self._base_frame)
 
     def check(self) -> None:
-        """:raises InputRefused: readings that cannot be of this arm."""
+        """:raises InputRefused: readings are impossible for this arm."""
         m = self.measurements
         self._placement.check()
         turning = [i for i in range(m.joints) if i not in self._links.sliding]
@@ -137,7 +137,7 @@ class SerialArm:
             )
 
     def _nominal_misfit(self) -> float:
-        """Median misfit of the rows, mm, nominal links with the best base and tool."""
+        """Median misfit of the rows, mm, with nominal links and the best base and tool."""
         start = self.start
         free = np.flatnonzero([p.name in self.simplest[1] for p in self.parameters])
 
@@ -182,7 +182,7 @@ class SerialArm:
         return Observation(seen.ravel(), by_parameter, by_parameter[:, :n])
 
     def conditions(self, p: Real, reference: Reference, *, first: bool) -> Conditions:
-        """Under what the readings were taken; there is no slider, and `first` makes no difference."""
+        """The conditions of the readings; there is no slider, and `first` makes no difference."""
         m = self.measurements
         theta = m.theta + p[: self.robot.joints]
         unknown = np.zeros(len(m))
@@ -207,15 +207,15 @@ class SerialArm:
         )
 
     def implausible(self, p: Real) -> str:
-        """Nothing is held against an arm: tool and base may be anywhere."""
+        """No parameters are implausible: tool and base may be anywhere."""
         return ""
 
     def position_errors(self, p: Real) -> None:
-        """There is no workspace to predict them over."""
+        """None: there is no workspace to predict them over."""
         return
 
     def places(self, p: Real) -> Real:
-        """(K, 3) where the target stood in the frame of the base, mm."""
+        """(K, 3) position of the target in the frame of the base, mm."""
         return self._reach(p, self.theta).end
 
     @property
@@ -224,7 +224,7 @@ class SerialArm:
 
     @property
     def _links_size(self) -> int:
-        """Unknowns before those of the placement."""
+        """Number of unknowns before those of the placement."""
         return 6 * self.robot.joints
 
     def _reach(self, p: Real, theta: Real) -> Reach:
@@ -241,10 +241,10 @@ class SerialArm:
 
     @cached_property
     def _base_frame(self) -> Real:
-        """(S, 3, 3) orientations of the base, within what the unknown tool point lets them be seen."""
+        """(S, 3, 3) orientations of the base, as far as they are visible with an unknown tool point."""
         if self._frame is not None:
             return self._frame
-        from scipy.spatial.transform import Rotation  # here, because a five-bar never needs it
+        from scipy.spatial.transform import Rotation  # imported here, because a five-bar never needs it
 
         frames = np.tile(np.eye(3), (len(self._placement.rows), 1, 1))
         for s, rows in enumerate(self._placement.rows):
@@ -255,14 +255,14 @@ class SerialArm:
         return frames
 
     def _turned(self, setup: int, turns: Real) -> tuple[Real, list[Real]]:
-        """Base orientation Rx Ry Rz R_0 at turns (3,), rad, and the axis of each of the three."""
+        """Base orientation Rx Ry Rz R_0 at rotations (3,), rad, and the axis of each of the three."""
         from scipy.spatial.transform import Rotation
 
         x, y, z = (Rotation.from_euler(axis, turns[k]).as_matrix() for k, axis in enumerate("xyz"))
         return x @ y @ z @ self._base_frame[setup], [np.eye(3)[0], x[:, 1], (x @ y)[:, 2]]
 
     def _load(self, theta: Real) -> tuple[Real, ...]:
-        """(K, q) a joint: moment of a unit weight at each origin beyond it, 1 at the arm's full length."""
+        """(K, q) per joint: moment of a unit weight at each origin beyond it, 1 at the arm's full length."""
         at = self._reach(np.zeros(len(self.parameters)), theta)
         down = np.array(self.robot.gravity) / np.linalg.norm(self.robot.gravity)
         out = []
@@ -274,7 +274,7 @@ class SerialArm:
 
 
 def _trilaterated(at: Real, distance: Real) -> Real:
-    """(3,) the point that is at distances (K,) from places at (K, 3): |a|^2 - d^2 = 2 a.o - |o|^2."""
+    """(3,) the point that is at distances (K,) from positions (K, 3): |a|^2 - d^2 = 2 a.o - |o|^2."""
     centre = at.mean(axis=0)
     a = at - centre
     rows = np.column_stack([2.0 * a, -np.ones(len(a))])

@@ -1,7 +1,7 @@
-"""Where the points on the tool are, and where base and instrument stood, for each reading of a log.
+"""Positions of the points on the tool, and of base and instrument, for each reading of a log.
 
 A log may have several points on the tool (`mount`), measured in turn, and several set-ups (`setup`): base or
-instrument were moved between them.  Each point and each set-up has unknowns of its own.
+instrument were moved between them.  Each point and each set-up has separate unknowns.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from station.records import Index, Measurements, Real
 
 DEGREES = 180.0 / np.pi
 FEWEST = 6
-"""Readings of a set-up, from which its six unknowns follow with something to spare."""
+"""Minimum number of readings of a set-up: its six unknowns with some redundancy."""
 
 
 class Placement:
@@ -30,7 +30,7 @@ class Placement:
         self._size = 3 if by_range else 6
 
     def parameters(self, tool_sd_mm: float) -> tuple[Parameter, ...]:
-        """Their priors: points as the robot file knows them, set-ups not at all."""
+        """Their priors: points as in the robot file, none for set-ups."""
         out = []
         for label in self._mounts:
             at = "" if label == self._mounts[0] else f"@{label}"
@@ -44,7 +44,7 @@ class Placement:
         return tuple(out)
 
     def check(self) -> None:
-        """:raises InputRefused: a set-up with so few readings that it cannot be placed."""
+        """:raises InputRefused: a set-up has too few readings to be placed."""
         count = np.bincount(self.setup, minlength=len(self._setups))
         for label, readings in zip(self._setups, count, strict=True):
             if 0 < readings < FEWEST:

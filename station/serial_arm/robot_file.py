@@ -1,4 +1,4 @@
-"""The robot file of a serial arm: Denavit-Hartenberg links, tolerances, what is measured and how well."""
+"""The robot file of a serial arm: Denavit-Hartenberg links, tolerances, measurement and uncertainty."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ ARM_MODEL = "serial-dh"
 
 @dataclass(frozen=True)
 class ArmTolerances:
-    """Standard deviations of what is not known better."""
+    """Standard deviations of the nominal values."""
 
     zero_offset_deg: float = 1.0
     length_mm: float = 1.0
@@ -45,13 +45,13 @@ class Arm:
     """Standard uncertainty of one coordinate or distance: instrument and repeatability of the arm
     together."""
     joint_kinds: tuple[JointKind, ...] = ()
-    """One a joint; by default all turn."""
+    """One per joint; by default all rotate."""
     gravity: Triple = (0.0, 0.0, -1.0)
-    """Its direction in the frame of the base."""
+    """Direction of gravity in the frame of the base."""
 
     @classmethod
     def from_dict(cls, data: Sections, *, source: str = "robot") -> Arm:
-        """From the robot file's sections.  :raises InputRefused: with section and key."""
+        """From the robot file's sections.  :raises InputRefused: the error gives section and key."""
         try:
             return ArmFile.model_validate(data).to_arm(source)
         except ValidationError as error:
@@ -87,7 +87,7 @@ class Arm:
 
     @property
     def sliding(self) -> tuple[int, ...]:
-        """Joints that slide, from 1."""
+        """Joints that slide, counted from 1."""
         return tuple(i + 1 for i, kind in enumerate(self.joint_kinds) if kind == "prismatic")
 
     @property
@@ -104,7 +104,7 @@ class Arm:
 
     @property
     def columns(self) -> Columns:
-        """What its measurement file holds."""
+        """The columns of its measurement file."""
         return Columns(
             joints=self.joints,
             distance="range_mm",
@@ -168,7 +168,7 @@ class ArmFile(Section):
     instrument: _InstrumentSection = _InstrumentSection()
 
     def to_arm(self, source: str) -> Arm:
-        """:raises InputRefused: lists of different lengths."""
+        """:raises InputRefused: the lists have different lengths."""
         robot = self.robot
         joints = len(robot.a_mm)
         offset = robot.offset_deg if robot.offset_deg is not None else [0.0] * joints

@@ -1,8 +1,8 @@
 """A robot description (URDF) as Denavit-Hartenberg links.
 
-Only the joint axes count: with the arm at its zeros each is a line in space, and two neighbouring lines have
-a common normal.  Its length is a, the turn about it alpha; d and the joint's offset are what lies between two
-normals, along and about the line (Denavit and Hartenberg 1955, standard form).
+Only the joint axes are used: with the arm at its zeros each is a line in space, and two neighbouring lines
+have a common normal. Its length is a, the rotation about it alpha; d and the joint's offset are the distance
+and the angle between two normals, along and about the line (Denavit and Hartenberg 1955, standard form).
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ KINDS: dict[str, JointKind] = {
     "continuous": "revolute",
     "prismatic": "prismatic",
 }
-"""Of the joints that move, what a robot file calls them."""
+"""Names of the moving joints in a robot file."""
 
 
 class _Line(NamedTuple):
@@ -36,7 +36,7 @@ class _Line(NamedTuple):
 
     point: Real
     along: Real
-    """(3,) unit vector; the joint turns about it or slides along it."""
+    """(3,) unit vector; the joint rotates about it or slides along it."""
     kind: JointKind
 
 
@@ -47,7 +47,7 @@ class _Joint:
     parent: str
     child: str
     shift: Real
-    """(3,) mm, of its frame in the parent's."""
+    """(3,) mm, origin of its frame in the parent's."""
     turn: Real
     """(3, 3)"""
     axis: Real
@@ -57,8 +57,8 @@ class _Joint:
 def arm_from_urdf(content: bytes, source: str, base: str, tool: str, serial: str) -> Arm:
     """The arm between two links; the target sits at the origin of the link `tool`.
 
-    :raises InputRefused: not a robot description, no such link, links that are not joined, or a joint on the
-        way that neither turns nor slides.
+    :raises InputRefused: the file is not a robot description, there is no such link, the links are not
+    connected, or a joint between them neither rotates nor slides.
     """
     joints = _joints(content, source)
     lines: list[_Line] = []
@@ -81,7 +81,7 @@ def arm_from_urdf(content: bytes, source: str, base: str, tool: str, serial: str
 
 
 def _joints(content: bytes, source: str) -> dict[str, _Joint]:
-    """By child link."""
+    """Joints by child link."""
     if b"<!DOCTYPE" in content or b"<!ENTITY" in content:
         raise InputRefused(f"{source}: a robot description has no DOCTYPE; remove it.")
     try:
@@ -134,7 +134,7 @@ def _unit(axis: Real, source: str, name: str) -> Real:
 
 
 def _turned(rpy: Real) -> Real:
-    """(3, 3) about the fixed axes x, y, z in this order."""
+    """(3, 3) rotation about the fixed axes x, y, z in this order."""
     (a, b, c), (sa, sb, sc) = np.cos(rpy), np.sin(rpy)
     x = np.array([[1.0, 0.0, 0.0], [0.0, a, -sa], [0.0, sa, a]])
     y = np.array([[b, 0.0, sb], [0.0, 1.0, 0.0], [-sb, 0.0, b]])
@@ -199,7 +199,7 @@ def _common_normal(line: _Line, following: _Line, origin: Real, x: Real) -> tupl
         s, t, gap = np.linalg.solve(np.column_stack([line.along, -following.along, normal]), apart)
         normal = -normal if gap < -SAME_MM else normal
         return line.point + s * line.along, normal, following.point + t * following.along
-    # parallel lines have many common normals: the one through where the last link ended has d = 0
+    # parallel lines have many common normals: the one through the end of the last link has d = 0
     there = following.point + ((origin - following.point) @ following.along) * following.along
     gap_vector = there - origin
     gap = float(np.linalg.norm(gap_vector))
@@ -207,14 +207,14 @@ def _common_normal(line: _Line, following: _Line, origin: Real, x: Real) -> tupl
 
 
 def _across(z: Real) -> Real:
-    """(3,) the base's x-axis, as far as z lets it be."""
+    """(3,) the base's x-axis, as far as z permits."""
     x = np.array([1.0, 0.0, 0.0]) if abs(z[0]) < 0.9 else np.array([0.0, 1.0, 0.0])
     x = x - (x @ z) * z
     return np.asarray(x / np.linalg.norm(x))
 
 
 def _angle(first: Real, second: Real, about: Real) -> float:
-    """From one direction to another about an axis, rad."""
+    """Angle from one direction to another about an axis, rad."""
     return float(np.arctan2(np.cross(first, second) @ about, first @ second))
 
 

@@ -1,4 +1,4 @@
-"""The running station: the orchestrator and all that is opened and closed with it."""
+"""The running station: the orchestrator and everything that is opened and closed with it."""
 
 from __future__ import annotations
 

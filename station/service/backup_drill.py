@@ -1,4 +1,4 @@
-"""A backup is worth what a restore of it would give: made, opened beside the history, compared with it."""
+"""A backup test: make a backup, open it beside the history, and compare the two."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _NO_AUDIT = AuditChecked(entries=0, head="", broken=None)
 def drill(store: Store, folder: Path, keep: int) -> BackupDrill:
     """One more backup, checked as `station restore` and `station verify` would; the history is not touched.
 
-    Rows are added while it is made, so a count of the backup lies between those before and after.
+    Rows are added meanwhile, so each count of the backup lies between those before and after.
 
     :raises InputRefused: the backup cannot be written.
     """

@@ -1,4 +1,4 @@
-"""Backups of the history made by the station itself: on request, and on time."""
+"""Backups of the history made by the station itself: on request, and at intervals."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _OURS = re.compile(r"station-\d{8}T\d{9}Z\.db")
 
 
 def make_backup(store: Store, folder: Path, keep: int) -> BackupMade:
-    """One more backup in a folder, of which the newest `keep` stay; the others are deleted, on record.
+    """Make one more backup in a folder. The newest `keep` are retained; others are deleted, with a record.
 
     :raises InputRefused: it cannot be written.
     """
@@ -52,7 +52,7 @@ def listed(folder: Path) -> list[BackupMade]:
 
 
 def backup_timer(store: Store, folder: Path, settings: BackupSettings) -> AbstractContextManager[object]:
-    """Makes a backup as soon as the newest one is too old, and from then on at intervals."""
+    """A timer that makes a backup as soon as the newest one is too old, and from then on at intervals."""
     if settings.every_h is None:
         return nullcontext()
     every_s = 3600.0 * settings.every_h
@@ -62,7 +62,7 @@ def backup_timer(store: Store, folder: Path, settings: BackupSettings) -> Abstra
 
 
 def first_wait_s(folder: Path, every_s: float) -> float:
-    """Until the newest backup is too old; none where it is of the future, by a clock that was wrong."""
+    """Time until the newest backup is too old; zero if its date is in the future because of a wrong clock."""
     newest = made_in(folder)[-1:]
     age_s = time.time() - newest[0].stat().st_mtime if newest else every_s
     return every_s - age_s if 0.0 <= age_s < every_s else 0.0

@@ -1,6 +1,6 @@
 """One run carried out on a machine: connect, move, measure, follow its procedure to the result.
 
-The orchestrator does this with the devices, a replay with the wire log that an earlier run left.
+The orchestrator does this with the devices, a replay with the wire log of an earlier run.
 """
 
 from __future__ import annotations
@@ -55,18 +55,18 @@ class CarryingOut:
     settings: Settings
     listeners: Listeners
     begin_clock: Callable[[float], Clock]
-    """From the seconds since the run began; called after all lines were closed, before any is opened."""
+    """Start the clock from the seconds since the run began; between closing and opening all lines."""
     take_wire: Callable[[], bytes]
-    """What happened on the lines since the last call, to be stored."""
+    """The wire log since the last call, to be stored."""
     answers: Iterator[float | None] | None = None
-    """What people answered when the run was made; None: people are asked."""
+    """Answers that were given when the run was made; None: people are asked."""
 
     def result(self) -> CalibrationResult:
-        """Every reading is in the store by then.
+        """Carry out the run; every reading is stored before this returns.
 
-        :raises Cancelled: stop was pressed.
+        :raises Cancelled: the run was stopped.
         :raises Unanswered: a prompt has expired.
-        :raises DeviceError, StepFailed, InputRefused: it failed; says why.
+        :raises DeviceError, StepFailed, InputRefused: the run failed; the error states why.
         """
         run, kind = self.run, self.kind
         if run.cancel.is_set():
@@ -74,7 +74,7 @@ class CarryingOut:
         self._set_state(State.RUNNING)
         assert kind.procedure is not None
         elapsed_s = self._continue()
-        # Every run proves afresh that the right devices answer, and depends on nothing that was before it.
+        # Every run checks again that the right devices answer, and depends on no earlier state.
         self.machine.release()
         clock = self.begin_clock(elapsed_s)
         positioner = Positioner(self.machine, run.robot, self.settings.joints, run.cancel, clock)
@@ -111,7 +111,7 @@ class CarryingOut:
         return result
 
     def _continue(self) -> float:
-        """Take over the readings of an earlier run; real time since it started, 0 where there is none."""
+        """Take over the readings of an earlier run; returns the real time since it started, 0 without one."""
         if self.kind.continues is None:
             return 0.0
         earlier = self.kind.continues(self.store, self.run.request)
@@ -122,7 +122,7 @@ class CarryingOut:
         return max(earlier.elapsed_s, earlier.readings[-1].t_s / self.machine.devices.speed)
 
     def _begin(self, step: SetZeros | Retract | Ask) -> None:
-        """A step without readings."""
+        """Begin a step without readings."""
         self.listeners.publish(
             "walk", self.run.begin_sequence(MeasurementSequence(step.title, step.number, ()))
         )
@@ -152,9 +152,9 @@ class CarryingOut:
         return readings
 
     def _ask(self, positioner: Positioner, step: Ask, so_far: SoFar) -> float | None:
-        """What somebody answers, at standstill.
+        """Ask a person at standstill, and return the answer.
 
-        :raises Unanswered: the time is over.
+        :raises Unanswered: the time limit has expired.
         """
         value = next(self.answers) if self.answers is not None else self._answer(step)
         if step.mounted_at is not None:
@@ -166,7 +166,7 @@ class CarryingOut:
         return value
 
     def _answer(self, step: Ask) -> float | None:
-        """Wait for it; stop and abort end the wait at once."""
+        """Wait for the answer; stop and abort end the wait at once."""
         run, limit_s = self.run, self.settings.limits.prompt_s
         deadline = time.monotonic() + limit_s
         expires_at = datetime.now(UTC) + timedelta(seconds=limit_s)

@@ -1,7 +1,7 @@
-"""What the training desk can do to the emulated machine, with sizes that a run can see.
+"""Errors that the training desk can introduce on the emulated machine, with sizes that a run can detect.
 
-The sizes are for the emulated machine, which lives faster than real time: a drift is large per hour because
-a run takes a minute.
+The sizes are for the emulated machine, which runs faster than real time: a drift is large per hour because a
+run takes a minute.
 """
 
 from __future__ import annotations
@@ -16,21 +16,21 @@ from station.records import Challenge, ChallengeGroup
 
 @dataclass(frozen=True, slots=True)
 class Kind:
-    """One kind: how it is ordered."""
+    """One kind of error, and how it is ordered."""
 
     kind: str
     group: ChallengeGroup
     key: str = ""
-    """Which field the size is."""
+    """The field that contains the size."""
     unit: str = ""
     sizes: tuple[float, float, float] | None = None
-    """Smallest, usual, largest."""
+    """Smallest, default and largest size."""
     joint: bool = False
     more: dict[str, JsonValue] = field(default_factory=dict)
-    """Fields that are always the same."""
+    """Fields with constant values."""
 
     def shown(self) -> Challenge:
-        """As the page is told of it."""
+        """The kind as the page receives it."""
         smallest, usual, largest = self.sizes or (None, None, None)
         return Challenge(
             kind=self.kind,
@@ -43,7 +43,7 @@ class Kind:
         )
 
     def effects(self, joint: int | None, size: float | None) -> list[EffectTable]:
-        """What is ordered of the machine."""
+        """The effects to order for the machine."""
         if self.group == "fault":
             return []
         table: EffectTable = {"kind": self.kind, **self.more}
@@ -54,7 +54,7 @@ class Kind:
         return [table]
 
     def faults(self, joint: int | None) -> list[FaultOrder]:
-        """What is ordered of the devices."""
+        """The faults to order for the devices."""
         if self.group != "fault":
             return []
         device, _, kind = self.kind.partition(" ")
@@ -106,4 +106,4 @@ KINDS: dict[str, Kind] = {
         Kind("line port_gone", "fault"),
     )
 }
-"""By name; a fault is named by its device and its kind."""
+"""Kinds by name; the name of a fault is its device and its kind."""

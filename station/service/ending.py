@@ -1,4 +1,4 @@
-"""How a run's procedure came out, before the machine was brought to rest."""
+"""The outcome of a run's procedure, before the machine was brought to standstill."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from station.records import CalibrationResult, Reason, State, because
 
 @dataclass(frozen=True, slots=True)
 class Ending:
-    """State, and what is known about why."""
+    """State, and the known cause."""
 
     state: State
     reason: Reason | None = None
@@ -19,7 +19,7 @@ class Ending:
     """The interlock that ended it."""
 
     def without_result(self, doubt: str | None) -> Ending:
-        """Of a run that did not end well, with what could not be confirmed about standstill."""
+        """The end of an unsuccessful run, with the parts of the standstill that could not be confirmed."""
         if doubt is None:
             return Ending(self.state, self.reason, tripped=self.tripped)
         said = [self.reason.text] if self.reason else []

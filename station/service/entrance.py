@@ -1,4 +1,4 @@
-"""Where the service may listen: never without anybody who can sign in, but for the emulated rig alone."""
+"""The addresses where the service may listen: without any user only for the emulated rig on this computer."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from station.store import Store
 
 
 def listens_on_loopback(host: str) -> bool:
-    """Whether only this computer reaches a service at this address."""
+    """Whether only this computer can reach a service at this address."""
     if host.lower() == "localhost":
         return True
     try:
@@ -21,9 +21,9 @@ def listens_on_loopback(host: str) -> bool:
 
 
 def check_entrance(database: Path, host: str, *, emulated: bool) -> None:
-    """Before anything is opened.
+    """Check the address before anything is opened.
 
-    :raises InputRefused: others reach it, or it moves a real machine, and nobody can sign in.
+    :raises InputRefused: others can reach it, or it moves a real machine, and nobody can sign in.
     """
     if emulated and listens_on_loopback(host):
         return

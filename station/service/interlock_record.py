@@ -1,4 +1,4 @@
-"""Interlocks in the record: which broke during a run, and which held again, as events of the run."""
+"""Interlocks in the record: violations during a run, and their ends, as events of the run."""
 
 from __future__ import annotations
 
@@ -14,14 +14,14 @@ log = logging.getLogger(__name__)
 
 
 class InterlockRecord:
-    """A listener; what did not hold yet when the run began is no event of it."""
+    """A listener; an interlock that was violated when the run began is not an event of the run."""
 
     def __init__(self, store: Store, run_under_way: Callable[[], int | None]) -> None:
         self._store = store
         self._run_under_way = run_under_way
         self._held: dict[str, bool] = {}
         self._broken_in: dict[str, int] = {}
-        """The run in which an interlock broke that does not hold yet."""
+        """The run in which an interlock was violated that is not satisfied yet."""
 
     def __call__(self, event: LiveEvent) -> None:
         if event.type != "interlock" or not isinstance(event.data, tuple):

@@ -1,4 +1,4 @@
-"""The last run as a page shows it, for those who did not watch it."""
+"""The last run for the page, for users who did not watch it."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ PlaceOf = Callable[[tuple[float, ...]], Place]
 
 
 def last_run(store: Store, last: CalibrationSummary, place: PlaceOf) -> RunView:
-    """Its readings with their residuals, each as a position that is done, from the store."""
+    """Its readings with their residuals, each as a completed position, from the store."""
     residuals = {row.reading: row for row in store.calibration(last.id).residuals}
 
     def row(reading: Reading) -> RunReading:

@@ -1,7 +1,6 @@
-"""What was done already is recorded beside, and again and again until the database takes it.
+"""Records of completed actions, written in the background and repeated until the database accepts them.
 
-A database that is locked must keep the drives' answer from nobody, and a stop must be in the audit all the
-same.
+A locked database must not delay the drives' answer, and a stop must still be in the audit.
 """
 
 from __future__ import annotations
@@ -22,7 +21,7 @@ from station.store import Store
 log = logging.getLogger(__name__)
 
 PAUSE_S = 0.5
-"""Between two attempts; each waits for a lock of another program by itself."""
+"""Pause between two attempts; each attempt itself waits for another program's lock."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,7 +32,7 @@ class _Late:
 
 
 class LateRecords:
-    """In order, on a thread that lives as long as something waits."""
+    """Records in order, on a thread that runs while any are waiting."""
 
     def __init__(self, store: Store) -> None:
         self._store = store
@@ -42,14 +41,14 @@ class LateRecords:
         self._thread: Thread | None = None
 
     def stop(self, run_id: int | None, who: str, trouble: Mapping[str, str]) -> None:
-        """That a stop was carried out, as an event of the run or the station; returns at once."""
+        """Record a completed stop as an event of the run or the station; returns at once."""
         event: dict[str, JsonValue] = {"by": who, **trouble}
         self._add(f"stop by {who}", lambda: self._store.add_event(run_id, "stop", event))
 
     def deed(
         self, by: Actor, action: str, subject: str, after: Mapping[str, JsonValue] | None = None
     ) -> Event:
-        """An entry of the audit with the time of this call; returns at once what says when it is written."""
+        """Record an audit entry with the time of this call; returns at once an event set when written."""
         at = datetime.now(UTC)
         return self._add(
             f"{action} by {by.name}",
@@ -57,7 +56,7 @@ class LateRecords:
         )
 
     def close(self, limit_s: float) -> None:
-        """Wait so long for what waits; what then is not written stands in the log alone."""
+        """Wait this long for pending records; those not written by then are in the log only."""
         thread = self._thread
         if thread is not None:
             thread.join(limit_s)

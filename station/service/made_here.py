@@ -1,4 +1,4 @@
-"""What a run of this station is made by: kept with it before anything moves."""
+"""The software and devices of a run of this station: stored with it before anything moves."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ def _libraries() -> dict[str, str]:
 
 
 def made_here(settings: Settings, devices: Devices) -> MadeBy:
-    """Software, devices and scale certificate of now."""
+    """The current software, devices and scale certificate."""
     drivers = (
         settings.scale.protocol if settings.scale else "",
         *[settings.servo.profile if settings.servo else ""] * 2,

@@ -1,8 +1,8 @@
-"""Runs calibrations one at a time: states, the worker that measures, abort, stop, make-safe.
+"""Runs calibrations one at a time: states, worker thread, abort, stop, make-safe.
 
-One worker thread does all ordinary work with the devices, so that nothing has to share them; while
-nothing runs it looks at the machine twice a second.  `stop` and `abort` work from any thread and go
-to the drives directly, past the worker and past every queue.
+One worker thread does all ordinary work with the devices, so they are never shared; between runs it queries
+the machine twice a second.  `stop` and `abort` work from any thread and go to the drives directly, past the
+worker and past every queue.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ SHUTDOWN_LIMIT_S = 10.0
 
 
 class Orchestrator:
-    """The station's only way to move; every method may be called from any thread."""
+    """The only interface that moves the station; every method may be called from any thread."""
 
     def __init__(
         self,
@@ -119,10 +119,10 @@ class Orchestrator:
         """Start a run, or find the one that this key started.
 
         :raises Busy: another run holds the rig.
-        :raises KeyReused: the key came with another request.
+        :raises KeyReused: the key was used for another request.
         :raises InputRefused: the robot does not fit this station, or the station is shutting down.
-        :raises NotApplicable: the offsets of the run it is about cannot be written or taken back.
-        :raises StoreUnavailable: it cannot be recorded, so nothing was started.
+        :raises NotApplicable: the offsets of the run it refers to cannot be written or rolled back.
+        :raises StoreUnavailable: it cannot be recorded; nothing was started.
         """
         kind = self._kinds[request.kind]
         body_hash = request_hash(request)
@@ -169,11 +169,11 @@ class Orchestrator:
         idempotency_key: str | None = None,
         by: Actor = STATION,
     ) -> Submitted:
-        """Start a run that is about an earlier one: apply it, roll it back, distinguish its causes.
+        """Start a run that refers to an earlier one: apply it, roll it back, distinguish its causes.
 
-        Where it has been done already, and doing it again would be harmless, that run answers.
+        If it has been done already, and repeating it would be harmless, that run is returned.
 
-        :raises NotFound: there is no such run; else as `submit`.
+        :raises NotFound: there is no such run; otherwise as `submit`.
         """
         done_by = self._kinds[kind].done_by
         if done_by is not None and (done := done_by(self._store, calibration_id)) is not None:
@@ -183,7 +183,7 @@ class Orchestrator:
         return self.submit(request, idempotency_key=idempotency_key, by=by)
 
     def no_room(self) -> str | None:
-        """Why the disk is too full for a run; None when it is not."""
+        """Why the disk is too full for a run; None if it is not."""
         return too_full(self._store.path, self._settings.service.least_free_mb)
 
     def retract(self, operator: str, *, idempotency_key: str | None = None, by: Actor = STATION) -> Submitted:
@@ -195,7 +195,7 @@ class Orchestrator:
         return self.submit(request, idempotency_key=idempotency_key, by=by)
 
     def abort(self, calibration_id: int, who: str = "the operator") -> None:
-        """End a run at once and bring the machine to standstill; again, or after its end, is harmless.
+        """End a run at once and bring the machine to standstill; harmless if repeated or after its end.
 
         :raises NotFound: there is no such run.
         """
@@ -218,11 +218,11 @@ class Orchestrator:
 
     @property
     def axes(self) -> tuple[str, ...]:
-        """Names of what `stop` stops."""
+        """Names of the axes that `stop` stops."""
         return tuple(axis.name for axis in self._machine.devices.axes)
 
     def clear_failed_check(self, serial: str, who: str, reason: str) -> CalibrationHolds:
-        """Let calibrated work go on after a failed check.
+        """Permit work with the calibration after a failed check.
 
         :raises NotFound: no such robot.
         :raises NotApplicable: nothing is locked.
@@ -233,7 +233,7 @@ class Orchestrator:
         return calibration_holds(self._store, serial)
 
     def _calibration_holds(self) -> CalibrationHolds:
-        """Of the robot measured last; kept, so that a snapshot asks nothing."""
+        """Whether the calibration of the robot measured last is valid; cached for snapshots."""
         serial = self._machine.robot.serial
         try:
             self._machine.locks.look_at_reference()
@@ -242,16 +242,16 @@ class Orchestrator:
             return CalibrationHolds(robot_serial=serial, locked=True, text=f"Not known: {error}")
 
     def prompt(self, calibration_id: int) -> Prompt | None:
-        """What a run asks at this moment."""
+        """The current prompt of a run."""
         run = self._run
         return run.prompt if run is not None and run.id == calibration_id else None
 
     def answer(self, calibration_id: int, prompt: str, value: float | None, who: str) -> None:
-        """Answer what a run asks.
+        """Answer the prompt of a run.
 
         :raises NotFound: there is no such run.
-        :raises NotApplicable: it asks nothing, or something else.
-        :raises FieldRefused: the value is missing or impossible; the run goes on waiting.
+        :raises NotApplicable: it has no prompt, or a different one.
+        :raises FieldRefused: the value is missing or impossible; the run continues to wait.
         """
         run = self._run
         if run is None or run.id != calibration_id:
@@ -260,9 +260,9 @@ class Orchestrator:
         run.answer(prompt, value, who)
 
     def stop(self, who: str) -> dict[str, str | None]:
-        """Quick stop of both axes, now, whatever else happens; a run that is under way is aborted.
+        """Quick stop of both axes, immediately and in any state; an active run is aborted.
 
-        Returns, by axis, None when it confirmed the stop, else what went wrong.  The answer is that of the
+        Returns, by axis, None if it confirmed the stop, otherwise the error. The answer is that of the
         drives; it is recorded afterwards.
         """
         return self._halt(self._run, who)
@@ -278,14 +278,14 @@ class Orchestrator:
         return outcome
 
     def wait(self, calibration_id: int, timeout_s: float | None = None) -> State:
-        """Until the run has ended or the time is over; its state then.  :raises NotFound:"""
+        """Wait until the run has ended or the time has expired; returns its state. :raises NotFound:"""
         run = self._run
         if run is not None and run.id == calibration_id and not run.ended.wait(timeout_s):
             return run.state
         return self._store.summary(calibration_id).state
 
     def shutdown(self) -> None:
-        """Abort what runs, make the machine safe, end the worker, close the devices.  Twice is harmless."""
+        """Abort the active run, make safe, end the worker, close the devices. May be repeated."""
         with self._submitting:
             first, self._closing = not self._closing, True
         if first:
@@ -301,11 +301,11 @@ class Orchestrator:
     # Watching ------------------------------------------------------------------------------------
 
     def subscribe(self, listener: Listener) -> Callable[[], None]:
-        """Every event from now on, called in the worker's thread; returns the way to unsubscribe."""
+        """Call a function for every event, in the worker's thread; returns that to unsubscribe."""
         return self._listeners.subscribe(listener)
 
     def snapshot(self) -> StationView:
-        """Everything a page needs.  Never waits for a device."""
+        """Everything a page needs. Never waits for a device."""
         with self._lock:
             run, last, finished, holds = self._run, self._last, self._finished, self._holds
         robot = run.robot if run else self._machine.robot
@@ -329,14 +329,14 @@ class Orchestrator:
         )
 
     def device_details(self) -> tuple[DeviceDetail, ...]:
-        """Every device as maintenance sees it.  Never waits for one."""
+        """Every device, for maintenance. Never waits for one."""
         return self._machine.device_details()
 
     def while_idle(self, look: Looker[T], limit_s: float) -> T:
-        """What `look` says of the devices and the robot measured last; the worker calls it between runs.
+        """The result of `look` for the devices and the robot measured last; the worker calls it between runs.
 
         :raises Busy: a run holds the rig.
-        :raises TimeoutError: the devices do not let it come back in time.
+        :raises TimeoutError: the devices do not answer in time.
         """
         if (holder := self._run) is not None:
             raise Busy(holder.id)
@@ -363,7 +363,7 @@ class Orchestrator:
     def _watch(self) -> None:
         try:
             self._machine.watch()
-        except Exception:  # the worker must outlive whatever an idle device does
+        except Exception:  # the worker must survive any error of an idle device
             log.exception("Looking at the idle machine failed")
         self._store.repeat_ends()
         self._clock.look()
@@ -417,7 +417,7 @@ class Orchestrator:
         except StoreUnavailable as error:
             log.exception("Run %d cannot be stored", run.id)
             return Ending(State.FAILED, because("store_failed", text=str(error)))
-        except Exception as error:  # the worker must outlive any mistake in a procedure
+        except Exception as error:  # the worker must survive any error in a procedure
             log.exception("Run %d failed unexpectedly", run.id)
             return Ending(State.FAILED, because("unexpected", type=type(error).__name__, text=str(error)))
         if not kind.judged:
@@ -425,7 +425,7 @@ class Orchestrator:
         return Ending(State.SUCCEEDED, result.reason, result)
 
     def _bring_to_rest(self, run: Run, ending: Ending) -> Ending:
-        """Always: standstill is seen, or the run says that it was not.  A stop pressed late counts."""
+        """In every case: standstill is confirmed, or the run reports that it was not. A late stop counts."""
         if ending.state is State.SUCCEEDED and not run.cancel.is_set():
             doubt = self._machine.standstill()
             if doubt is None:

@@ -1,4 +1,4 @@
-"""A procedure, carried out step by step."""
+"""Execution of a procedure, step by step."""
 
 from __future__ import annotations
 
@@ -11,9 +11,9 @@ from station.records import CalibrationResult, Procedure, Step
 
 
 def follow_procedure(procedure: Procedure, carry_out: Callable[[Step], Any]) -> CalibrationResult:
-    """Step by step to the result.
+    """Execute all steps up to the result.
 
-    What a step fails with is raised in the procedure, which may have a way back.
+    The error of a step is raised in the procedure, which may recover from it.
     """
     try:
         step = next(procedure)

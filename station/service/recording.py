@@ -14,13 +14,13 @@ SCALE, SERVO = 1, 2
 
 
 def lines_of(devices: Devices) -> dict[int, SerialLine]:
-    """By their numbers; both drives are on one.  Empty where devices have no lines, as in tests."""
+    """The lines by their numbers; both drives share one. Empty where devices have no lines, as in tests."""
     found = {SCALE: line_of(devices.scale), SERVO: line_of(devices.axes[0])}
     return {number: line for number, line in found.items() if line is not None}
 
 
 class Recording:
-    """Made by the thread that carries out the run; `take` and `end` too."""
+    """Created by the thread that carries out the run, which also calls `take` and `end`."""
 
     def __init__(self, devices: Devices, settings: Settings) -> None:
         self._lines = lines_of(devices)
@@ -36,21 +36,21 @@ class Recording:
         self._log: WireLog | None = None
 
     def begin(self, elapsed_s: float) -> Clock:
-        """Listen from now on; the clock that the run goes by."""
+        """Start recording; returns the clock of the run."""
         if not self._lines:
             return RunClock(elapsed_s)
         self._log = WireLog(self._lines)
         return RunClock(elapsed_s, self._log.note_clock)
 
     def take(self) -> bytes:
-        """A piece, to be stored after those before it; it can be read although the log goes on."""
+        """A piece, to be stored after those before it; it is readable although the log continues."""
         if self._log is None:
             return b""
         first, self._header_text = self._header_text, ""
         return self._pack.compress((first + self._log.take()).encode()) + self._pack.flush(zlib.Z_SYNC_FLUSH)
 
     def end(self) -> bytes:
-        """Listen no more; the last piece."""
+        """End recording; returns the last piece."""
         if self._log is None:
             return b""
         self._log.close()

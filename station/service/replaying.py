@@ -1,4 +1,4 @@
-"""A run carried out again from its wire log: the same drivers, clock and memory, and no machine."""
+"""A run repeated from its wire log: the same drivers, clock and memory, without a machine."""
 
 from __future__ import annotations
 
@@ -25,28 +25,28 @@ _NUMBERED = "modbus+tcp://"
 
 @dataclass(frozen=True, slots=True)
 class Replayed:
-    """What came of it."""
+    """The result of a replay."""
 
     readings: int
-    """As many are the same to the bit."""
+    """Number of readings that are identical to the bit."""
     of: int
-    """As many were recorded."""
+    """Number of readings recorded."""
     same_end: bool
-    """Whether verdict, reason, result and diagnosis are the same to the bit."""
+    """Whether verdict, reason, result and diagnosis are identical to the bit."""
     departed: str = ""
-    """Where the station did something else than it did then; empty where it did not."""
+    """Where the station acted differently from the log; empty if it did not."""
 
     @property
     def same(self) -> bool:
-        """Everything."""
+        """Whether everything is identical."""
         return self.same_end and self.readings == self.of and not self.departed
 
 
 def replay(store: Store, run: int) -> Replayed:
-    """Carry out a run again from its wire log, on a copy of the history as it was when the run began.
+    """Repeat a run from its wire log, on a copy of the history as it was when the run began.
 
-    :raises NotFound: no such run, or no wire log of it is kept.
-    :raises InputRefused: it did not end by itself, or its samples are not kept any more.
+    :raises NotFound: no such run, or no wire log of it is stored.
+    :raises InputRefused: it did not end by itself, or its samples are no longer stored.
     """
     summary = store.summary(run)
     if summary.state not in (State.SUCCEEDED, State.FAILED):
@@ -75,7 +75,7 @@ def _copy_before(store: Store, run: int) -> Iterator[Store]:
 
 
 def _answers(store: Store, run: int) -> list[float | None]:
-    """What people answered to the run's prompts, in order."""
+    """Answers to the run's prompts, in order."""
     values = [event.data.get("value") for event in store.events(run) if event.kind == "answer"]
     return [float(value) if isinstance(value, int | float) else None for value in values]
 
@@ -88,7 +88,7 @@ def _carry_out(
     request: CalibrationRequest,
     answers: Sequence[float | None],
 ) -> str:
-    """To its end in the copy; where the station departed from the log, else empty."""
+    """Repeat it to its end in the copy; returns where the station departed from the log, otherwise empty."""
     settings = Settings.model_validate(
         {
             "scale": header.scale,

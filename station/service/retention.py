@@ -1,4 +1,4 @@
-"""What the station forgets by rule: never a reading or a result, and never in silence."""
+"""Deletion of data by rule: never a reading or a result, and always recorded."""
 
 from __future__ import annotations
 

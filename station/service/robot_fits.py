@@ -11,7 +11,7 @@ from station.settings import JointSettings
 
 
 def check_fits(robot: Robot, joints: Sequence[JointSettings]) -> None:
-    """:raises InputRefused: its joints are scaled otherwise than the drives; names the first that is."""
+    """:raises InputRefused: a joint's scaling differs from its drive's; the error names the first."""
     for joint, settings in enumerate(joints, start=1):
         wanted, has = asdict(robot.scaling(joint)), asdict(settings.scaling)
         differing = [f"{key} {wanted[key]} instead of {has[key]}" for key in has if wanted[key] != has[key]]

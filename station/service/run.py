@@ -1,4 +1,4 @@
-"""One run while it lasts: its request, its cancel event, and what the page may see of it."""
+"""One run while it is active: its request, its cancel event, and the data for the page."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ from station.records import (
 
 Place = tuple[float, float] | None
 TO_COME = 8
-"""Readings that are reckoned with as long as another sequence may follow: as many verify a calibration."""
+"""Number of readings assumed while another sequence may follow: the number that verifies a calibration."""
 
 
 def row_of(reading: Reading, place: Place) -> RunReading:
-    """A reading as a page shows it, not judged yet."""
+    """A reading for the page, not judged yet."""
     return RunReading(
         reading=reading.reading,
         position=reading.position,
@@ -54,7 +54,7 @@ def row_of(reading: Reading, place: Place) -> RunReading:
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """What somebody answered a prompt."""
+    """The answer to a prompt."""
 
     prompt: str
     value: float | None
@@ -63,9 +63,9 @@ class Answer:
 
 @dataclass
 class Run:
-    """Written by the worker, read by anybody; every view is a copy.
+    """Written by the worker, read by any thread; every view is a copy.
 
-    What makes clocks and events is looked up when a run is made: a simulation gives others.
+    The sources of clocks and events are looked up when a run is made: a simulation replaces them.
     """
 
     id: int
@@ -78,11 +78,11 @@ class Run:
     state: State = State.QUEUED
     step: int = 0
     inherited: int = 0
-    """Steps that an earlier run made."""
+    """Number of steps from an earlier run."""
     steps: int = 0
     iterations: tuple[Iteration, ...] = ()
     prompt: Prompt | None = None
-    """What the run waits to be told."""
+    """The prompt that the run waits for."""
     answered: Event = field(default_factory=lambda: Event())
     _asked: Ask | None = None
     _answer: Answer | None = None
@@ -104,13 +104,15 @@ class Run:
         self.inherited = self.step = self.steps = steps
 
     def ask(self, prompt: Prompt, step: Ask) -> None:
-        """Wait for an answer from now on."""
+        """Start to wait for an answer."""
         with self._lock:
             self.answered.clear()
             self.prompt, self._asked = prompt, step
 
     def answer(self, prompt: str, value: float | None, who: str) -> None:
-        """:raises NotApplicable: this is not what is asked.  :raises FieldRefused: the value cannot be."""
+        """:raises NotApplicable: this is not the current prompt.  :raises FieldRefused: the value is
+        impossible.
+        """
         with self._lock:
             if self.prompt is None or self._asked is None or self.prompt.id != prompt:
                 raise NotApplicable(f"Run {self.id} does not ask this (any more).")
@@ -119,13 +121,13 @@ class Run:
             self.answered.set()
 
     def take_answer(self) -> Answer:
-        """What was answered.  Only after `answered`."""
+        """The answer. Only after `answered`."""
         with self._lock:
             assert self._answer is not None
             return self._answer
 
     def begin_sequence(self, sequence: MeasurementSequence) -> SequenceView:
-        """Returns the `walk` event."""
+        """Begin a sequence. Returns the `walk` event."""
         with self._lock:
             self._sequence = sequence
             self.steps += len(sequence.stops)
@@ -199,13 +201,13 @@ class Run:
         )
 
     def _so_far(self, own: int) -> float:
-        """Share of the run that is done; what is announced later makes it slower, but takes nothing back."""
+        """Share of the run that is complete; steps announced later slow it down, but never reduce it."""
         follows = 0 if self._sequence is not None and self._sequence.last else TO_COME
         self._progress = max(self._progress, own / max(self.steps - self.inherited + follows, 1))
         return self._progress
 
     def unread(self, reason: Reason) -> CalibrationSummary:
-        """How it ended, where the store does not give it back."""
+        """How it ended, if the store does not return it."""
         brief = self.brief()
         return CalibrationSummary(
             id=self.id,

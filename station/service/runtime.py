@@ -29,16 +29,17 @@ from station.store import Store
 log = logging.getLogger(__name__)
 
 _SWITCH_S = 0.0005
-"""How long a thread that computes keeps the interpreter from one that waits for it: a stop, or what feeds the
-watchdog of a drive, must not wait for a fit.  Python's own 5 ms add up to a quarter of a second on a busy
-computer."""
+"""Maximum time that a computing thread holds the interpreter while another waits: a stop, or a thread that
+feeds the watchdog of a drive, must not wait for a fit. Python's own 5 ms add up to a quarter of a second on a
+busy computer.
+"""
 LAST_HISTORY = "last-history"
 """File in the home folder: the database that was used last."""
 
 
 @dataclass
 class Runtime:
-    """One process owns the rig of a home folder; everything else asks this one."""
+    """One process owns the rig of a home folder; all others send their requests to it."""
 
     settings: Settings
     home: Path
@@ -52,7 +53,7 @@ class Runtime:
 
     @classmethod
     def open(cls, settings: Settings, home: Path, emulate: Path | None = None) -> Self:
-        """Take the rig, open the store, mark what a crash left behind, start the orchestrator.
+        """Take the rig, open the store, mark runs that a crash interrupted, start the orchestrator.
 
         :param emulate: rig file of the emulated machine, even when the station file names devices.
         :raises InputRefused: another process holds the rig, or something cannot be opened.
@@ -79,19 +80,19 @@ class Runtime:
             return cls(settings, home, store, orchestrator, opened.pop_all(), rig, desk)
 
     def backup(self) -> BackupMade:
-        """One more backup, now.  :raises InputRefused: it cannot be written."""
+        """Make one more backup. :raises InputRefused: it cannot be written."""
         return make_backup(self.store, backup_folder(self.settings, self.home), self.settings.backup.keep)
 
     def backup_drill(self) -> BackupDrill:
-        """One more backup, opened beside the history and compared.  :raises InputRefused: as `backup`."""
+        """Make one more backup, opened beside the history and compared. :raises InputRefused: as `backup`."""
         return drill(self.store, backup_folder(self.settings, self.home), self.settings.backup.keep)
 
     def backups(self) -> list[BackupMade]:
-        """The station's own backups that are there, the newest first."""
+        """The station's own existing backups, newest first."""
         return listed(backup_folder(self.settings, self.home))
 
     def close(self) -> None:
-        """Abort what runs, make the machine safe, release everything.  Twice is harmless."""
+        """Abort the active run, make the machine safe, release everything. Repeating it is harmless."""
         self._closing.close()
 
     def __enter__(self) -> Self:
@@ -103,7 +104,7 @@ class Runtime:
 
 @contextmanager
 def _telling(store: Store, orchestrator: Orchestrator, settings: OutboxSettings) -> Iterator[None]:
-    """Alarms become events, and events go to their receivers, until the station stops."""
+    """Until the station stops, convert alarms to events and send events to their receivers."""
     alarms = Alarms(store)
 
     def heard(event: LiveEvent) -> None:
@@ -124,9 +125,9 @@ def _telling(store: Store, orchestrator: Orchestrator, settings: OutboxSettings)
 
 
 def _check_still_there(path: Path, home: Path) -> None:
-    """A history that was used here before and is gone does not begin anew in silence.
+    """Refuse to start a new history in place of a missing one that was used here before.
 
-    :raises InputRefused: it is not there.
+    :raises InputRefused: the earlier history is missing.
     """
     note = home / LAST_HISTORY
     if not path.exists() and note.exists() and note.read_text(encoding="utf-8") == str(path.resolve()):
@@ -138,7 +139,7 @@ def _check_still_there(path: Path, home: Path) -> None:
 
 @contextmanager
 def holding(home: Path) -> Iterator[None]:
-    """Hold the rig of a home folder; it is released with the process, however that ends.
+    """Hold the rig of a home folder; it is released when the process ends for any reason.
 
     :raises InputRefused: another process holds it, or the folder cannot be written.
     """

@@ -1,4 +1,4 @@
-"""Whether the station found what was wrong: what was chosen beside what the run said."""
+"""Whether the station found the error: a comparison of the chosen error with the result of the run."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from station.records import CalibrationSummary, DiagnosisDocument, EffectName, F
 from station.service.challenges import Kind
 
 POSSIBLE = 0.05
-"""An explanation that is this probable counts as one that the station names as possible."""
+"""Probability from which an explanation counts as named as possible by the station."""
 UNNAMED = "unnamed"
 _WORDS = {"scale": ("scale", "readout", "head"), "line": ("drive", "axis", "line", "gateway", "broke while")}
-"""How a reason names what failed; a line that broke is named by its address."""
+"""Words of a reason for each failed part; a broken line is named by its address."""
 
 
 def scored(
@@ -71,7 +71,7 @@ def _blames(others: Sequence[Finding], document: DiagnosisDocument) -> bool:
 
 
 def _is(name: EffectName, kind: Kind, joint: int | None) -> bool:
-    """Of a joint, by its number or by the link that hangs on it."""
+    """Whether a cause is at a joint, by its number or by a link attached to it."""
     if name.effect != kind.kind:
         return False
     return joint is None or name.joint == joint or (name.part or "").endswith(str(joint))

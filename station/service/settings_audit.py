@@ -1,4 +1,4 @@
-"""Which settings a start uses, so that the audit tells what differs from the start before."""
+"""The settings of a start, so that the audit contains the differences from the previous start."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ from station.settings import Settings
 from station.store import Store
 
 _CREDENTIALS = re.compile(r"(?<=://)[^/@]+(?=@)|(?<=\?).+")
-"""Name and password of an address, and its query, where some receivers want a token."""
+"""Name and password of an address, and its query, which contains a token for some receivers."""
 _OF = " (secret part)"
 
 
 def record_settings(store: Store, settings: Settings) -> None:
-    """Keep what this start uses and record every difference from the last start, with who starts it."""
+    """Store the settings of this start and record every change since the last, with the account."""
     values = dict(_flat(settings_of(settings)))
     hidden: dict[str, str] = {}
     before = store.settings_in_use()
@@ -42,7 +42,7 @@ def _who_starts() -> Actor:
 
 
 def settings_of(settings: Settings) -> dict[str, JsonValue]:
-    """As a station file that names every option would give them."""
+    """All options as in a station file that states every one."""
     sections: dict[str, JsonValue] = settings.model_dump(mode="json", exclude={"scale", "servo"})
     if settings.scale is not None:
         sections["scale"] = settings.scale.flat()
@@ -65,7 +65,7 @@ def _flat(value: JsonValue, key: str = "") -> Iterator[tuple[str, str]]:
 
 
 def _hashed(secret: str, kept: str | None) -> str:
-    """The same text as before for the same secret; no one learns it from there."""
+    """The same text for the same secret, from which the secret cannot be derived."""
     salt = kept.partition("$")[0] if kept else secrets.token_hex(16)
     digest = hashlib.scrypt(secret.encode(), salt=bytes.fromhex(salt), n=2**14, r=8, p=1)
     return f"{salt}${digest.hex()}"

@@ -1,4 +1,4 @@
-"""How the readings of a run agree while it goes on: to be looked at; the run's own identification judges."""
+"""The agreement of a run's readings so far, for display only; the run's own identification is decisive."""
 
 from __future__ import annotations
 
@@ -14,25 +14,25 @@ from station.records import Reading, Residual, from_readings
 log = logging.getLogger(__name__)
 
 FEWEST = 8
-"""Readings from which the fit says something of each."""
+"""Number of readings from which the fit has information on each."""
 SHARE = 0.1
-"""Of the worker's time that fits may take."""
+"""Maximum share of the worker's time for fits."""
 
 
 @dataclass
 class SoFar:
-    """Readings since the zeros of the drives were last written, or the mechanism was mounted once more."""
+    """Readings since the zeros of the drives were last written, or the mechanism was last remounted."""
 
     robot: Robot
     _readings: list[Reading] = field(default_factory=list)
     _next_s: float = 0.0
 
     def renew(self) -> None:
-        """Zeros or mounting are others: earlier readings say nothing of the next ones."""
+        """Zeros or mounting have changed: earlier readings have no information on the next ones."""
         self._readings.clear()
 
     def add(self, reading: Reading) -> tuple[Residual, ...]:
-        """Residuals of all readings with this one; nothing while there are too few, or it is too early."""
+        """Residuals of all readings including this one; none while there are too few, or it is too early."""
         # positions of different sequences are no repeats: plan `paper` visits them at other angles
         self._readings.append(replace(reading, position=f"{reading.position} {reading.sequence}"))
         began_s = time.monotonic()
@@ -42,7 +42,7 @@ class SoFar:
             return residuals_of(identify(self.robot, from_readings(self._readings)), self._readings)
         except InputRefused:
             return ()
-        except Exception:  # what is only looked at must not end a run
+        except Exception:  # a display must not end a run
             log.exception("The residuals so far cannot be computed")
             return ()
         finally:

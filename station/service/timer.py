@@ -1,4 +1,4 @@
-"""What the station does by itself at intervals, on a thread of its own."""
+"""Periodic work of the station, each on its own thread."""
 
 from __future__ import annotations
 
@@ -15,12 +15,10 @@ RETRY_S = 600.0
 
 
 class Timer:
-    """Does something as long as it is entered; what fails is tried again sooner."""
+    """Calls a function periodically while it is entered; after an error it is tried again sooner."""
 
     def __init__(self, name: str, do: Callable[[], object], every_s: float, first_s: float = 0.0) -> None:
-        """
-        :param first_s: until it is done for the first time
-        """
+        """:param first_s: time until the first call"""
         self._do, self._every_s, self._first_s = do, every_s, first_s
         self._closing = Event()
         self._thread = Thread(target=self._run, name=name, daemon=True)

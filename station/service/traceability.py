@@ -1,4 +1,4 @@
-"""No pass rests on a scale whose certificate does not cover the day."""
+"""No result is a pass if the scale's certificate is not valid on the day."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from station.records import CalibrationResult, MadeBy, because
 
 
 def traced(result: CalibrationResult, made_by: MadeBy | None, day: date) -> CalibrationResult:
-    """The result as it was, or no pass where the scale is past its date.
+    """The result unchanged, or without a pass if the scale's certificate has expired.
 
-    Where the station file names no certificate, the result stands: its uncertainty is then that of a scale
-    that is as good as its specification, which the certificate of the run says.
+    Without a certificate in the station file the result is unchanged: its uncertainty is then that of a scale
+    within its specification, which the certificate of the run states.
     """
     scale = made_by.scale_certificate if made_by else None
     if result.verdict != "pass" or scale is None or scale.counts_on(day):

@@ -1,6 +1,6 @@
-"""The training desk: something is wrong with the emulated machine; does the station find it?
+"""The training desk: the emulated machine has an error; does the station find it?
 
-What is drawn unseen is told when somebody asks, or when a run has ended and has said what it found.
+A hidden error is revealed on request, or when a run has ended with its own finding.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from station.service.scoring import scored
 from station.store import Store
 
 MEASURING = ("calibrate", "diagnose", "separate", "check")
-"""Kinds of run that say something about the machine."""
+"""Kinds of runs that give information about the machine."""
 _LOOKED_AT = 20
 
 
@@ -47,7 +47,7 @@ class _Exercise:
 
 
 class TrainingDesk:
-    """Thread safe.  What it remembers is of this session of the service only."""
+    """Thread safe. Its memory lasts for the current session of the service."""
 
     def __init__(
         self,
@@ -63,7 +63,7 @@ class TrainingDesk:
         self._exercises: list[_Exercise] = []
 
     def view(self) -> TrainingView:
-        """Everything that may be told at this moment."""
+        """Everything that may be shown now."""
         with self._lock:
             for exercise in self._exercises:
                 self._look(exercise)
@@ -76,10 +76,10 @@ class TrainingDesk:
         )
 
     def choose(self, kind: str, joint: int | None, size: float | None) -> TrainingView:
-        """This is wrong with the machine from now on, and nothing else.
+        """Give the machine this error from now on, and no other.
 
         :raises FieldRefused: no such kind, joint or size.
-        :raises NotApplicable: a run is under way.
+        :raises NotApplicable: a run is active.
         """
         if kind not in KINDS:
             raise FieldRefused("kind", f"There is no challenge {kind}; there is {', '.join(KINDS)}.")
@@ -95,7 +95,7 @@ class TrainingDesk:
         return self.view()
 
     def draw(self, groups: Sequence[ChallengeGroup]) -> TrainingView:
-        """Something of these groups, which is not told.  :raises NotApplicable: a run is under way."""
+        """Give the machine a hidden error of these groups. :raises NotApplicable: a run is active."""
         kind = self._rng.choice([kind for kind in KINDS.values() if kind.group in groups])
         joint = self._rng.choice((1, 2)) if kind.joint else None
         size = None
@@ -106,12 +106,12 @@ class TrainingDesk:
         return self.view()
 
     def reveal(self) -> TrainingView:
-        """Tell what was drawn last.  Again is harmless.  :raises NotFound: there is no exercise."""
+        """Reveal the last hidden error. Repeating it is harmless. :raises NotFound: there is no exercise."""
         self._last().revealed = True
         return self.view()
 
     def repair(self) -> TrainingView:
-        """Nothing is wrong with the machine from now on, whoever ordered it."""
+        """Remove all ordered errors from the machine."""
         self._rig.order([])
         self._rig.order_effects([])
         self._end_all()
@@ -119,7 +119,7 @@ class TrainingDesk:
 
     @property
     def hides(self) -> bool:
-        """Whether something is drawn that is not told yet."""
+        """Whether a hidden error is not revealed yet."""
         current = self.view().current
         return current is not None and not current.revealed
 
@@ -148,7 +148,7 @@ class TrainingDesk:
             return self._exercises[-1]
 
     def _look(self, exercise: _Exercise) -> None:
-        """What the last run said; what comes after the repair is said of another machine."""
+        """The result of the last run; results after the repair belong to another machine."""
         if exercise.repaired:
             return
         known = exercise.said.run if exercise.said else exercise.after_run

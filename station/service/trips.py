@@ -1,4 +1,4 @@
-"""What ended a motion, in the record of its run and at the interlock that did."""
+"""The cause that ended a motion, in the record of its run and at the interlock."""
 
 from __future__ import annotations
 
@@ -18,22 +18,22 @@ log = logging.getLogger(__name__)
 
 
 class Trips:
-    """Of one machine."""
+    """Trips of one machine."""
 
     def __init__(self, machine: Machine, store: Store) -> None:
         self._machine, self._store = machine, store
 
     def tripped(self, run: Run, error: Exception) -> Tripped | None:
-        """The interlock that ended a run; None where a limit or the input did, or nothing had moved."""
+        """The interlock that ended a run; None if a limit or the input did, or nothing had moved."""
         if isinstance(error, DeviceError) and run.has_moved:
             return self._machine.trip_by(error, str(error))
         return error if isinstance(error, Tripped) else None
 
     def record(self, run: Run, ending: Ending, failed_at_s: float) -> None:
-        """What ended a motion, and how long after it was noticed the stops were sent and both axes seen to
-        stand.
+        """Record the cause that ended a motion, and the times from its detection to the stops and to the
+        confirmed standstill of both axes.
 
-        :param failed_at_s: of the monotonic clock, where no interlock noticed
+        :param failed_at_s: time by the monotonic clock, if no interlock detected it
         """
         reason = ending.reason
         if not run.has_moved or reason is None or reason.code != "step_failed":

@@ -1,10 +1,10 @@
-"""Station-years in virtual time: the production code, and everything outside it simulated.
+"""Station-years in virtual time: the production code, with a simulation of everything outside it.
 
-What is simulated: clocks and threads (`scheduler`, `threads`, `clocks`, `loops`), put in the place of the
-real ones by `substitution`; the equipment (`site`) and the wires to it (`wires`), the disk's faults and power
-cuts (`disk`), receivers of events (`receiver`), people and programs with their requests (`people`,
-`clients`).  `plant` puts them together, `days` lets things happen (`jobs`), `witness` says what must hold.
-`exhaustive` leaves nothing to a draw where that is possible; `shrinking` finds what a violation takes.
+Simulated are clocks and threads (`scheduler`, `threads`, `clocks`, `loops`), put in place of the real ones by
+`substitution`; the equipment (`site`) and the wires to it (`wires`), faults of the disk and power failures
+(`disk`), receivers of events (`receiver`), people and programs with their requests (`people`, `clients`).
+`plant` combines them, `days` generates events (`jobs`), `witness` checks the invariants. `exhaustive` covers
+small cases completely without random draws; `shrinking` finds a minimal example of a violation.
 """
 
 from __future__ import annotations

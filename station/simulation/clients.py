@@ -18,7 +18,7 @@ _UNAUTHORIZED = 401
 
 @dataclass(frozen=True, slots=True)
 class Answer:
-    """What came back."""
+    """An answer of the station."""
 
     status: int
     body: Any
@@ -26,17 +26,17 @@ class Answer:
 
     @property
     def run(self) -> int:
-        """Number of the run that was started; 0 where none was."""
+        """Number of the started run; 0 without one."""
         return int(self.body["id"]) if self.status == 202 else 0
 
 
 @dataclass
 class Client:
-    """One that shows the same key or session with each request."""
+    """A client that sends the same key or session with each request."""
 
     plant: Plant
     name: str
-    """Under which the audit knows it."""
+    """Its name in the audit."""
     headers: dict[str, str] = field(default_factory=dict)
     address: str = "127.0.0.1"
 
@@ -49,21 +49,21 @@ class Client:
         key: str | None = None,
         query: str = "",
     ) -> Answer:
-        """Ask, and wait for the answer.
+        """Send a request, and wait for the answer.
 
-        :param key: of idempotency
-        :raises NotRunning: the station does not run, or was killed before it had answered
+        :param key: idempotency key
+        :raises NotRunning: the station does not run, or was killed before it answered
         """
         request = Request(method, path, body, key, query)
         answer = self._ask(request)
         return self._ask(request) if answer.status == _UNAUTHORIZED and self._sign_in() else answer
 
     def _sign_in(self) -> bool:
-        """After a refusal: whether there is something else to show now."""
+        """After a refusal: sign in again; returns whether there are new credentials."""
         return False
 
     def _ask(self, request: Request) -> Answer:
-        """Once, with what there is to show.  :raises NotRunning:"""
+        """Send the request once, with the present credentials. :raises NotRunning:"""
         exchange = _Exchange(request.content)
         self.plant.serve(request.scope(self.headers, self.address), exchange)
         if not exchange.done:
@@ -73,7 +73,7 @@ class Client:
 
 @dataclass(frozen=True, slots=True)
 class Request:
-    """What is asked for, whoever asks."""
+    """A request, independent of its sender."""
 
     method: str
     path: str
@@ -86,7 +86,7 @@ class Request:
         return b"" if self.body is None else json.dumps(self.body).encode()
 
     def scope(self, shown: Mapping[str, str], address: str) -> Scope:
-        """:param shown: headers that say who asks"""
+        """:param shown: headers that identify the sender"""
         headers = {**shown, **({"Idempotency-Key": self.key} if self.key else {})}
         if self.body is not None:
             headers |= {"Content-Type": "application/json", "Content-Length": str(len(self.content))}
@@ -115,7 +115,7 @@ class _Exchange:
         self._start: Message = {}
         self._received = b""
         self.done = False
-        """Whether the whole answer has come; what the server does afterwards the client does not see."""
+        """Whether the answer is complete; later work of the server is not visible to the client."""
 
     async def receive(self) -> Message:
         if self._content is None:

@@ -1,4 +1,4 @@
-"""What production code imports from `time`, `datetime` and `secrets`, in virtual time."""
+"""Replacements for imports of production code from `time`, `datetime` and `secrets`, in virtual time."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ BEGIN_S = datetime(2026, 1, 5, 6, tzinfo=UTC).timestamp()
 
 
 class Clocks:
-    """Stands in for the module `time`; the wall clock may be set, the monotonic one goes on."""
+    """Replaces the module `time`; the wall clock may be set, the monotonic one continues."""
 
     def __init__(self, scheduler: Scheduler) -> None:
         self._scheduler = scheduler
         self.set_s = BEGIN_S
-        """What the wall clock is set to, less the monotonic one."""
+        """Offset of the wall clock from the monotonic one."""
 
     def monotonic(self) -> float:
         return self._scheduler.now_s
@@ -41,7 +41,7 @@ class Clocks:
 
 
 def dates(clocks: Clocks) -> type[datetime]:
-    """A class in the place of `datetime`, whose `now` is that of the clocks."""
+    """A class in place of `datetime`, whose `now` is that of the clocks."""
 
     class Kind(type):
         def __instancecheck__(cls, instance: object) -> bool:
@@ -56,7 +56,7 @@ def dates(clocks: Clocks) -> type[datetime]:
 
 
 class DrawnSecrets:
-    """Stands in for the module `secrets`: not secret, but the same for the same seed."""
+    """Replaces the module `secrets`: not secret, but reproducible from the seed."""
 
     def __init__(self, random: Random) -> None:
         self._random = random

@@ -1,8 +1,8 @@
-"""What happens at a station from morning to evening, drawn by a seed.
+"""The events at a station from morning to evening, drawn by a seed.
 
 A day begins with a start and ends with a shutdown, a kill or a power cut.  In between people and programs
-ask for runs, and things go wrong: people abort and stop, start twice, answer nothing; wires, devices, disk
-and clock have their faults; the process is killed.
+request runs, and there are disturbances: people abort and stop, start twice, do not answer; wires, devices,
+disk and clock have faults; the process is killed.
 """
 
 from __future__ import annotations
@@ -55,17 +55,17 @@ TROUBLES = {
     "double start": 3.0,
     "second start": 2.0,
 }
-"""How often each comes, as parts of their sum."""
+"""Relative frequency of each."""
 _CHANGE_THE_MACHINE = ("jump", "lost_counts", "reboot", "unit", "frozen", "contaminated", "overspeed")
-"""Faults after which the readings are not those of the machine, so that its truth is no measure of them."""
+"""Faults after which the readings do not represent the machine: its true values are no reference."""
 _NEW_KEY, _STRANGER = 0.05, 0.3
-"""A day."""
+"""Number per day."""
 _CLOCK_STEPS_S = (-3600.0, -60.0, 90.0, 3600.0, 315_360_000.0)
 
 
 @dataclass
 class Days:
-    """Lives at one plant."""
+    """Generates the days of one plant."""
 
     keeper: Keeper
     seed: str
@@ -74,13 +74,13 @@ class Days:
     script: Script = WHOLE
     happened: Counter[str] = field(default_factory=Counter)
     jobs: list[Job] = field(default_factory=list)
-    """Those that came about."""
+    """Jobs that were carried out."""
     _day: int = -1
     _first: bool = True
 
     def __post_init__(self) -> None:
         self.random = Random(self.seed)
-        """Of the day, or of the job that is under way."""
+        """Random numbers of the day, or of the current job."""
         self.people = People(self.plant, Random(f"{self.seed} people"))
 
     @property
@@ -92,7 +92,7 @@ class Days:
         return self.keeper.witness
 
     def day(self) -> None:
-        """From one morning to the next."""
+        """One day, to the next morning."""
         plant = self.plant
         self._day += 1
         self.random = random = Random(f"{self.seed} day {self._day}")
@@ -103,7 +103,7 @@ class Days:
         plant.clocks.set_s += _NIGHT_S
 
     def _open(self, random: Random) -> None:
-        """The station is on."""
+        """The time in which the station is on."""
         plant = self.plant
         for receiver in plant.receivers.values():
             receiver.fails = random.choice((0.0, 0.0, 0.0, 0.3, 0.8))
@@ -137,7 +137,7 @@ class Days:
     # One job -------------------------------------------------------------------------------------------
 
     def _job(self, number: int) -> None:
-        """Somebody asks for a run; something happens meanwhile; it ends, and the station is looked at."""
+        """A client requests a run; a disturbance happens meanwhile; it ends, and the station is checked."""
         key = f"job {self._day}.{number}"
         self.random = Random(f"{self.seed} {key}")
         deed, trouble = _drawn(self.random, self.deeds), _drawn(self.random, self.troubles)
@@ -167,7 +167,7 @@ class Days:
         self.plant.disk.mend()
         if not self.plant.runs:
             self._restart()
-            with self.keeper.answered():  # who did not hear how its start ended asks again
+            with self.keeper.answered():  # a client without an answer to its start asks again
                 request.send(self.witness)
         elif not ended:
             self.witness.fails("idle", f"run {run} ({deed}, {trouble}) does not end")
@@ -210,10 +210,10 @@ class Days:
         runtime = self.plant.runtime
         return not self.plant.runs or (runtime is not None and runtime.orchestrator.running != run)
 
-    # What people and things do meanwhile -------------------------------------------------------------------
+    # Simultaneous actions and disturbances ---------------------------------------------------------
 
     def _answer(self, run: int) -> None:
-        """The operator answers what the run asks, or goes to lunch."""
+        """The operator answers the prompt of the run, or is absent."""
         world = self.plant.scheduler
         while not self._is_over(run):
             world.wait(seconds=self.random.uniform(1.0, 20.0))
@@ -232,7 +232,7 @@ class Days:
                 self.witness.answered(self.people.operator.send("POST", f"/calibrations/{run}/answer", said))
 
     def _poll(self, run: int) -> None:
-        """The MES asks how far its run is, and what else has happened."""
+        """The MES requests the progress of its run, and other events."""
         while not self._is_over(run):
             self.plant.scheduler.wait(lambda: self._is_over(run), self.random.uniform(5.0, 60.0))
             with self.keeper.answered():

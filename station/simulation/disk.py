@@ -1,4 +1,4 @@
-"""The disk of the history as it fails: full, in error, held by another program, cut off by a kill."""
+"""Failures of the history's disk: full, in error, locked by another program, cut off by a kill."""
 
 from __future__ import annotations
 
@@ -18,26 +18,26 @@ _TEXTS: dict[DiskTrouble, str] = {
     "locked": "database is locked",
 }
 FOR_GOOD = 1_000_000
-"""More writes than any run has."""
+"""More writes than any run makes."""
 _WRITES = ("INSERT", "UPDATE", "DELETE", "BEGIN IMMEDIATE", "COMMIT", "REPLACE")
 _MOST_TORN_BYTES = 4000
 
 
 class Disk:
-    """Stands in for the module `sqlite3`: real databases, whose writes fail where it is said."""
+    """Replaces the module `sqlite3`: real databases, whose writes fail on request."""
 
     def __init__(self, scheduler: Scheduler) -> None:
         self._scheduler = scheduler
         self.writes = 0
-        """Calls that write, so far."""
+        """Number of writing calls so far."""
         self._fails: tuple[DiskTrouble, int, int] | None = None
 
     def fail(self, trouble: DiskTrouble, *, after: int, times: int) -> None:
-        """So many writes from now go well, so many then fail."""
+        """This many writes from now succeed, then this many fail."""
         self._fails = (trouble, self.writes + after, self.writes + after + times)
 
     def mend(self) -> None:
-        """Every write goes well again."""
+        """Every write succeeds again."""
         self._fails = None
 
     def connect(self, *args: Any, **kwargs: Any) -> sqlite3.Connection:
@@ -69,18 +69,18 @@ class _Connection(sqlite3.Connection):
 
 
 class CutOff:
-    """What was on the disk when the power went: a copy, put back after the process has ended."""
+    """The content of the disk at a power failure: a copy, restored after the process has ended."""
 
     def __init__(self, home: Path, aside: Path, random: Random) -> None:
-        """:param home: of the station; :param aside: a folder that is not there yet"""
+        """:param home: home folder of the station; :param aside: a folder that does not exist yet"""
         self._home, self._aside = home, aside
         shutil.copytree(home, aside, ignore=shutil.ignore_patterns("*-shm", "backups"))
-        for log in aside.glob("*-wal"):  # a write that was under way leaves a piece of a frame
+        for log in aside.glob("*-wal"):  # a write in progress leaves a part of a frame
             with log.open("ab") as out:
                 out.write(random.randbytes(random.randrange(_MOST_TORN_BYTES)))
 
     def put_back(self) -> None:
-        """What the ended process wrote after the moment is as if it had never been."""
+        """Restore the copy: later writes of the ended process are discarded."""
         for file in self._home.iterdir():
             if file.is_file():
                 file.unlink()

@@ -1,6 +1,6 @@
-"""Everything that is small enough, without a draw: all orders of eight events, a failure at every write.
+"""All small cases, without random draws: all orders of eight events, a failure at every write.
 
-Each case is a station of its own with one calibration that has passed, so that there is something to apply.
+Each case is a separate station with one passed calibration, so that there is one to apply.
 """
 
 from __future__ import annotations
@@ -36,14 +36,14 @@ _OFF_S = 1.0
 
 @dataclass(frozen=True, slots=True)
 class Order:
-    """Some events, one after the other."""
+    """Some events in sequence."""
 
     events: tuple[Event, ...]
 
 
 @dataclass(frozen=True, slots=True)
 class WriteThatFails:
-    """During a deed, from the n-th write to the disk on."""
+    """A failure during an action, from the n-th write to the disk on."""
 
     deed: Deed
     trouble: DiskTrouble | Literal["kill"]
@@ -56,11 +56,11 @@ Case = Order | WriteThatFails
 
 @dataclass(frozen=True, slots=True)
 class Outcome:
-    """What came of a case."""
+    """The result of a case."""
 
     case: Case
     reached: bool
-    """False where the deed has fewer writes than that."""
+    """False if the action has fewer writes than that."""
     violations: tuple[Violation, ...]
 
 
@@ -70,7 +70,7 @@ def orders(depth: int) -> list[Order]:
 
 
 def writes_that_fail() -> list[WriteThatFails]:
-    """Every write of a measurement and an application: it fails, all from it on fail, a kill at it."""
+    """Every write of a measurement and an application: it fails, all from it on fail, or a kill at it."""
     kinds: tuple[tuple[DiskTrouble | Literal["kill"], int], ...] = (
         ("error", 1),
         ("full", FOR_GOOD),
@@ -86,7 +86,7 @@ def writes_that_fail() -> list[WriteThatFails]:
 
 
 def _writes_of(deed: Deed) -> int:
-    """How many writes it has when nothing fails."""
+    """Number of its writes when nothing fails."""
     with _station() as keeper:
         keeper.start()
         first = keeper.plant.disk.writes
@@ -96,7 +96,7 @@ def _writes_of(deed: Deed) -> int:
 
 
 def carried_out(case: Case) -> Outcome:
-    """One case on a station of its own."""
+    """Carry out one case on a separate station."""
     reached = True
     with _station(repr(case)) as keeper:
         with suppress(Stranded):
@@ -111,7 +111,7 @@ def carried_out(case: Case) -> Outcome:
 
 @contextmanager
 def _station(seed: str = "") -> Iterator[Keeper]:
-    """One that has a passed calibration; not started."""
+    """A station with a passed calibration; not started."""
     with TemporaryDirectory() as folder, prepared():
         home = Path(folder) / "home"
         calibrated, taken = _calibrated()
@@ -126,7 +126,7 @@ def _station(seed: str = "") -> Iterator[Keeper]:
 
 @cache
 def _calibrated() -> tuple[TemporaryDirectory[str], tuple[tuple[int, str], ...]]:
-    """The data folder of a station with one passed calibration, and what its receiver has taken.
+    """The data folder of a station with one passed calibration, and the events accepted by its receiver.
 
     Made once in each process; the folder is deleted at its end.
     """
@@ -184,7 +184,7 @@ def _measure(keeper: Keeper, key: str, kind: Literal["calibrate", "check"] = "ca
 
 
 def _failing(keeper: Keeper, case: WriteThatFails) -> bool:
-    """Whether the deed came to the write that was to fail."""
+    """Whether the action reached the write that was to fail."""
     plant = keeper.plant
     first = plant.disk.writes
     if case.trouble != "kill":
@@ -205,7 +205,7 @@ def _failing(keeper: Keeper, case: WriteThatFails) -> bool:
 
 
 def _settled(keeper: Keeper) -> None:
-    """Back to rest whatever happened; then a run that nothing disturbs succeeds."""
+    """Recover after any event; then an undisturbed run succeeds."""
     plant = keeper.plant
     if not plant.runs:
         keeper.restart(_OFF_S)

@@ -1,4 +1,4 @@
-"""What is asked for in a simulated day, and what goes wrong meanwhile."""
+"""The requests of a simulated day, and their disturbances."""
 
 from __future__ import annotations
 
@@ -11,49 +11,49 @@ from station.simulation.witness import Witness
 
 @dataclass(frozen=True, slots=True, order=True)
 class Job:
-    """Somebody asks for a run, and something happens."""
+    """A request for a run, with a disturbance."""
 
     day: int
     number: int
-    """Of the day."""
+    """Number within the day."""
     deed: str
     trouble: str
 
 
 @dataclass(frozen=True, slots=True)
 class Script:
-    """Which of the jobs that are drawn come about; each draws by itself, whatever becomes of the others."""
+    """Selection of the drawn jobs to carry out; each draws independently of the others."""
 
     kept: frozenset[tuple[int, int]] | None = None
     """Day and number; None: all."""
     calm: frozenset[tuple[int, int]] = frozenset()
-    """Where nothing goes wrong."""
+    """Jobs without a disturbance."""
 
     def keeps(self, day: int, number: int) -> bool:
         return self.kept is None or (day, number) in self.kept
 
     def has_day(self, day: int) -> bool:
-        """Whether anything is left of a day."""
+        """Whether a day has any jobs left."""
         return self.kept is None or any(kept_day == day for kept_day, _ in self.kept)
 
 
 WHOLE = Script()
-"""Everything as it is drawn."""
+"""Everything as drawn."""
 
 
 @dataclass(frozen=True)
 class Request:
-    """For a run."""
+    """A request for a run."""
 
     client: Client
     path: str
     body: Mapping[str, object]
     action: str
-    """What the audit calls it."""
+    """Its name in the audit."""
     key: str | None
 
     def send(self, witness: Witness) -> int:
-        """The number of the run that was started, or 0; the witness hears of the answer.
+        """The number of the started run, or 0; the witness receives the answer.
 
         :raises NotRunning: the station was killed before it answered, or does not run
         """

@@ -1,4 +1,4 @@
-"""Starts the station, lets it come to rest, ends it; each time the witness looks."""
+"""Starts the station, brings it to rest, ends it; the witness checks it each time."""
 
 from __future__ import annotations
 
@@ -14,37 +14,37 @@ from station.store import Store
 
 REFUSALS = (Busy, InputRefused, NotApplicable, NotFound, StoreUnavailable)
 RUN_LIMIT_S = 1800.0
-"""Virtual time within which every run ends by itself, prompts answered or not."""
+"""Virtual time within which every run ends by itself, with or without answers to prompts."""
 DELIVERY_LIMIT_S = 300.0
 
 
 class Stranded(Exception):
-    """It cannot go on; the witness knows why."""
+    """The simulation cannot continue; the witness has the cause."""
 
 
 @dataclass
 class Keeper:
-    """Of one station."""
+    """The keeper of one station."""
 
     plant: Plant
     witness: Witness
     restarts: int = 0
-    """After kills."""
+    """Number of restarts after kills."""
 
     @property
     def store(self) -> Store:
-        """Of the station that runs."""
+        """Store of the running station."""
         assert self.plant.runtime is not None
         return self.plant.runtime.store
 
     @property
     def orchestrator(self) -> Orchestrator:
-        """Of the station that runs."""
+        """Orchestrator of the running station."""
         assert self.plant.runtime is not None
         return self.plant.runtime.orchestrator
 
     def start(self) -> None:
-        """The witness watches from then on.  :raises Stranded: it does not start."""
+        """Start it; the witness observes it from then on. :raises Stranded: it does not start."""
         if not self.plant.start():
             self.witness.fails("start", f"the station does not start: {self.plant.refusal}")
             raise Stranded
@@ -52,7 +52,7 @@ class Keeper:
         self.witness.look(self.store)
 
     def restart(self, after_s: float) -> None:
-        """After a kill, so much later.  :raises Stranded:"""
+        """Restart it after a kill and a delay. :raises Stranded:"""
         self.restarts += 1
         off_s = self.plant.scheduler.now_s
         self.plant.scheduler.wait(seconds=after_s)
@@ -61,7 +61,7 @@ class Keeper:
 
     @contextmanager
     def answered(self) -> Iterator[None]:
-        """A request: refused in a sentence, or not heard because the station was killed, is all right."""
+        """Context of a request: a refusal, or a missing answer because of a kill, is accepted."""
         try:
             yield
         except (NotRunning, *REFUSALS):
@@ -70,7 +70,7 @@ class Keeper:
             self.witness.fails("answer", f"{type(error).__name__}: {error}")
 
     def come_to_rest(self) -> None:
-        """No run is under way and the arm stands inside; everything that is kept is as it was told.
+        """Wait until no run is active and the arm is inside; the stored data agree with the reported ones.
 
         :raises Stranded: it does not come to rest.
         """
@@ -78,35 +78,35 @@ class Keeper:
         if not self.plant.scheduler.wait(lambda: orchestrator.running is None, RUN_LIMIT_S):
             self.witness.fails("idle", f"run {orchestrator.running} does not end")
             raise Stranded
-        self.plant.scheduler.wait(seconds=2.0)  # ends that the disk did not take are repeated meanwhile
+        self.plant.scheduler.wait(seconds=2.0)  # ends that the disk refused are repeated meanwhile
         orchestrator.snapshot().model_dump_json()
         self.witness.look(self.store)
         if orchestrator.snapshot().retract.needed:
             self._retract()
 
     def end(self) -> None:
-        """In order, when everything was delivered.  :raises Stranded: it does not end."""
+        """End it regularly, after all deliveries. :raises Stranded: it does not end."""
         self.deliver_all()
         self.witness.look_at_all(self.store)
         self.shut_down()
 
     def stop(self) -> None:
-        """Somebody presses STOP.  :raises: as `Plant.ask`"""
+        """Press STOP. :raises: as `Plant.ask`"""
         pressed_s = self.plant.scheduler.now_s
         self.witness.stopped(pressed_s, self.plant.ask(lambda station: station.stop("ada")))
 
     def shut_down(self) -> None:
-        """At once, whatever runs.  :raises Stranded: it does not end."""
+        """End it at once, in any state. :raises Stranded: it does not end."""
         if not self.plant.end():
             self.witness.fails("idle", "the station does not end")
             raise Stranded
 
     def deliver_all(self) -> None:
-        """Wait until the receiver has everything."""
+        """Wait until the receiver has all events."""
         world = self.plant.scheduler
         for receiver in self.plant.receivers.values():
             receiver.fails = 0.0
-        world.wait(seconds=2.0)  # until the courier has seen the last end
+        world.wait(seconds=2.0)  # until the courier has processed the last end
         limit_s = world.now_s + DELIVERY_LIMIT_S
         while self.store.backlogs() and world.now_s < limit_s:
             world.wait(seconds=1.0)

@@ -1,4 +1,4 @@
-"""An event loop of asyncio over the scheduler, and its tasks as threads: how requests are served."""
+"""An asyncio event loop over the scheduler, and its tasks as threads: the processing of requests."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ T = TypeVar("T")
 
 
 class VirtualLoop(asyncio.BaseEventLoop):
-    """Of one task; its time is that of the scheduler, and it waits as a task of it."""
+    """The loop of one task; its time is that of the scheduler, and it waits as a task of it."""
 
     def __init__(self, scheduler: Scheduler) -> None:
         super().__init__()
@@ -29,21 +29,21 @@ class VirtualLoop(asyncio.BaseEventLoop):
         return self._scheduler.now_s
 
     def select(self, timeout: float | None) -> list[object]:
-        """In the place of a selector: until another task has called, or the time is over."""
+        """Replaces a selector: waits until another task has called, or the time is over."""
         if timeout is None or timeout > 0.0:
             self._scheduler.wait(lambda: self._woken, timeout)
         self._woken = False
         return []
 
     def _process_events(self, events: list[object]) -> None:
-        """No files are watched."""
+        """Nothing to do: no files are watched."""
 
     def _write_to_self(self) -> None:
         self._woken = True
 
 
 class Threads:
-    """In the place of those of anyio, which run what a route does without `async`."""
+    """Replace the threads of anyio, which run the non-`async` parts of a route."""
 
     def __init__(self, scheduler: Scheduler) -> None:
         self._scheduler = scheduler
@@ -55,7 +55,7 @@ class Threads:
         abandon_on_cancel: bool = False,
         limiter: CapacityLimiter | None = None,
     ) -> T:
-        """As `anyio.to_thread.run_sync`; there are always threads enough."""
+        """As `anyio.to_thread.run_sync`; there are always enough threads."""
         loop = asyncio.get_running_loop()
         answer: asyncio.Future[T] = loop.create_future()
         context = contextvars.copy_context()
@@ -82,7 +82,7 @@ def _settle(set_it: Callable[[Any], None], answer: asyncio.Future[Any], value: o
 
 @contextmanager
 def threads_of_requests(scheduler: Scheduler) -> Iterator[None]:
-    """Everything that asks anyio for a thread gets a task of the scheduler instead, until the block ends."""
+    """Every request to anyio for a thread gets a task of the scheduler instead, until the block ends."""
     real, to_thread.run_sync = to_thread.run_sync, Threads(scheduler).run_sync  # type: ignore[assignment]
     try:
         yield

@@ -1,4 +1,4 @@
-"""Who works at the station: an operator who signs in, a MES with a key, and somebody who may do nothing."""
+"""The users of the station: an operator who signs in, a MES with a key, and a person without rights."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Operator(Client):
 
 @dataclass
 class People:
-    """Of one station; they outlive every process of it."""
+    """The people of one station; they outlive every process of it."""
 
     plant: Plant
     random: Random
@@ -45,12 +45,12 @@ class People:
         self.mes = Client(self.plant, "MES 0", address="10.0.0.7")
 
     def begin(self) -> None:
-        """On the first day: an account and a key."""
+        """Called on the first day: create an account and a key."""
         self._administration().add_user(_ROOT, NewUser(self.operator.name, "operator", _PASSWORD))
         self.renew_key()
 
     def renew_key(self) -> None:
-        """The MES gets another key; the one that it had is refused from now on."""
+        """The MES gets another key; its previous one is refused from now on."""
         if bearer := self.mes.headers.get("Authorization"):
             self._store.revoke_key(_ROOT, self.mes.name)
             self._revoked.append(bearer)
@@ -60,7 +60,7 @@ class People:
         self.mes.headers["Authorization"] = f"Bearer {key}"
 
     def try_without_right(self, order: Mapping[str, object], passed: int | None) -> Answer:
-        """Somebody without a key, with a revoked one, or with one that may not do this, asks for motion."""
+        """A motion is requested without a key, with a revoked one, or with one without the permission."""
         start = ("POST", "/calibrations", order)
         stranger = Client(self.plant, "nobody", address="10.0.0.66")
         tries = [lambda: stranger.send(*start), lambda: stranger.send("POST", "/stop")]
@@ -71,7 +71,7 @@ class People:
         return self.random.choice(tries)()
 
     def pull(self) -> list[Mapping[str, Any]]:
-        """What the MES has not fetched yet of what happened, in order."""
+        """Fetch the events that the MES does not have yet, in order."""
         events: list[Mapping[str, Any]] = []
         while True:
             answer = self.mes.send("GET", "/events", query=f"after={self.pulled}")

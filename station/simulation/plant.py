@@ -1,7 +1,7 @@
-"""A plant in virtual time: machines and their wires, a disk, a clock on the wall, and the station there.
+"""A plant in virtual time: machines and their wires, a disk, a wall clock, and the station.
 
-The station is the production code from `Runtime.open` on.  The emulated machine and its devices are those
-of the emulated rig, on simulated wires instead of a pseudo-terminal and a socket.
+The station is the production code from `Runtime.open` on.  The emulated machine and its devices are those of
+the emulated rig, on simulated wires instead of a pseudo-terminal and a socket.
 """
 
 from __future__ import annotations
@@ -54,13 +54,13 @@ class Exchange(Protocol):
     """The client's end of a request."""
 
     done: bool
-    """Whether its answer has come."""
+    """Whether the answer is complete."""
 
     async def receive(self) -> Message:
-        """What the client sends next."""
+        """Next message from the client."""
 
     async def send(self, message: Message) -> None:
-        """What comes back."""
+        """A message of the answer."""
 
 
 class NotRunning(Exception):
@@ -68,12 +68,12 @@ class NotRunning(Exception):
 
 
 class Plant:
-    """Everything that is outside the station's process; a context manager."""
+    """Everything outside the station's process; a context manager."""
 
     def __init__(
         self, home: Path, specs: list[MachineSpec], random: Random, site: Site | None = None
     ) -> None:
-        """:param specs: the robots, of which one at a time is at the station"""
+        """:param specs: the robots, one of which is at the station at a time"""
         self.home = home
         self.site = site or Site()
         self.random = random
@@ -106,7 +106,7 @@ class Plant:
 
     @contextmanager
     def entered(self) -> Iterator[None]:
-        """Production code lives in this plant until the block ends."""
+        """Production code runs in this plant until the block ends."""
         threads = Threads(self.scheduler)
         replacements: dict[object, object] = {
             time: self.clocks,
@@ -130,7 +130,7 @@ class Plant:
             yield
 
     def _computed(self, function: Callable[P, T]) -> Callable[P, T]:
-        """The same, which takes as long as on the computer of this site."""
+        """The same, with the computing time of this site."""
 
         def takes_time(*args: P.args, **kwargs: P.kwargs) -> T:
             self.scheduler.wait(seconds=self.site.computing_s)
@@ -151,7 +151,7 @@ class Plant:
         return self._mounted
 
     def bring(self, number: int) -> None:
-        """Put another robot at the station; only while the station is off."""
+        """Exchange the robot at the station; only while the station is off."""
         self._mounted = number
         self._switch_on()
 
@@ -183,11 +183,11 @@ class Plant:
 
     @property
     def runs(self) -> bool:
-        """Whether the station's process lives and has opened."""
+        """Whether the station's process is alive and has opened."""
         return self.runtime is not None and self._process is not None and not self._process.killed
 
     def start(self) -> bool:
-        """Start the station; whether it came up.  Why not is in `refusal`."""
+        """Start the station; returns whether it succeeded. The cause of a failure is in `refusal`."""
         self._process = Process("station")
         self._ending, self.refusal, self.runtime = False, None, None
         task = self.scheduler.spawn(self._live, "station", self._process)
@@ -195,7 +195,7 @@ class Plant:
         return self.runs
 
     def end(self) -> bool:
-        """End it in order, as SIGTERM does; whether it has ended in time."""
+        """End it regularly, as SIGTERM does; returns whether it has ended in time."""
         self._ending = True
         process = self._process
         ended = process is None or self.scheduler.wait(
@@ -205,7 +205,7 @@ class Plant:
         return ended
 
     def kill(self) -> None:
-        """End it at this very moment, as kill -9 or a power cut does."""
+        """End it immediately, as kill -9 or a power failure does."""
         assert self._process is not None
         left = CutOff(self.home, self.home.with_name("cut-off"), self.random)
         self.scheduler.kill(self._process)
@@ -213,10 +213,10 @@ class Plant:
         left.put_back()
 
     def ask(self, request: Callable[[Orchestrator], T]) -> T:
-        """What the station answers a request, which a thread of its own process carries out.
+        """The answer of the station to a request, which a thread of its own process carries out.
 
         :raises NotRunning: it was killed before it answered, or does not run.
-        :raises Exception: whatever the request raised.
+        :raises Exception: the error of the request.
         """
         runtime, process = self.runtime, self._process
         if runtime is None or process is None or process.killed:
@@ -239,7 +239,7 @@ class Plant:
         return answers[0]
 
     def serve(self, scope: Scope, exchange: Exchange) -> None:
-        """Let the station's application serve a request; returns when it is answered, or never will be.
+        """Let the station's application serve a request; returns when it is answered, or cannot be any more.
 
         :raises NotRunning: the station does not run
         """

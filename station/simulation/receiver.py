@@ -1,4 +1,4 @@
-"""The plant's receiver of events: takes them, refuses them, dies in between."""
+"""The plant's receiver of events: accepts them, refuses them, fails in between."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from station.simulation.scheduler import Scheduler
 
 
 class Receiver:
-    """Another computer: what it has taken stays, whatever becomes of the station."""
+    """Another computer: its accepted events remain, whatever happens to the station."""
 
     def __init__(self, scheduler: Scheduler, random: Random, name: str) -> None:
         self._scheduler, self._random = scheduler, random
@@ -18,10 +18,10 @@ class Receiver:
         self.taken: list[tuple[int, str]] = []
         """Number of each event and uid of its run, in the order they came."""
         self.fails = 0.0
-        """Share of the deliveries that it spoils."""
+        """Share of the deliveries that fail."""
 
     def start(self) -> None:
-        """Nothing to say."""
+        """Nothing to do."""
 
     def deliver(self, event: Event) -> str:
         """As `station.outbox.Receiver.deliver`."""
@@ -35,4 +35,4 @@ class Receiver:
         return "200"
 
     def close(self) -> None:
-        """Nothing stays open."""
+        """Nothing to close."""

@@ -1,8 +1,8 @@
-"""Many threads of which one runs at a time, in virtual time: what happens next is drawn by the seed.
+"""Many threads of which one runs at a time, in virtual time: the seed determines the order of events.
 
-Each task is a thread of the operating system that runs only while it holds the baton.  Where it would wait
-it hands the baton on, to a task drawn among those that can go on; where none can, time passes until the
-first that waits for a moment.  The same seed gives the same order of everything.
+Each task is a thread of the operating system that runs only while it holds the baton. When it has to wait it
+passes the baton to a task drawn from those that can continue; if there is none, time advances to the first
+one that waits for a time. The same seed gives the same order of all events.
 """
 
 from __future__ import annotations
@@ -16,18 +16,18 @@ _TICK_S = 1e-6
 
 
 class Killed(BaseException):
-    """Raised in every task of a process that was killed, at the first thing that it does afterwards.
+    """Raised in every task of a process that was killed, at its next call of the scheduler.
 
-    Not an `Exception`: nothing that handles errors may handle this.
+    Not an `Exception`: no error handler may catch it.
     """
 
 
 class Deadlock(RuntimeError):
-    """No task can go on, and none waits for a moment.  Raised in the first task."""
+    """No task can continue, and none waits for a time. Raised in the first task."""
 
 
 class Process:
-    """What dies together: the tasks of one process of the operating system."""
+    """The tasks of one process of the operating system, which end together."""
 
     def __init__(self, name: str) -> None:
         self.name = name
@@ -41,9 +41,9 @@ class Task:
         self.name, self.process = name, process
         self.baton = threading.Semaphore(0)
         self.ready: Callable[[], bool] | None = None
-        """What it waits for; None: for a moment only."""
+        """The condition it waits for; None: for a time only."""
         self.until_s: float | None = None
-        """Virtual time at which it goes on in any case; None: never."""
+        """Virtual time at which it continues in any case; None: never."""
         self.ended = False
 
 
@@ -66,9 +66,9 @@ class Scheduler:
         return self._running
 
     def spawn(self, run: Callable[[], object], name: str, process: Process | None = None) -> Task:
-        """A new task; it begins when the scheduler comes to it.
+        """Make a new task; it begins when the scheduler selects it.
 
-        :param process: that of the caller, unless another is named
+        :param process: its process; by default that of the caller
         """
         task = Task(name, process or self._running.process)
 
@@ -92,20 +92,20 @@ class Scheduler:
         return task
 
     def wait(self, ready: Callable[[], bool] | None = None, seconds: float | None = None) -> bool:
-        """Let others go on until something is so, or the time is over.  Whether it is so.
+        """Let others run until a condition holds, or the time is over. Returns whether it holds.
 
-        :param ready: looks and returns; it must not wait itself
-        :param seconds: None: however long it takes
+        :param ready: checks the condition; it must not wait itself
+        :param seconds: time limit; None: unlimited
         :raises Killed: the caller's process was killed
-        :raises Deadlock: nobody can go on any more
+        :raises Deadlock: no task can continue
         """
         if seconds is None:
             return self.wait_until(None, ready)
-        # a clock resolves no less; who waits again and again for the rest of a time would wait for ever
+        # a clock has no finer resolution; repeated waits for the remainder of a time would not end
         return self.wait_until(self.now_s + (max(seconds, _TICK_S) if seconds > 0.0 else 0.0), ready)
 
     def wait_until(self, at_s: float | None, ready: Callable[[], bool] | None = None) -> bool:
-        """The same with a moment instead of a duration."""
+        """The same with a time instead of a duration."""
         task = self._running
         self._check_alive(task)
         task.ready, task.until_s = ready, at_s
@@ -120,11 +120,11 @@ class Scheduler:
         return ready is not None and ready()
 
     def give_way(self) -> None:
-        """Let others go first, if the draw says so: a place where threads may overtake each other."""
+        """Let others run first, if the draw decides so: a point where threads may overtake each other."""
         self.wait(_at_once)
 
     def kill(self, process: Process) -> None:
-        """End a process as the operating system does; returns when none of its tasks is left."""
+        """End a process as the operating system does; returns when none of its tasks remains."""
         process.killed = True
         self.wait(lambda: not self.tasks_of(process))
 
@@ -153,7 +153,7 @@ class Scheduler:
         able = [
             task
             for task in self._tasks
-            if task.process.killed  # asked some hundred thousand times a day, so all in one place
+            if task.process.killed  # called several hundred thousand times a day, so all in one place
             or (over and task is not director)
             or (task.ready is not None and task.ready())
         ]

@@ -1,4 +1,4 @@
-"""A month in which something did not hold, with all jobs left out that it takes no part of."""
+"""A month with a violation, reduced by all jobs that do not contribute to it."""
 
 from __future__ import annotations
 
@@ -17,13 +17,13 @@ Item = TypeVar("Item")
 
 @dataclass(frozen=True, slots=True)
 class Shrunk:
-    """What is left."""
+    """The reduced month."""
 
     seed: int
     jobs: tuple[Job, ...]
     violation: Violation
     lives: int
-    """How often the month was lived for this."""
+    """Number of simulated months."""
 
 
 def shrunk(
@@ -32,9 +32,9 @@ def shrunk(
     deeds: Mapping[str, float] = DEEDS,
     troubles: Mapping[str, float] = TROUBLES,
 ) -> Shrunk:
-    """As few jobs as still break the sentence that was broken first, and as few troubles among them.
+    """The fewest jobs that still violate the invariant violated first, with the fewest disturbances.
 
-    :raises InputRefused: everything holds in this month
+    :raises InputRefused: there is no violation in this month
     """
     lives = 0
 
@@ -64,9 +64,9 @@ def shrunk(
 
 
 def smallest(items: Sequence[Item], breaks: Callable[[Sequence[Item]], bool]) -> list[Item]:
-    """Items of which none can be left out, in their order (delta debugging, Zeller and Hildebrandt 2002).
+    """Items none of which can be omitted, in order (delta debugging, Zeller and Hildebrandt 2002).
 
-    :param items: all of which break it
+    :param items: items that together cause the violation
     """
     left, parts = list(items), 2
     while len(left) > 1:

@@ -1,4 +1,4 @@
-"""What a station is made of, where stations differ: devices, lines, how fast it moves and computes."""
+"""The variable equipment of a station: devices, lines, speeds of motion and computation."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SCALE_BAUD = {"heidenhain-nd": 9600, "siko": 19_200}
 _SCALE_FORMAT = {"heidenhain-nd": "7E2", "siko": "8N1"}
 _SIKO_MM = 0.01
 _WATCHDOG_MS = 2000
-"""Of the BLV-R; a drive behind a slow gateway is not fed as often as one on a line of its own."""
+"""Watchdog of the BLV-R; a drive behind a slow gateway is fed less often than one on its own line."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,18 +34,18 @@ class Site:
     line: Literal["tcp", "rtu"] = "tcp"
     """A gateway, or one RS-485 line for both drives."""
     trip_s: float = 0.025
-    """Of a request and its reply through the gateway."""
+    """Time of a request and its reply through the gateway."""
     computing_s: float = 0.5
-    """Of an identification on the station's computer."""
+    """Time of an identification on the station's computer."""
     speed_deg_s: float = 30.0
     samples: int = 5
-    """Of a reading."""
+    """Number of samples of a reading."""
     haste: float = 1.0
-    """How much faster than real arms the arms move."""
+    """Speed of the arms over real ones."""
 
     @classmethod
     def drawn(cls, random: Random) -> Site:
-        """One of those that plants have: mostly the first family behind a gateway."""
+        """A random site of a typical plant: mostly the first family behind a gateway."""
         return cls(
             servo="orientalmotor" if random.random() < 0.15 else "leadshine-el7",
             scale="siko" if random.random() < 0.3 else "heidenhain-nd",
@@ -58,12 +58,12 @@ class Site:
 
     @classmethod
     def instant(cls) -> Site:
-        """Devices that answer and arrive almost at once, for cases by the thousand."""
+        """Devices that answer and arrive almost at once, for thousands of cases."""
         return cls(trip_s=0.001, computing_s=0.01, speed_deg_s=120.0, samples=2, haste=50.0)
 
     @property
     def settings(self) -> dict[str, object]:
-        """Of its station file."""
+        """Settings in its station file."""
         scale: dict[str, object] = {
             "protocol": self.scale,
             "url": f"serial:///dev/scale?baud={SCALE_BAUD[self.scale]}&format={_SCALE_FORMAT[self.scale]}",
@@ -85,13 +85,13 @@ class Site:
         }
 
     def readout(self, machine: Machine, faults: Faults, clock: Callable[[], float]) -> EmulatedReadout:
-        """The device that the settings name."""
+        """The device named in the settings."""
         if self.scale == "siko":
             return SikoDevice(machine.head_mm, faults, _SIKO_MM, clock)
         return ND280(machine.head_mm, faults)
 
     def drive(self, machine: Machine, joint: int, faults: Faults) -> EmulatedDrive:
-        """Of one joint."""
+        """The drive of one joint."""
         if self.servo == "orientalmotor":
             return BLVRDrive(machine, joint, faults, MachineSpec().counts_per_rev)
         return EL7Drive(machine, joint, faults, EL7)

@@ -1,7 +1,7 @@
-"""The one seam: what production modules import from the world outside is replaced, by name, in all of them.
+"""The interface to the simulation: external imports of all production modules are replaced, by name.
 
-Production code itself knows nothing of it.  What is held by a default argument or a dataclass field instead
-of a name of the module would escape; a test looks for that.
+Production code has no dependence on it. An object in a default argument or a dataclass field instead of a
+name of the module would not be replaced; a test checks for that.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ OWN = "station.simulation"
 
 @contextmanager
 def substituted(replacements: Mapping[object, object]) -> Iterator[None]:
-    """Every name that is bound to a key is bound to its value instead, until the block ends."""
+    """Bind every name that is bound to a key to its value instead, until the block ends."""
     by_id = {id(real): virtual for real, virtual in replacements.items()}
     done: list[tuple[ModuleType, str, object]] = []
     try:
@@ -34,7 +34,7 @@ def substituted(replacements: Mapping[object, object]) -> Iterator[None]:
 
 
 def production_modules() -> list[ModuleType]:
-    """Those that are loaded."""
+    """All loaded production modules."""
     return [
         module
         for name, module in sorted(sys.modules.items())

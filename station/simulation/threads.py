@@ -1,4 +1,4 @@
-"""What production code imports from `threading` and `queue`, over the scheduler."""
+"""Replacements for imports of production code from `threading` and `queue`, over the scheduler."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ T = TypeVar("T")
 
 
 class Threads:
-    """Makes the primitives of one world; each has the part of the real one's interface that is used."""
+    """Makes the primitives of one world; each has the used part of the real one's interface."""
 
     def __init__(self, scheduler: Scheduler) -> None:
         self._scheduler = scheduler
@@ -126,7 +126,7 @@ class VirtualLock:
 
 
 class VirtualCondition(VirtualLock):
-    """As `threading.Condition`; what is waited for is looked at whenever others went on."""
+    """As `threading.Condition`; the condition is checked whenever other tasks have run."""
 
     def wait_for(self, predicate: Callable[[], T], timeout: float | None = None) -> T:
         if not (found := predicate()):
@@ -137,7 +137,7 @@ class VirtualCondition(VirtualLock):
         return found
 
     def notify_all(self) -> None:
-        """Nobody needs to be told."""
+        """Nothing to do: no task needs a notification."""
 
 
 class VirtualQueue(Generic[T]):

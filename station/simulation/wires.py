@@ -1,4 +1,4 @@
-"""Ports whose other end is an emulated device, in virtual time: the bytes are those of the real wires."""
+"""Ports with an emulated device at the other end, in virtual time: the bytes are those of real wires."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from station.simulation.scheduler import Killed, Process, Scheduler
 from station.simulation.site import SCALE_BAUD, SERVO_BAUD, SERVO_PORT, Site
 
 _BITS = 10
-"""Of a character on the readout's line."""
+"""Bits of a character on the readout's line."""
 _RTU_BITS = 11
 _FLOW_CONTROL = bytes((0x11, 0x13))
 
@@ -23,7 +23,7 @@ Drive = Callable[[bytes], DriveReply]
 
 
 class Wires:
-    """The lines of one machine; stands in for `open_port`."""
+    """The lines of one machine; replaces `open_port`."""
 
     def __init__(
         self,
@@ -33,14 +33,14 @@ class Wires:
         drives: dict[int, Drive],
         check_sum_exception: int | None,
     ) -> None:
-        """:param check_sum_exception: what a drive on RS-485 answers to a wrong check sum; None: nothing"""
+        """:param check_sum_exception: answer of a drive on RS-485 to a wrong check sum; None: no answer"""
         self._scheduler = scheduler
         self.site, self.drives, self.check_sum_exception = site, drives, check_sum_exception
         self._readout = readout
         self.unplugged = False
-        """Whether nothing can be opened, and what is open is broken."""
+        """Whether nothing can be opened, and open lines are broken."""
         self.gateway_free_s = 0.0
-        """The gateway asks one drive at a time."""
+        """The gateway queries one drive at a time."""
 
     def open_port(self, address: SerialAddress | NetAddress, xonxoff: bool) -> Port:
         """As `drivers.lines.ports.open_port`."""
@@ -83,7 +83,7 @@ class _End:
         return self._coming.pop(0)[1]
 
     def interrupt(self) -> None:
-        """On a serial line nothing is gained by it."""
+        """Interrupting a serial line has no benefit."""
 
     def close(self) -> None:
         self._broken = True
@@ -100,7 +100,7 @@ class _End:
             raise ConnectionResetError(errno.ECONNRESET, "the far end closed the connection")
 
     def _send(self, data: bytes, after_s: float) -> None:
-        """Bytes keep their order: what is late holds up all after it."""
+        """Bytes retain their order: a late one delays all after it."""
         at_s = self._scheduler.now_s + after_s
         self._coming.append((max(at_s, self._coming[-1][0] if self._coming else 0.0), data))
 
@@ -129,7 +129,7 @@ class _Rs485(_End):
 
 
 class _Connection(_End):
-    """To the gateway."""
+    """A connection to the gateway."""
 
     def __init__(self, wires: Wires, scheduler: Scheduler) -> None:
         super().__init__(wires, scheduler)

@@ -1,7 +1,7 @@
-"""What is seen from outside while a station works, and the sentences that must hold of it.
+"""External observation of a working station, and the invariants that must hold for it.
 
-The witness sees what the page shows, what the machine does, what the receiver was told and what lies on the
-disk; it knows nothing of the station's inside.
+The witness observes the page's data, the machine, the receiver's events and the disk; it has no access to the
+station's internals.
 """
 
 from __future__ import annotations
@@ -22,12 +22,12 @@ from station.simulation.plant import Plant
 from station.store import Store
 
 STANDSTILL_S = 0.5
-"""So long after the end of a run an axis may still brake."""
+"""Time after the end of a run within which an axis may still brake."""
 STOP_S = 0.45
-"""So long after STOP was pressed an axis that answers may still move: the other one does not hold it up."""
+"""Time after STOP within which an axis that answers may still move: the other one does not delay it."""
 TRUE_WITHIN_SDS = 6.0
 SAME_FRAME_DEG = 0.01
-"""How far the journal's sum of shifts may be from what a drive holds: a few pulses for each write."""
+"""Allowed difference between the journal's sum of shifts and a drive's zero: a few pulses for each write."""
 _BEGINS = ("run.started", "run.applied", "run.rolled_back")
 _UNFINISHED = (State.QUEUED, State.RUNNING, State.WAITING)
 _MANY = 1_000_000
@@ -54,12 +54,12 @@ INVARIANTS = {
     "threads": "No thread of the station ends with an error.",
     "answer": "Every request is answered, and a refusal states its reason in a sentence.",
 }
-"""By the name under which a violation is reported."""
+"""Invariants by the name under which a violation is reported."""
 
 
 @dataclass(frozen=True, slots=True)
 class Violation:
-    """One sentence that did not hold."""
+    """One invariant that did not hold."""
 
     invariant: str
     at_s: float
@@ -68,43 +68,43 @@ class Violation:
 
 @dataclass
 class Witness:
-    """Collects what it sees, and judges it."""
+    """Collects observations, and checks them."""
 
     plant: Plant
     violations: list[Violation] = field(default_factory=list)
     readings: int = 0
-    """Shown so far."""
+    """Readings shown so far."""
     runs: int = 0
-    """Kept so far."""
+    """Runs stored so far."""
     _trace: hashlib._Hash = field(default_factory=hashlib.sha256)
     _shown: dict[str, dict[int, RunReading]] = field(default_factory=dict)
     _told: dict[str, State] = field(default_factory=dict)
     _keys: dict[str, int] = field(default_factory=dict)
     _disturbed: set[int] = field(default_factory=set)
     _jumped_after: dict[int, int] = field(default_factory=dict)
-    """How many readings a run had when the readout jumped."""
+    """Number of a run's readings when the readout jumped."""
     _seen: int = 0
-    """Number of the last run that was judged."""
+    """Number of the last checked run."""
     _current: RunBrief | None = None
     _started_by: Counter[tuple[str, str, str]] = field(default_factory=Counter)
     _done_late: Counter[tuple[str, str, str]] = field(default_factory=Counter)
-    """Since the last kill."""
+    """Actions since the last kill."""
     _pulled: set[str] = field(default_factory=set)
     _last_pulled: int = 0
 
     def fails(self, invariant: str, detail: str) -> None:
-        """A sentence does not hold."""
+        """An invariant does not hold."""
         self.violations.append(Violation(invariant, self.plant.scheduler.now_s, detail))
 
     @property
     def digest(self) -> str:
-        """SHA-256 of everything that happened so far."""
+        """SHA-256 of all events so far."""
         return self._trace.hexdigest()
 
     def _happens(self, what: str) -> None:
         self._trace.update(f"{self.plant.scheduler.now_s:.6f} {what}\n".encode())
 
-    # What the page shows, and what requests are answered -----------------------------------------------
+    # Data of the page, and answers to requests ----------------------------------------------------
 
     def heard(self, event: LiveEvent) -> None:
         """Listener of the running station."""
@@ -137,25 +137,25 @@ class Witness:
             self.fails("key", f"key {key} started run {self._keys[key]} and is now answered {status}")
 
     def started_by(self, who: str, action: str, run: int) -> None:
-        """Who was answered that a run is started; again is the same start."""
+        """The author of an accepted start; a repetition is the same start."""
         self._started_by[who, action, f"run {run}"] = 1
 
     def done(self, who: str, action: str, subject: str) -> None:
-        """A deed was answered that the audit records beside; a kill in the same minute may take it away."""
+        """An action was confirmed that the audit records later; a kill in the same minute may prevent it."""
         self._done_late[who, action, subject] += 1
 
     def answered(self, answer: Answer) -> None:
-        """Whatever was asked: refused in a sentence, if refused."""
+        """Check any answer: a refusal must have a sentence."""
         if answer.status >= 400 and not (answer.status in _IN_A_SENTENCE and _says_why(answer.body)):
             self.fails("answer", f"status {answer.status}: {answer.body}")
 
     def without_right(self, answer: Answer) -> None:
-        """Somebody asked for what that person or program may not do."""
+        """A request was made without the permission."""
         if answer.status not in (401, 403):
             self.fails("access", f"who may not was answered {answer.status}: {answer.body}")
 
     def pulled(self, events: list[Mapping[str, Any]]) -> None:
-        """What the MES has fetched."""
+        """Events fetched by the MES."""
         for event in events:
             if event["n"] <= self._last_pulled:
                 self.fails("deliveries", f"event {event['n']} was fetched after {self._last_pulled}")
@@ -164,7 +164,7 @@ class Witness:
                 self._pulled.add(event["data"]["uid"])
 
     def all_pulled(self, store: Store) -> None:
-        """After the MES has fetched everything."""
+        """Called after the MES has fetched everything."""
         for run in store.calibrations(limit=_MANY, order="oldest").items:
             if run.uid not in self._pulled:
                 self.fails("deliveries", f"the end of run {run.id} is not among the events")
@@ -183,7 +183,7 @@ class Witness:
                 self.fails("standstill", f"{name} confirmed the stop and stood {late_s:.2f} s after it")
 
     def undisturbed(self, run: int, store: Store) -> None:
-        """A run is over, and nothing had gone wrong."""
+        """A run has ended without any disturbance."""
         summary = store.summary(run)
         if summary.state is not State.SUCCEEDED and summary.reason_code != "prompt_expired":
             self.fails("undisturbed", f"run {run} is {summary.state}: {summary.reason}")
@@ -193,11 +193,11 @@ class Witness:
         self._jumped_after[run] = len(self._shown.get(self._current.uid, {})) if self._current else 0
 
     def disturb(self, run: int) -> None:
-        """The machine or its readout is changed during a run: its truth is no measure of that run."""
+        """The machine or its readout is changed during a run: its true values are no reference for it."""
         self._disturbed.add(run)
 
     def off(self, since_s: float) -> None:
-        """The station was killed then."""
+        """The station was killed."""
         self._done_late.clear()
         if self.plant.machine.commanded_s > since_s:
             self.fails("motion", "a motion began while no station ran")
@@ -205,10 +205,10 @@ class Witness:
     def _moves_s(self) -> float:
         return max(0.0, self.plant.machine.rests_from_s - self.plant.scheduler.now_s)
 
-    # What lies on the disk -----------------------------------------------------------------------------
+    # Content of the disk --------------------------------------------------------------------------
 
     def look(self, store: Store) -> None:
-        """While no run is under way and the disk is sound."""
+        """Check the disk while no run is active and it has no fault."""
         while self.plant.scheduler.failures:
             self.fails("threads", self.plant.scheduler.failures.pop())
         fresh = store.calibrations(limit=_MANY, order="oldest", cursor=self._seen or None).items
@@ -220,7 +220,7 @@ class Witness:
         self._seen = max([self._seen, *(run.id for run in fresh)])
 
     def look_at_all(self, store: Store) -> None:
-        """At the end of a day, when everything was delivered."""
+        """Check everything at the end of a day, after all deliveries."""
         self.look(store)
         if (broken := store.verify().broken) is not None:
             self.fails("chains", f"the chain of records breaks at run {broken.id}")
@@ -261,7 +261,7 @@ class Witness:
             self._look_at_pass(store.calibration(run.id))
 
     def _look_at_pass(self, run: Calibration) -> None:
-        read_back_alone = run.kind == "rollback"  # zeros taken back before anything had verified them
+        read_back_alone = run.kind == "rollback"  # zeros rolled back before any verification
         if run.state is not State.SUCCEEDED or not (run.step or read_back_alone):
             self.fails("evidence", f"run {run.id} passed as {run.state} with {run.step} readings")
             return
@@ -278,7 +278,7 @@ class Witness:
         if len(known) != 2:
             self.fails("evidence", f"run {run.id} passed with zero offsets {offsets}")
         elif run.id not in self._disturbed:
-            # the run is the last that was at this machine: its drives hold what it measured
+            # the run is the last one of this machine: its drives have the measured zeros
             true_deg = [axis.zero_offset_deg for axis in self.plant.machine.axes]
             for joint, ((value, sd), true) in enumerate(zip(known, true_deg, strict=True), start=1):
                 if abs(value - true) > TRUE_WITHIN_SDS * sd:
@@ -289,7 +289,7 @@ class Witness:
     def _look_at_journal(self, store: Store, number: int, serial: str) -> None:
         writes = store.zero_writes(serial)
         if any(write.taken is None for write in writes):
-            return  # in doubt, and said so: the next run settles it
+            return  # in doubt, and reported so: the next run settles it
         machine = self.plant.machines[number]
         for joint, axis in enumerate(machine.axes, start=1):
             shifts = [write.shift_deg or 0.0 for write in writes if write.joint == joint]

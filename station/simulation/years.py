@@ -1,4 +1,4 @@
-"""Months and years of a station, and what came of them."""
+"""Months and years of a station, and their results."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ _PACKAGES = ("station.service", "station.run_kinds", "station.diagnosis", "stati
 
 @dataclass(frozen=True, slots=True)
 class Life:
-    """What came of some days of one station."""
+    """The result of some days of one station."""
 
     seed: int
     days: int
@@ -40,9 +40,9 @@ class Life:
     readings: int
     restarts: int
     happened: dict[str, int]
-    """How often each deed and trouble came."""
+    """Count of each action and disturbance."""
     digest: str
-    """SHA-256 of everything that the page showed and the history kept."""
+    """SHA-256 of all data that the page showed and the history stored."""
     jobs: tuple[Job, ...]
     violations: tuple[Violation, ...]
 
@@ -54,7 +54,7 @@ def months(years: float, seed: int) -> list[int]:
 
 
 def month(seed: int) -> Life:
-    """One station over a month; it ends early where a sentence does not hold."""
+    """One station over a month; it ends early after a violation."""
     return live(seed, DAYS_A_MONTH)
 
 
@@ -65,10 +65,10 @@ def live(
     troubles: Mapping[str, float] = TROUBLES,
     script: Script = WHOLE,
 ) -> Life:
-    """One station over some days: the same seed lives the same days.
+    """One station over some days: the same seed gives the same days.
 
-    :param deeds: how often each is asked for; :param troubles: how often each comes
-    :param script: which of the jobs that are drawn come about
+    :param deeds: frequency of each request; :param troubles: frequency of each disturbance
+    :param script: selection of the drawn jobs to carry out
     """
     random = Random(seed)
     with TemporaryDirectory() as folder, prepared():
@@ -100,12 +100,12 @@ def live(
 
 
 def happenings(lives: Sequence[Life]) -> Counter[str]:
-    """How often each deed and trouble came in all of them."""
+    """Count of each action and disturbance in all of them."""
     return sum((Counter(life.happened) for life in lives), Counter())
 
 
 def _machine(random: Random) -> MachineSpec:
-    """Within the tolerances that the station reckons with, its zeros shifted."""
+    """A machine within the station's tolerances, with shifted zeros."""
 
     nominal = Robot.default()
 
@@ -124,7 +124,7 @@ def _machine(random: Random) -> MachineSpec:
 
 @contextmanager
 def prepared() -> Iterator[None]:
-    """Everything is loaded, and the station's log, which would tell every fault, is quiet."""
+    """Load all modules, and silence the station's log, which would contain every fault."""
     _load()
     logging.disable(logging.CRITICAL)
     try:

@@ -1,4 +1,4 @@
-"""The history in SQLite: every reading is on disk before the next move."""
+"""The history in SQLite: every reading is on disk before the next motion."""
 
 from __future__ import annotations
 

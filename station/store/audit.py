@@ -1,7 +1,7 @@
-"""The audit: who did what, each entry hashed together with the hash of the one before.
+"""The audit: each action with its author, hashed together with the hash of the previous entry.
 
-A person's name can be erased without breaking the chain: what is hashed is the hash of the name and a salt,
-and both are forgotten together.  The database refuses every other change of an entry.
+A person's name can be erased without breaking the chain: the entry contains the hash of the name and a salt,
+and name and salt are erased together. The database refuses every other change of an entry.
 """
 
 from __future__ import annotations
@@ -26,7 +26,7 @@ _TEXT = (
     "coalesce(who, '') || ' ' || coalesce(role, '') || ' ' || via || ' ' || action || ' ' || subject"
     " || ' ' || replace(replace(coalesce(before, '') || ' ' || coalesce(after, ''), '\"', ''), ':', ' ')"
 )
-"""Of an entry, as it is searched: `{value 20}` for `{"value":"20"}`."""
+"""Searchable text of an entry: `{value 20}` for `{"value":"20"}`."""
 
 
 class AuditTrail(KeptFile):
@@ -42,9 +42,9 @@ class AuditTrail(KeptFile):
         after: Mapping[str, JsonValue] | None = None,
         at: datetime | None = None,
     ) -> None:
-        """One more entry; within a transaction it is part of that.
+        """Add an entry; within a transaction it is part of that.
 
-        :param at: when it was done, if that is not now
+        :param at: time of the action, if not now
         """
         with self._writing() as db:
             last = db.execute("SELECT n, hash FROM audit ORDER BY n DESC LIMIT 1").fetchone() or (0, "")
@@ -67,9 +67,10 @@ class AuditTrail(KeptFile):
             )
 
     def audit(self, *, limit: int = 100, cursor: int | None = None, contains: str = "") -> list[AuditEntry]:
-        """The newest first; only entries before number `cursor`.
+        """Entries, newest first; only those before number `cursor`.
 
-        :param contains: only entries that have this in name, role, action, subject or values, in any case
+        :param contains: only entries that contain this in name, role, action, subject or values,
+        case-insensitive
         """
         rows = self._readers.all(
             "SELECT * FROM audit WHERE n < coalesce(?, n + 1)"
@@ -79,7 +80,7 @@ class AuditTrail(KeptFile):
         return [_entry(row) for row in rows]
 
     def check_audit(self) -> AuditChecked:
-        """Make every hash again and compare."""
+        """Recompute every hash and compare."""
         head, count = "", 0
         for row in self._readers.all("SELECT * FROM audit ORDER BY n"):
             named = row["who"] is not None
@@ -91,7 +92,7 @@ class AuditTrail(KeptFile):
         return AuditChecked(entries=count, head=head, broken=None)
 
     def erase_name(self, name: str) -> int:
-        """Forget a person's name in the trail, for good; in how many entries it stood."""
+        """Erase a person's name in the audit permanently; returns the number of entries."""
         with self._writing() as db:
             return db.execute(
                 "UPDATE audit SET who = NULL, salt = NULL WHERE who = ? COLLATE NOCASE"

@@ -1,9 +1,9 @@
 """The chain of records: every finished run is hashed together with the hash of the run that ended before it.
 
-Whoever changes, removes or adds a finished run breaks the chain from there on, unless all later hashes are
-made again; the last hash, noted elsewhere, shows that too.  A record is canonical JSON (RFC 8785), so that
-another program can make it as well.  The single samples and the wire log count by hashes of their own, since
-retention may drop them.
+Changing, removing or adding a finished run breaks the chain from there on, unless all later hashes are
+recomputed; a copy of the last hash stored elsewhere reveals that too. A record is canonical JSON (RFC 8785),
+so that another program can reproduce it. The single samples and the wire log are included by separate hashes,
+since retention may delete them.
 """
 
 from __future__ import annotations
@@ -29,12 +29,12 @@ _READING = (
 )  # fmt: skip
 _LOG = ("part", "name", "columns", "measured")
 _START = ""
-"""What stands in for the hash before the first one."""
+"""Substitute for the hash before the first one."""
 
 
 @dataclass(frozen=True, slots=True)
 class Broken:
-    """The first run that is not as it ended."""
+    """The first run that differs from its record."""
 
     id: int
     uid: str
@@ -43,14 +43,14 @@ class Broken:
 
 @dataclass(frozen=True, slots=True)
 class Verified:
-    """What became of a look at the whole chain."""
+    """The result of checking the whole chain."""
 
     runs: int
-    """In the chain and as they ended, up to the first that is not."""
+    """Number of unchanged runs in the chain, up to the first changed one."""
     older: int
-    """Finished runs of a station that made no chain yet."""
+    """Finished runs from before the station made a chain."""
     head: str
-    """Hash of the last run that is as it ended."""
+    """Hash of the last unchanged run."""
     broken: Broken | None
 
 
@@ -64,7 +64,7 @@ class Chained:
 
 
 def chained(ask: Ask, run: int) -> Chained | None:
-    """As it is kept now; None where the run is not in the chain."""
+    """The record as stored now; None if the run is not in the chain."""
     links = ask("SELECT n, samples_sha256, wire_sha256, hash FROM chain WHERE run_id = ?", [run])
     if not links:
         return None
@@ -74,7 +74,7 @@ def chained(ask: Ask, run: int) -> Chained | None:
 
 
 def append(ask: Ask, run: int) -> None:
-    """Chain a run that has just ended, in the same transaction."""
+    """Add a run that has just ended to the chain, in the same transaction."""
     previous = next((row[0] for row in ask("SELECT hash FROM chain ORDER BY n DESC LIMIT 1", [])), _START)
     samples, wire = samples_hash(ask, run), wire_hash(ask, run)
     record = record_of(ask, run, samples, wire)
@@ -85,7 +85,7 @@ def append(ask: Ask, run: int) -> None:
 
 
 def verify(ask: Ask) -> Verified:
-    """Make every record again and compare, in the order in which the runs ended."""
+    """Recompute every record and compare, in the order in which the runs ended."""
     links = ask("SELECT run_id, uid, samples_sha256, wire_sha256, hash FROM chain ORDER BY n", [])
     first = min((link[0] for link in links), default=None)
     ended = "state NOT IN ('queued', 'running', 'waiting')"
@@ -107,10 +107,10 @@ def verify(ask: Ask) -> Verified:
 
 
 def record_of(ask: Ask, run: int, samples_sha256: str, wire_sha256: str | None = None) -> dict[str, Any]:
-    """Everything that is kept of a finished run.
+    """Everything that is stored about a finished run.
 
-    Of version 4 where it is a log made elsewhere, of version 3 where it is known what made it, of version 2
-    where it has only a wire log.
+    Version 4 if it is an imported log, version 3 if software and devices are recorded, version 2 if it has
+    only a wire log.
 
     :raises LookupError: there is no such run.
     """
@@ -148,13 +148,13 @@ def record_of(ask: Ask, run: int, samples_sha256: str, wire_sha256: str | None =
 
 
 def samples_hash(ask: Ask, run: int) -> str:
-    """Of the single samples of all readings of a run, in order."""
+    """Hash of the single samples of all readings of a run, in order."""
     rows = ask("SELECT samples FROM readings WHERE calibration_id = ? ORDER BY reading", [run])
     return sha256(rfc8785.dumps([row[0] for row in rows]))
 
 
 def wire_hash(ask: Ask, run: int) -> str | None:
-    """Of all pieces of the wire log of a run, in order; None where there is none."""
+    """Hash of all pieces of the wire log of a run, in order; None without one."""
     pieces = ask("SELECT piece FROM wire_logs WHERE run_id = ? ORDER BY n", [run])
     return sha256(b"".join(piece[0] for piece in pieces)) if pieces else None
 
@@ -176,10 +176,10 @@ def _broken(ask: Ask, run: int, samples: str, wire: str | None, previous: str, e
 
 
 def link_hash(previous: str, record: Mapping[str, Any]) -> str:
-    """Of a record after the one before it."""
+    """Hash of a record after the previous one."""
     return sha256(previous.encode() + rfc8785.dumps(dict(record)))
 
 
 def sha256(data: bytes) -> str:
-    """In hexadecimal."""
+    """SHA-256 in hexadecimal."""
     return hashlib.sha256(data).hexdigest()

@@ -1,4 +1,4 @@
-"""Connections to the database file: one that writes, and as many that read as ask at the same time."""
+"""Connections to the database file: one writer, and one reader for each concurrent query."""
 
 from __future__ import annotations
 
@@ -15,18 +15,18 @@ from station.store.health import first_damage
 
 _BUSY_MS = 5000
 ROWS_AT_ONCE = 4000
-"""So many stay in the processor's cache."""
+"""Number of rows that fits into the processor's cache."""
 
 
 def connect(path: Path) -> sqlite3.Connection:
-    """Handed from thread to thread, never used by two at once: the lock and the pool see to that."""
+    """A connection passed between threads, never used by two at once: the lock and the pool ensure that."""
     connection = sqlite3.connect(path, check_same_thread=False)
     connection.execute(f"PRAGMA busy_timeout = {_BUSY_MS}")
     return connection
 
 
 def connect_read_only(path: Path) -> sqlite3.Connection:
-    """Changes no byte of the file, and makes none beside it where no station has it open."""
+    """A read-only connection; it creates no file beside the database if no station has it open."""
     open_elsewhere = path.with_name(f"{path.name}-wal").exists()
     address = f"{path.resolve().as_uri()}?mode=ro{'' if open_elsewhere else '&immutable=1'}"
     connection = sqlite3.connect(address, uri=True, check_same_thread=False)
@@ -41,12 +41,12 @@ def available(path: Path) -> Iterator[None]:
         yield
     except (sqlite3.OperationalError, sqlite3.DatabaseError) as error:
         if isinstance(error, sqlite3.IntegrityError | sqlite3.ProgrammingError):
-            raise  # a mistake of ours, not of the file
+            raise  # a programming error, not one of the file
         raise StoreUnavailable(f"{path.name}: {error}") from error
 
 
 class Readers:
-    """A pool of connections that can only read."""
+    """A pool of read-only connections."""
 
     def __init__(self, path: Path, connect: Callable[[Path], sqlite3.Connection] = connect) -> None:
         self._path, self._connect = path, connect
@@ -66,7 +66,7 @@ class Readers:
             return connection.execute(sql, values).fetchall()
 
     def columns(self, sql: str, values: Sequence[Any] = ()) -> Iterator[list[tuple[Any, ...]]]:
-        """Every row, some at a time, turned into columns; nothing where there are no rows."""
+        """Every row in batches, converted to columns; nothing if there are no rows."""
         with self._borrowed() as connection:
             cursor = connection.cursor()
             cursor.row_factory = None
@@ -75,7 +75,7 @@ class Readers:
                 yield list(zip(*rows, strict=True))
 
     def damage(self) -> str | None:
-        """What is wrong with the file, by a look at every page on the disk."""
+        """The damage of the file, from a check of every page on the disk."""
         with available(self._path), closing(self._connect(self._path)) as connection:
             return first_damage(connection)
 
@@ -88,7 +88,7 @@ class Readers:
             raise InputRefused(f"The backup {target} cannot be written: {error}.") from error
 
     def close(self) -> None:
-        """Close what is idle; what is in use closes when it is given back."""
+        """Close idle connections; those in use close when they are returned."""
         with self._lock:
             self._closed = True
             idle, self._idle = self._idle, []

@@ -1,4 +1,4 @@
-"""Copies of the whole history: before it is changed by an update, and put in its place by a restore."""
+"""Copies of the whole history: before an update changes it, and to restore it."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _BESIDE = ("", "-wal", "-shm", "-ends.json")
 
 
 def copy_to(source: sqlite3.Connection, target: Path) -> None:
-    """A consistent copy in one file, which appears whole or not at all; others may write meanwhile.
+    """A consistent copy in one file, written atomically; others may write meanwhile.
 
     :raises InputRefused: it cannot be written.
     """
@@ -32,9 +32,9 @@ def copy_to(source: sqlite3.Connection, target: Path) -> None:
 
 
 def move_aside(database: Path) -> Path | None:
-    """Give a database and what belongs to it another name; that name, None where there was nothing.
+    """Rename a database and its files; returns the new name, None if there was none.
 
-    A log of writes that stayed behind would be applied to whatever takes the database's place.
+    A remaining write-ahead log would be applied to the database that replaces it.
 
     :raises OSError:
     """

@@ -1,7 +1,7 @@
-"""How a run ends: what is stored of it, and what is shown and repeated while the store does not take it.
+"""The end of a run: what is stored, and what is shown and repeated while the store does not accept it.
 
-An end that is not stored yet is kept beside the database as well, as far as that can be written, so that it
-outlives the process: the next start stores it instead of `interrupted`.
+An end that is not stored yet is also written to a file beside the database, if possible, so that it survives
+the process: the next start stores it instead of `interrupted`.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class End:
     result: CalibrationResult | None = field(default=None, repr=False)
 
     def shown_in(self, row: S) -> S:
-        """The run's summary as it is with this end."""
+        """The run's summary with this end."""
         reason = self.reason
         return row.model_copy(
             update={
@@ -68,11 +68,11 @@ def end_of(
     *,
     judged: bool = True,
 ) -> End:
-    """It fails closed.
+    """The end to store; in case of doubt it is a failure.
 
-    A result with a number that is not finite, or one of a run that did not succeed, is never a pass.
+    A result with a number that is not finite, or of an unsuccessful run, is never a pass.
 
-    :param judged: False for a run that says nothing about a robot: it needs no result
+    :param judged: False for a run that does not judge a robot: it needs no result
     """
     if result is None:
         if state is State.SUCCEEDED and not judged:
@@ -97,7 +97,7 @@ _OUTCOMES: Mapping[State, Outcome] = {
 
 
 def unsound(value: object, where: str = "") -> str | None:
-    """Where in a result the first number stands that is not finite; None when all are."""
+    """The path of the first non-finite number in a result; None if all are finite."""
     if isinstance(value, BaseModel):
         value = value.model_dump()
     if isinstance(value, float) and not math.isfinite(value):
@@ -111,7 +111,7 @@ def unsound(value: object, where: str = "") -> str | None:
 
 
 def _without_numbers(result: CalibrationResult) -> CalibrationResult:
-    """Of a result that cannot be trusted: that there was one, and by which method.  Its readings are kept."""
+    """An invalid result without its numbers: its existence and method. Its readings are stored."""
     return CalibrationResult(
         verdict="fail", outcome="failed", reason=result.reason, method=result.method, zero_offsets=()
     )
@@ -121,7 +121,7 @@ _ENDS = TypeAdapter(dict[int, End])
 
 
 class UnstoredEnds:
-    """Ends that the store has not taken yet, by the number of the run."""
+    """Ends that the store has not accepted yet, by the number of the run."""
 
     def __init__(self, database: Path) -> None:
         self._file = database.with_name(f"{database.name}-ends.json")
@@ -129,7 +129,7 @@ class UnstoredEnds:
         self._ends: dict[int, End] = {}
 
     def left_behind(self) -> dict[int, End]:
-        """What the last process could not store any more."""
+        """The ends that the last process could not store."""
         try:
             return _ENDS.validate_json(self._file.read_bytes())
         except FileNotFoundError:
@@ -146,7 +146,7 @@ class UnstoredEnds:
         return sorted(self._ends)
 
     def keep(self, run: int, end: End, why: StoreUnavailable) -> End:
-        """What is shown of the run from now on: no pass, whatever was found, for it is nowhere on record."""
+        """Show this end of the run from now on: never a pass, since it is not recorded."""
         if end.state is State.SUCCEEDED:
             reason = because("store_failed", text=str(why))
             end = replace(end, state=State.FAILED, verdict=None, outcome="failed", reason=reason)
@@ -156,7 +156,7 @@ class UnstoredEnds:
         return end
 
     def repeat(self, store: Callable[[int, End], object]) -> None:
-        """Try each again, until one is refused again."""
+        """Try each again, until one is refused."""
         for run in self.runs:
             try:
                 store(run, self._ends[run])
@@ -168,7 +168,7 @@ class UnstoredEnds:
                 self._write()
 
     def clear(self) -> None:
-        """Everything that was left behind is stored."""
+        """Delete the file: all remaining ends are stored."""
         self._file.unlink(missing_ok=True)
 
     def _write(self) -> None:

@@ -1,4 +1,4 @@
-"""Which runs a list shows, as conditions of SQL that the indexes of the history serve."""
+"""The filters of a list of runs, as SQL conditions that the indexes of the history support."""
 
 from __future__ import annotations
 
@@ -10,22 +10,22 @@ from typing import Literal
 from station.store.rows import millis
 
 Order = Literal["newest", "oldest", "serial", "serial_down"]
-"""By number, or by serial in any case and then by number."""
+"""By number, or by serial (case-insensitive) and then by number."""
 BY_SERIAL: tuple[Order, ...] = ("serial", "serial_down")
 Conditions = tuple[list[str], list[str | int]]
 FEW = 2000
-"""So many matches of a search are sorted; of more, some are soon met going through all runs in order."""
+"""Up to this many matches of a search are sorted; more are found quickly by a scan in order."""
 MOST_COUNTED = 10_000
-"""More are not counted: nobody reads the digits, and a million take a quarter of a second."""
+"""Counting stops here: larger counts are not useful, and a million takes a quarter of a second."""
 _AFTER_ALL = "\U0010ffff"
 
 
 @dataclass(frozen=True, slots=True)
 class Filters:
-    """All that are given must hold.  Times without a zone are UTC."""
+    """All given conditions must hold. Times without a zone are UTC."""
 
     search: str | None = None
-    """How the serial begins, in capitals or not."""
+    """Beginning of the serial, case-insensitive."""
     robot_serial: str | None = None
     robot_type: str | None = None
     state: str | None = None
@@ -41,7 +41,7 @@ class Filters:
 
     @property
     def indexed(self) -> bool:
-        """Whether one index answers what is asked, `calibrations_found`."""
+        """Whether the index `calibrations_found` alone answers the query."""
         others = (
             self.robot_serial,
             self.robot_type,
@@ -57,7 +57,7 @@ class Filters:
     ) -> Conditions:
         """Conditions on `calibrations` and their values.
 
-        :param or_unstored: lets runs through whose stored state is not the one that is shown
+        :param or_unstored: includes runs whose stored state is not the displayed one
         :param few_found: whether the search is to choose the index
         :param order: how the list is ordered; by serial, only the index of serials may be chosen; None: not
         """
@@ -72,7 +72,7 @@ class Filters:
         for name in ("work_order", "robot_serial", "robot_type", "verdict", "state", "plan"):
             wanted = getattr(self, name)
             if wanted is not None:
-                # Only the first, most selective one may choose the index: + takes the others out.
+                # Only the first, most selective one may choose the index: + excludes the others.
                 conditions.append(f"{'+' if conditions or by_serial else ''}{name} = ?{or_unstored(name)}")
                 values.append(wanted)
         other = "+" if conditions else ""
@@ -84,7 +84,7 @@ class Filters:
                 conditions.append(other + made)
                 values.append(millis(time))
             else:
-                # times may fall where the clock was set back: the range narrows, the time decides
+                # times may decrease where the clock was set back: the range narrows, the time decides
                 within = f"{run} {than[0]}= (SELECT {end}(id) FROM calibrations WHERE {made})"
                 conditions.append(f"{within} AND +{made}")
                 values += [millis(time)] * 2
@@ -95,11 +95,11 @@ class Filters:
 
 
 def beyond(order: Order, run: int) -> tuple[str, list[str | int]]:
-    """The condition and its values for what comes after that run."""
+    """The condition and its values for runs after that run."""
     than = "<" if order in ("newest", "serial_down") else ">"
     if order not in BY_SERIAL:
         return f"id {than} ?", [run]
-    # the second narrows to a range of the index, which SQLite does not find in the first
+    # the second condition narrows the range of the index, which SQLite does not derive from the first
     both = (
         f"(robot_serial COLLATE NOCASE, id) {than} (SELECT robot_serial, id FROM calibrations WHERE id = ?)"
     )
@@ -108,11 +108,11 @@ def beyond(order: Order, run: int) -> tuple[str, list[str | int]]:
 
 
 def ordered(order: Order) -> str:
-    """The clause."""
+    """The ORDER BY clause."""
     way = "DESC" if order in ("newest", "serial_down") else "ASC"
     return f" ORDER BY {f'robot_serial COLLATE NOCASE {way}, ' if order in BY_SERIAL else ''}id {way}"
 
 
 def where(conditions: list[str]) -> str:
-    """The clause; empty without a condition."""
+    """The WHERE clause; empty without a condition."""
     return f" WHERE {' AND '.join(f'({condition})' for condition in conditions)}" if conditions else ""

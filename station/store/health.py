@@ -11,12 +11,12 @@ from pathlib import Path
 from station.errors import StoreUnavailable
 
 SHARE_OF_TIME = 0.02
-"""Checking every page may take this share of the time at most, however large the file is."""
+"""Maximum share of time for checking every page, however large the file is."""
 LEAST_PAUSE_S = 1.0
 
 
 def first_damage(connection: sqlite3.Connection) -> str | None:
-    """What SQLite's `quick_check` finds first; None when the file is whole."""
+    """The first damage that SQLite's `quick_check` finds; None if the file is whole."""
     try:
         (found,) = connection.execute("PRAGMA quick_check(1)").fetchone()
     except sqlite3.DatabaseError as error:
@@ -27,7 +27,7 @@ def first_damage(connection: sqlite3.Connection) -> str | None:
 
 
 def too_full(database: Path, least_free_mb: float) -> str | None:
-    """Whether the disk has less room than that; None when it has enough."""
+    """Whether the disk has less free space than that; None if it has enough."""
     free_mb = shutil.disk_usage(database.parent).free / 1e6
     if free_mb >= least_free_mb:
         return None
@@ -35,12 +35,11 @@ def too_full(database: Path, least_free_mb: float) -> str | None:
 
 
 class Health:
-    """Of one open database."""
+    """Health of one open database."""
 
     def __init__(self, database: Path, look: Callable[[], str | None], write: Callable[[], None]) -> None:
-        """
-        :param look: checks every page; what is wrong, or None.
-        :param write: writes something that changes nothing.  :raises StoreUnavailable:
+        """:param look: checks every page; returns the damage, or None.
+        :param write: writes without changing content.  :raises StoreUnavailable:
         """
         self._database = database
         self._opened = _identity(database)
@@ -49,7 +48,7 @@ class Health:
         self._next_look = 0.0
 
     def troubles(self) -> list[str]:
-        """Everything that is wrong, one sentence each; empty when all is well."""
+        """All troubles, one sentence each; empty if there are none."""
         if (identity := _identity(self._database)) != self._opened:
             what = "is gone" if identity is None else "was replaced by another file"
             return [f"the database {self._database} {what}; restart the station"]

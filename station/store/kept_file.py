@@ -18,23 +18,23 @@ from station.store.opening import check, migrated, open_writer
 
 
 class KeptFile:
-    """Base of what is stored; each part of the store adds the methods for its own tables."""
+    """Base of the store; each part adds the methods for its own tables."""
 
     def __init__(self, path: Path, *, read_only: bool = False) -> None:
         """Open or create the database and bring it up to date.
 
-        :param read_only: leave it as it is; one of an older station is read through a copy.
-        :raises InputRefused: not a database, not the station's, or from a newer station.
+        :param read_only: do not change it; a database of an older station is read through a copy.
+        :raises InputRefused: the file is not a database, not the station's, or from a newer station.
         """
         self.path = path
         self.opened = path
-        """Where it is read; for an older one that is read only, a copy."""
-        self._lock = RLock()  # what is written in several steps, whole or not at all, takes it again
+        """The file that is read; for an older database opened read-only, a copy."""
+        self._lock = RLock()  # a transaction of several steps takes it again
         self._closing = ExitStack()
         if read_only:
             path = self._up_to_date(path)
             self.opened = path
-            self._writer = Database(connect_read_only(path))  # refuses to write, in words
+            self._writer = Database(connect_read_only(path))  # refuses to write, with a message
             self._readers = Readers(path, connect_read_only)
         else:
             self._writer = open_writer(path)
@@ -44,11 +44,11 @@ class KeptFile:
         self._health = Health(path, self._readers.damage, self._write_nothing)
 
     def troubles(self) -> list[str]:
-        """What keeps the history from being read and written, one sentence each."""
+        """Troubles that prevent the history from being read and written, one sentence each."""
         return self._health.troubles()
 
     def _write_nothing(self) -> None:
-        """To the disk all the same: the first page, with a number that nothing else uses."""
+        """A real write to the disk without a change: the first page, with an otherwise unused number."""
         with self._writing() as db:
             (times,) = db.execute("PRAGMA user_version").fetchone()
             db.execute(f"PRAGMA user_version = {(times + 1) % 2**31}")
@@ -69,7 +69,7 @@ class KeptFile:
         return folder / path.name
 
     def backup(self, target: Path) -> None:
-        """A copy of everything stored so far in one new file, made while the station works.
+        """Copy everything stored so far to one new file while the station works.
 
         :raises InputRefused: the file exists or cannot be written.
         """
@@ -79,10 +79,10 @@ class KeptFile:
 
     @contextmanager
     def _writing(self) -> Iterator[Database]:
-        """One transaction; what is written within another becomes part of that.
+        """One transaction; a nested one becomes part of the outer one.
 
-        It takes the write lock at once: a transaction that has read before it writes is refused when another
-        program wrote in between, however long it would wait.
+        It takes the write lock at once: a transaction that reads before it writes is refused if another
+        program wrote in between, however long it waits.
 
         :raises StoreUnavailable: nothing was written.
         """

@@ -1,4 +1,4 @@
-"""Logs of other machines as they were given, and what was found in them."""
+"""Logs of other machines as received, and the results of their diagnosis."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from station.store.kept_file import KeptFile
 
 
 class Logs(KeptFile):
-    """Files are kept to the byte, so that nothing that somebody measured is lost in reading them."""
+    """Files are stored to the byte, so that no measured data are lost by reading them."""
 
     def keep_log(self, run: int, log: ImportedLog) -> None:
-        """Once, when the run is created; they become a part of the run's record."""
+        """Called once, when the run is created; the logs become part of the run's record."""
         with self._writing() as db:
             db.conn.executemany(
                 "INSERT INTO logs (run_id, part, name, columns, measured, content) VALUES (?, ?, ?, ?, ?, ?)",
@@ -32,7 +32,7 @@ class Logs(KeptFile):
             )
 
     def logs_of(self, run: int) -> list[KeptLog]:
-        """What is learned from first; empty for a run that has none."""
+        """The logs of a run, the one to learn from first; empty for a run without logs."""
         rows = self._readers.all(
             "SELECT part, name, columns, measured, content FROM logs WHERE run_id = ? ORDER BY part", [run]
         )

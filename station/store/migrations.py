@@ -1,4 +1,4 @@
-"""How the station database came to look as it does: named steps, each applied once, in one transaction.
+"""The migrations of the station database: named steps, each applied once, in one transaction.
 
 Times are integer milliseconds since 1970 (UTC): six bytes instead of the 27 of an ISO text.
 """
@@ -12,7 +12,7 @@ from sqlite_utils import Database, Migrations
 
 from station.records import uid7
 
-APPLICATION_ID = 0x35426172  # "5Bar": tells this database from anybody else's
+APPLICATION_ID = 0x35426172  # "5Bar": distinguishes this database from those of other programs
 
 migrations = Migrations("station")
 
@@ -20,7 +20,7 @@ migrations = Migrations("station")
 @migrations()
 def first_tables(db: Database) -> None:
     """Robots by version, calibrations, readings, results, events, idempotency keys."""
-    # A robot file is kept once per version; a calibration refers to the version it was made with.
+    # Each version of a robot file is stored once; a calibration refers to the version it was made with.
     db.execute(
         """CREATE TABLE robots (
             id INTEGER PRIMARY KEY, serial TEXT NOT NULL, file TEXT NOT NULL, saved_ms INTEGER NOT NULL)"""
@@ -45,7 +45,7 @@ def first_tables(db: Database) -> None:
             position TEXT NOT NULL, samples TEXT, temperature_c REAL, payload_kg REAL, mount TEXT,
             PRIMARY KEY (calibration_id, reading)) WITHOUT ROWID"""
     )
-    # What is asked for across runs has columns of its own; the rest is read one run at a time.
+    # Values that are queried across runs have separate columns; the others are read one run at a time.
     db.execute(
         """CREATE TABLE results (
             calibration_id INTEGER PRIMARY KEY REFERENCES calibrations (id),
@@ -67,7 +67,7 @@ def first_tables(db: Database) -> None:
 
 @migrations()
 def memories(db: Database) -> None:
-    """What a passed run leaves to the robot's next one; the newest that was not cleared counts."""
+    """Data that a passed run leaves to the robot's next one; the newest that was not cleared counts."""
     db.execute(
         """CREATE TABLE memories (
             calibration_id INTEGER PRIMARY KEY REFERENCES calibrations (id), robot_serial TEXT NOT NULL,
@@ -97,7 +97,7 @@ def diagnoses(db: Database) -> None:
     db.execute("ALTER TABLE results ADD COLUMN diagnosis BLOB")
 
 
-# Results of version 0.1.0 were compressed with these words as a dictionary.  Only the migration needs them.
+# Results of version 0.1.0 were compressed with these words as a dictionary. Only the migration needs them.
 _WORDS = (
     b'measure the mechanism\'s mounting error, or use the plan `full`","separating_experiment":"alias_set":'
     b'both arms together with a sideways error of the mechanism","share":"p_value":"effect":"joint":"source":'
@@ -137,7 +137,7 @@ def readable_results(db: Database) -> None:
             WHEN 'diagnostic' THEN 'diagnose' WHEN 'separating' THEN 'separate' WHEN 'apply' THEN 'apply'
             WHEN 'rollback' THEN 'rollback' WHEN 'dataset' THEN 'import' ELSE 'calibrate' END"""
     )
-    # a diagnosis that found a cause was a pass; what it asks for is a repair
+    # a diagnosis that found a cause was a pass; its outcome asks for a repair
     db.execute(
         """UPDATE calibrations SET outcome = CASE
             WHEN state IN ('failed', 'aborted', 'interrupted') THEN state
@@ -153,7 +153,7 @@ def readable_results(db: Database) -> None:
 
 @migrations()
 def uids(db: Database) -> None:
-    """An identity for every run that no other station gives away."""
+    """A globally unique identity for every run."""
     db.execute("ALTER TABLE calibrations ADD COLUMN uid TEXT")
     rows = db.execute("SELECT id, created_ms FROM calibrations").fetchall()
     for run, created_ms in rows:
@@ -173,7 +173,7 @@ def chain(db: Database) -> None:
 
 @migrations()
 def filters(db: Database) -> None:
-    """What a MES filters by has an index."""
+    """Indexes for the filters of a MES."""
     db.execute(
         "CREATE INDEX calibrations_work_order ON calibrations (work_order) WHERE work_order IS NOT NULL"
     )
@@ -182,7 +182,7 @@ def filters(db: Database) -> None:
 
 @migrations()
 def wire_logs(db: Database) -> None:
-    """What crossed the wires during a run, in pieces of one zlib stream; the chain has its hash."""
+    """The wire traffic of a run, in pieces of one zlib stream; the chain contains its hash."""
     db.execute(
         """CREATE TABLE wire_logs (
             run_id INTEGER NOT NULL REFERENCES calibrations (id), n INTEGER NOT NULL, piece BLOB NOT NULL,
@@ -193,7 +193,7 @@ def wire_logs(db: Database) -> None:
 
 @migrations()
 def people(db: Database) -> None:
-    """Users, keys, sessions; only hashes of what they show."""
+    """Users, keys, sessions; only hashes of their secrets."""
     db.execute(
         """CREATE TABLE users (
             id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE COLLATE NOCASE, role TEXT NOT NULL,
@@ -217,7 +217,7 @@ def people(db: Database) -> None:
 
 @migrations()
 def audit(db: Database) -> None:
-    """Who did what; the database itself refuses to change or remove an entry."""
+    """Actions with their authors; the database itself refuses to change or remove an entry."""
     # `hash` covers `who_sha256`, the hash of a salt and the name, so that a name can be erased.
     db.execute(
         """CREATE TABLE audit (
@@ -235,7 +235,7 @@ def audit(db: Database) -> None:
 
 @migrations()
 def outbox(db: Database) -> None:
-    """What others are told, and how far it got."""
+    """Events for other systems, and their delivery."""
     db.execute(
         """CREATE TABLE happenings (
             n INTEGER PRIMARY KEY AUTOINCREMENT, uid TEXT NOT NULL, type TEXT NOT NULL,
@@ -262,32 +262,32 @@ def made_by(db: Database) -> None:
 
 @migrations()
 def disabled_users(db: Database) -> None:
-    """A user may be kept without being let in."""
+    """A user may be disabled without being removed."""
     db.execute("ALTER TABLE users ADD COLUMN disabled_ms INTEGER")
 
 
 @migrations()
 def settings_in_use(db: Database) -> None:
-    """What the last start read from the station file, to be compared with at the next one."""
+    """The settings of the last start from the station file, to be compared at the next one."""
     db.execute("CREATE TABLE settings_in_use (key TEXT PRIMARY KEY, value TEXT NOT NULL) WITHOUT ROWID")
 
 
 @migrations()
 def search(db: Database) -> None:
-    """Serials are found by their beginning, in capitals or not."""
+    """Serials are found by their beginning, case-insensitive."""
     db.execute("CREATE INDEX calibrations_serial_nocase ON calibrations (robot_serial COLLATE NOCASE)")
 
 
 @migrations()
 def users_of_a_provider(db: Database) -> None:
-    """Users may be known by a hash of who they are at an OpenID Connect provider."""
+    """Users may be identified by a hash of their identity at an OpenID Connect provider."""
     db.execute("ALTER TABLE users ADD COLUMN openid_sha256 BLOB")
     db.execute("CREATE UNIQUE INDEX users_openid ON users (openid_sha256)")
 
 
 @migrations()
 def logs(db: Database) -> None:
-    """Logs of other machines to the byte, and what was found in them."""
+    """Logs of other machines to the byte, and their results."""
     db.execute(
         """CREATE TABLE logs (
             run_id INTEGER NOT NULL REFERENCES calibrations (id), part TEXT NOT NULL, name TEXT NOT NULL,
@@ -303,7 +303,7 @@ def logs(db: Database) -> None:
 
 @migrations()
 def process_control(db: Database) -> None:
-    """What process control asks of thousands of runs has columns of its own, and robots have types."""
+    """Values of thousands of runs for process control have separate columns, and robots have types."""
     db.execute("ALTER TABLE calibrations ADD COLUMN robot_type TEXT")
     db.execute(
         "CREATE INDEX calibrations_robot_type ON calibrations (robot_type) WHERE robot_type IS NOT NULL"
@@ -318,8 +318,8 @@ def process_control(db: Database) -> None:
     )
 
 
-# The migration below makes the rows of the runs before it, `keep_result` those of each run since.  A later
-# migration that changes the table leaves this text as it is and gives `keep_result` one of its own.
+# The migration below makes the rows of the runs before it, `keep_result` those of each run since. A later
+# migration that changes the table leaves this text unchanged and gives `keep_result` one of its own.
 INSERT_FINDINGS = """INSERT INTO findings SELECT calibration_id, finding.key, parameter.key,
     finding.value ->> '$.effect', finding.value ->> '$.joint', finding.value ->> '$.part',
     finding.value ->> '$.probability', finding.value ->> '$.p_value', parameter.value ->> '$.name',
@@ -330,7 +330,7 @@ INSERT_FINDINGS = """INSERT INTO findings SELECT calibration_id, finding.key, pa
 
 @migrations()
 def findings(db: Database) -> None:
-    """What was found is asked for across runs: one row a parameter of an effect."""
+    """Findings are queried across runs: one row for each parameter of an effect."""
     db.execute(
         """CREATE TABLE findings (
             calibration_id INTEGER NOT NULL REFERENCES calibrations (id), finding INTEGER NOT NULL,
@@ -343,7 +343,7 @@ def findings(db: Database) -> None:
 
 @migrations()
 def counts(db: Database) -> None:
-    """Runs are found by their plan, and counted by serial and what they ended with."""
+    """Runs are found by their plan, and counted by serial and outcome."""
     db.execute("CREATE INDEX calibrations_plan ON calibrations (plan)")
     db.execute(
         "CREATE INDEX calibrations_found ON calibrations (robot_serial COLLATE NOCASE, state, verdict, plan)"

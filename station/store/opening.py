@@ -1,4 +1,4 @@
-"""Opening the database: whose it is, whether it is whole, and bringing it up to date."""
+"""Opening the database: check its owner and integrity, and bring it up to date."""
 
 from __future__ import annotations
 
@@ -16,10 +16,10 @@ from station.store.migrations import APPLICATION_ID, migrations
 
 
 def open_writer(path: Path) -> Database:
-    """Check it, or begin a new one; migrate, after a copy of what was there.
+    """Check it, or begin a new one; migrate, after a copy of the old one.
 
-    :raises InputRefused: damaged, empty, not a database, another program's, or from a newer station.
-        The file is as it was.
+    :raises InputRefused: the file is damaged, empty, not a database, another program's, or from a newer
+    station. It is unchanged.
     """
     try:
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -39,9 +39,10 @@ def open_writer(path: Path) -> Database:
 
 
 def check(path: Path) -> str | None:
-    """Without changing a byte of it: the first migration that it lacks, None when it is up to date.
+    """The first migration that it lacks, None if it is up to date; the file is not changed.
 
-    :raises InputRefused: damaged, empty, not a database, another program's, or from a newer station.
+    :raises InputRefused: the file is damaged, empty, not a database, another program's, or from a newer
+    station.
     """
     if not path.is_file():
         raise _unusable(path, "it is not a file")
@@ -59,11 +60,11 @@ def check(path: Path) -> str | None:
 
 
 def restore(backup: Path, path: Path) -> Path | None:
-    """Put a backup in the place of a database that nobody uses.
+    """Replace a database that is not in use by a backup.
 
-    Returns the name that the latter has now; None if there was none.
+    Returns the new name of the old database; None if there was none.
 
-    :raises InputRefused: the backup cannot be used, or a file cannot be written; then nothing has changed.
+    :raises InputRefused: the backup cannot be used, or a file cannot be written; nothing has changed then.
     """
     check(backup)
     restored = path.with_name(f"{path.name}-restored")
@@ -79,7 +80,7 @@ def restore(backup: Path, path: Path) -> Path | None:
 
 
 def migrated(connection: sqlite3.Connection) -> Database:
-    """Up to date."""
+    """The database, brought up to date."""
     db = Database(connection)
     db.execute("PRAGMA journal_mode = WAL")
     db.execute("PRAGMA synchronous = FULL")
@@ -88,7 +89,7 @@ def migrated(connection: sqlite3.Connection) -> Database:
 
 
 def _begin(path: Path) -> None:
-    """A new history, whole from its first moment: an empty file is never one that a crash left behind."""
+    """A new history, complete from its first moment: an empty file is never one that a crash left behind."""
     new = path.with_name(f"{path.name}-new")
     new.unlink(missing_ok=True)
     with closing(connect(new)) as connection:

@@ -1,4 +1,4 @@
-"""Events for others, and how far each was delivered to each receiver."""
+"""Events for other systems, and their delivery to each receiver."""
 
 from __future__ import annotations
 
@@ -22,10 +22,10 @@ _DELIVERY = "deliveries.*, uid, type FROM deliveries JOIN happenings USING (n)"
 
 
 class Outbox(KeptFile):
-    """An event is on the disk together with what it tells of, so that none is lost and none is invented."""
+    """An event is stored together with its cause, so that none is lost and none is invented."""
 
     def announce(self, type: EventType, data: Mapping[str, JsonValue]) -> None:
-        """One more event; within a transaction it is part of that."""
+        """Add an event; within a transaction it is part of that."""
         with self._writing() as db:
             at_ms = now_ms()
             db.execute(
@@ -34,7 +34,7 @@ class Outbox(KeptFile):
             )
 
     def announce_run(self, type: Literal["run.started", "run.ended"], run: int) -> None:
-        """An event of a run; its data are the run's own, and stored there alone."""
+        """Add an event of a run; its data are the run's own, and stored only there."""
         self.announce(type, {"run": run})
 
     def happenings(self, *, after: int = 0, limit: int = 100) -> list[Event]:
@@ -43,7 +43,7 @@ class Outbox(KeptFile):
         return self._events(rows)
 
     def enqueue(self, receiver: str, types: Collection[str]) -> None:
-        """Deliveries of all events that came since the last time; a new receiver begins with the next one."""
+        """Create the deliveries of all new events; a new receiver begins with the next one."""
         last = self._last()
         row = self._readers.one("SELECT seen FROM receivers WHERE name = ?", [receiver])
         if row is not None and row["seen"] == last:
@@ -63,7 +63,7 @@ class Outbox(KeptFile):
         return 0 if row is None else int(row["n"])
 
     def next_delivery(self, receiver: str) -> tuple[Delivery, Event] | None:
-        """The first that waits, in the order of the events; whether its time has come or not."""
+        """The first pending one, in the order of the events, whether it is due or not."""
         row = self._readers.one(
             f"SELECT at_ms, data, {_DELIVERY} WHERE receiver = ? AND state = 'waiting' ORDER BY n LIMIT 1",
             [receiver],
@@ -75,7 +75,7 @@ class Outbox(KeptFile):
         of_runs = {k: of["run"] for k, of in enumerate(data) if rows[k]["type"] in _OF_RUNS}
         summaries = self._summaries(of_runs.values())
         for k, run in of_runs.items():
-            # a backup from before the run may have been put in the place of the history
+            # a backup from before the run may have replaced the history
             data[k] = _of_run(rows[k]["type"], summaries[run]) if run in summaries else {"id": run}
         return [
             Event(
@@ -98,7 +98,7 @@ class Outbox(KeptFile):
         return {row["id"]: summary_from_row(row).model_dump(mode="json", by_alias=True) for row in rows}
 
     def postpone(self, delivery_id: int, until: datetime, detail: str) -> None:
-        """It failed and is tried again."""
+        """The delivery failed and is tried again."""
         with self._writing() as db:
             db.execute(
                 "UPDATE deliveries SET tries = tries + 1, next_ms = ?, detail = ? WHERE id = ?",
@@ -106,7 +106,7 @@ class Outbox(KeptFile):
             )
 
     def settle(self, delivery_id: int, state: str, detail: str) -> None:
-        """It arrived, or the receiver will never take it."""
+        """The delivery arrived, or the receiver will never accept it."""
         with self._writing() as db:
             db.execute(
                 "UPDATE deliveries SET tries = tries + 1, state = ?, detail = ?, ended_ms = ? WHERE id = ?",
@@ -114,7 +114,7 @@ class Outbox(KeptFile):
             )
 
     def expire(self, receiver: str, before: datetime, most: int) -> int:
-        """Give up what waits for longer, and the oldest of what is too many; how many these were."""
+        """Give up deliveries pending for longer, and the oldest of too many; returns their number."""
         with self._writing() as db:
             return db.execute(
                 "UPDATE deliveries SET state = 'expired', ended_ms = ?, detail ="
@@ -146,7 +146,7 @@ class Outbox(KeptFile):
     def deliveries(
         self, *, state: str | None = None, cursor: int | None = None, limit: int = 100
     ) -> list[Delivery]:
-        """The newest first; only those before number `cursor`."""
+        """Deliveries, newest first; only those before number `cursor`."""
         rows = self._readers.all(
             f"SELECT {_DELIVERY} WHERE state = coalesce(?, state) AND deliveries.id < coalesce(?,"
             " deliveries.id + 1) ORDER BY deliveries.id DESC LIMIT ?",
@@ -155,7 +155,7 @@ class Outbox(KeptFile):
         return [_delivery(row) for row in rows]
 
     def backlogs(self) -> list[Backlog]:
-        """What waits for each receiver that something waits for."""
+        """Pending deliveries of each receiver that has any."""
         rows = self._readers.all(
             "SELECT receiver, count(*) AS count, min(at_ms) AS at_ms FROM deliveries"
             " JOIN happenings USING (n) WHERE state = 'waiting' GROUP BY receiver"
@@ -171,7 +171,7 @@ class Outbox(KeptFile):
 
 
 def _of_run(type: str, summary: dict[str, JsonValue]) -> dict[str, JsonValue]:
-    """The summary of a run that has ended; of one that began what does not change any more."""
+    """The summary of a run that has ended; for one that began, the part that does not change."""
     if type == "run.ended":
         return summary
     return {**{key: summary[key] for key in _OF_A_START}, "state": State.QUEUED.value}

@@ -1,4 +1,4 @@
-"""Users, keys and sessions.  Only hashes are kept of passwords, PINs, badges, keys and cookies."""
+"""Users, keys and sessions. Only hashes of passwords, PINs, badges, keys and cookies are stored."""
 
 from __future__ import annotations
 
@@ -17,12 +17,12 @@ _NEXT_NUMBER = (
     "SELECT 1 + max(coalesce((SELECT max(id) FROM users), 0), coalesce((SELECT"
     " max(CAST(substr(subject, 6) AS INTEGER)) FROM audit WHERE action = 'user.added'), 0))"
 )
-"""Never used before: the audit, and a page that was loaded earlier, name people by their numbers."""
+"""A number never used before: the audit, and a page loaded earlier, refer to people by their numbers."""
 _USER = "users.id, users.name, users.role, badge_sha256, openid_sha256, users.created_ms, users.disabled_ms"
 
 
 class People(AuditTrail):
-    """Every change is in the audit, in the same transaction."""
+    """Every change is recorded in the audit, in the same transaction."""
 
     def add_user(
         self,
@@ -35,7 +35,7 @@ class People(AuditTrail):
         pin_hash: str | None = None,
         openid_sha256: bytes | None = None,
     ) -> User:
-        """:raises InputRefused: the name or the badge is taken."""
+        """:raises InputRefused: the name or the badge is in use."""
         with self._writing() as db:
             if db.execute("SELECT 1 FROM users WHERE name = ?", [name]).fetchone():
                 raise InputRefused(f"There is a user {name} already; choose another name.")
@@ -61,7 +61,7 @@ class People(AuditTrail):
     def set_badge(
         self, by: Actor, user: User, *, badge_sha256: bytes | None = None, pin_hash: str | None = None
     ) -> None:
-        """What is None stays.  It ends the sessions of the user: what was valid may be in other hands.
+        """None leaves a field unchanged. The user's sessions end: the old badge may be in other hands.
 
         :raises InputRefused: another user has the badge.
         """
@@ -79,9 +79,9 @@ class People(AuditTrail):
                 self.record(by, "user.pin_changed", f"user {user.id}")
 
     def remove_badge(self, by: Actor, user: User) -> None:
-        """Badge and PIN open nothing any more; whoever signed in with them is signed off.
+        """Badge and PIN become invalid; sessions that were opened with them end.
 
-        :raises NotApplicable: nothing would be left to sign in with.
+        :raises NotApplicable: the user would have no means to sign in.
         """
         with self._writing() as db:
             kept = db.execute("SELECT password_hash FROM users WHERE id = ?", [user.id]).fetchone()
@@ -107,15 +107,15 @@ class People(AuditTrail):
         remove_badge: bool = False,
         keep_one: bool = False,
     ) -> User:
-        """All of it or nothing; what is None, and what is so already, stays as it is.
+        """Change all given fields or none; fields that are None or already have the value are unchanged.
 
-        :param keep_one: whether the last administrator stays one
+        :param keep_one: whether to refuse removing the last administrator's role
         :raises NotFound: the user was removed meanwhile.
-        :raises NotApplicable: the last administrator would be one no more; or as `remove_badge`.
+        :raises NotApplicable: the last administrator would lose the role; or as `remove_badge`.
         :raises InputRefused: as `set_badge`.
         """
         with self._writing() as db:
-            user = self.user_by_id(user.id)  # nobody else changes it any more
+            user = self.user_by_id(user.id)  # nobody else can change it now
             if keep_one and (role not in (None, "administrator") or disabled):
                 _keep_an_administrator(db, user)
             if role not in (None, user.role):
@@ -142,11 +142,11 @@ class People(AuditTrail):
         return self.user_by_id(user.id)
 
     def remove_user(self, by: Actor, user: User, *, keep_one: bool = False) -> None:
-        """The account and its sessions are gone; the audit keeps what was done.
+        """Remove the account and its sessions; its actions remain in the audit.
 
-        :param keep_one: whether the last administrator stays
+        :param keep_one: whether to refuse removing the last administrator
         :raises NotFound: the user was removed meanwhile.
-        :raises NotApplicable: the last administrator.
+        :raises NotApplicable: this is the last administrator.
         """
         with self._writing() as db:
             user = self.user_by_id(user.id)
@@ -157,7 +157,7 @@ class People(AuditTrail):
             self.record(by, "user.removed", f"user {user.id}", before={"role": user.role})
 
     def user(self, name: str) -> User:
-        """By name, in capitals or not.  :raises NotFound:"""
+        """A user by name, case-insensitive. :raises NotFound:"""
         row = self._readers.one(f"SELECT {_USER} FROM users WHERE name = ?", [name])
         if row is None:
             raise NotFound(f"There is no user {name}.")
@@ -171,20 +171,20 @@ class People(AuditTrail):
         return _user(row)
 
     def user_of_provider(self, openid_sha256: bytes) -> User | None:
-        """Whom an OpenID Connect provider knows by this; also the disabled."""
+        """The user with this identity at an OpenID Connect provider; also a disabled one."""
         row = self._readers.one(f"SELECT {_USER} FROM users WHERE openid_sha256 = ?", [openid_sha256])
         return None if row is None else _user(row)
 
     def users(self) -> list[User]:
-        """By name."""
+        """All users, by name."""
         return [_user(row) for row in self._readers.all(f"SELECT {_USER} FROM users ORDER BY name")]
 
     def credentials(self, name: str) -> Credentials | None:
-        """What the password of a user is checked against; None without user or password."""
+        """The reference for checking the password of a user; None without user or password."""
         return self._credentials("users.name = ?", name, "password_hash")
 
     def badge_credentials(self, badge_sha256: bytes) -> Credentials | None:
-        """What the PIN that belongs to a badge is checked against."""
+        """The reference for checking the PIN of a badge."""
         return self._credentials("badge_sha256 = ?", badge_sha256, "pin_hash")
 
     def _credentials(self, where: str, value: str | bytes, column: str) -> Credentials | None:
@@ -213,7 +213,7 @@ class People(AuditTrail):
         return self._key_row("id = ?", int(key_id or 0))
 
     def revoke_key(self, by: Actor, which: str | int) -> ApiKey:
-        """By number alone, or by number or name as somebody types it.  Again is harmless.
+        """By number only, or by number or name as entered by a person. Repeating it is harmless.
 
         :raises NotFound:
         """
@@ -229,11 +229,11 @@ class People(AuditTrail):
         return self._key_row("id = ?", key.id)
 
     def api_keys(self) -> list[ApiKey]:
-        """Every key that was ever made, oldest first."""
+        """All keys ever made, oldest first."""
         return [_key(row) for row in self._readers.all("SELECT * FROM api_keys ORDER BY id")]
 
     def key(self, sha256: bytes) -> ApiKey | None:
-        """The key with this hash, in use or not."""
+        """The key with this hash, active or not."""
         row = self._readers.one("SELECT * FROM api_keys WHERE sha256 = ?", [sha256])
         return None if row is None else _key(row)
 
@@ -244,7 +244,7 @@ class People(AuditTrail):
         return _key(row)
 
     def anybody_known(self) -> bool:
-        """Whether there is a user, or a key that may be used."""
+        """Whether there is a user, or a valid key."""
         row = self._readers.one(
             "SELECT 1 FROM users UNION SELECT 1 FROM api_keys WHERE revoked_ms IS NULL"
             " AND coalesce(expires_ms > ?, 1)",
@@ -253,19 +253,19 @@ class People(AuditTrail):
         return row is not None
 
     def administrator_known(self) -> bool:
-        """Whether somebody can sign in who may do everything."""
+        """Whether a user with all rights can sign in."""
         row = self._readers.one("SELECT 1 FROM users WHERE role = 'administrator' AND disabled_ms IS NULL")
         return row is not None
 
     # Sessions ----------------------------------------------------------------------------------
 
     def add_session(self, sha256: bytes, user: User) -> None:
-        """Somebody has signed in."""
+        """Start a session after a sign-in."""
         with self._writing() as db:
             db.execute("INSERT INTO sessions VALUES (?, ?, ?)", [sha256, user.id, now_ms()])
 
     def session(self, sha256: bytes) -> Session | None:
-        """Who has signed in with this cookie, and when they were seen last."""
+        """The user signed in with this cookie, and the time of the last activity."""
         row = self._readers.one(
             f"SELECT {_USER}, seen_ms FROM sessions JOIN users ON users.id = user_id"
             " WHERE sha256 = ? AND disabled_ms IS NULL",
@@ -278,12 +278,12 @@ class People(AuditTrail):
         )
 
     def end_session(self, sha256: bytes) -> None:
-        """Signed out; again is harmless."""
+        """Sign out; repeating it is harmless."""
         with self._writing() as db:
             db.execute("DELETE FROM sessions WHERE sha256 = ?", [sha256])
 
     def note_use(self, keys: dict[int, int], sessions: dict[bytes, int], *, idle_ms: int) -> None:
-        """When keys and sessions were used last (ms since 1970); sessions unused for longer are gone."""
+        """Record the last use of keys and sessions (ms since 1970); delete sessions unused for longer."""
         with self._writing() as db:
             for key_id, used_ms in keys.items():
                 db.execute("UPDATE api_keys SET used_ms = ? WHERE id = ?", [used_ms, key_id])
@@ -294,13 +294,13 @@ class People(AuditTrail):
     # Runs --------------------------------------------------------------------------------------
 
     def started_by(self, calibration_id: int) -> Actor | None:
-        """Who started a run; None where that is not on record."""
+        """The person who started a run; None if not recorded."""
         row = self._readers.one("SELECT name, via FROM run_starters WHERE run_id = ?", [calibration_id])
         return None if row is None else Actor(name=row["name"], via=row["via"])
 
 
 def _keep_an_administrator(db: Database, user: User) -> None:
-    """Within the transaction that would end it: two who remove each other are looked at one by one."""
+    """Within the transaction that would remove one: administrators removing each other go in turn."""
     if user.role != "administrator" or user.disabled:
         return
     if not db.execute(
@@ -310,7 +310,7 @@ def _keep_an_administrator(db: Database, user: User) -> None:
 
 
 def _refuse_taken_badge(db: Database, badge_sha256: bytes | None, user_id: int = 0) -> None:
-    """:param user_id: whose it may be."""
+    """:param user_id: the user who may have it."""
     if db.execute(
         "SELECT 1 FROM users WHERE badge_sha256 = ? AND id != ?", [badge_sha256, user_id]
     ).fetchone():

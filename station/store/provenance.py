@@ -1,4 +1,4 @@
-"""What measured each run, kept when the run is created."""
+"""Software and devices of each run, stored when the run is created."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ class Provenance(KeptFile):
     """Software, devices and scale certificate of a run."""
 
     def keep_made_by(self, run: int, made_by: MadeBy) -> None:
-        """Once; it becomes a part of the run's record."""
+        """Called once; it becomes a part of the run's record."""
         with self._writing() as db:
             db.execute("INSERT INTO made_by (run_id, what) VALUES (?, ?)", [run, made_by.model_dump_json()])
 

@@ -1,4 +1,4 @@
-"""What a run found, stored: the whole as JSON, and what is asked for across runs in columns and rows."""
+"""Storage of a run's results: the whole as JSON, and values queried across runs in columns and rows."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from station.store.rows import pack_document, result_row
 
 
 def keep_result(db: Database, run: int, result: CalibrationResult) -> None:
-    """In the transaction that ends the run."""
+    """Store a result in the transaction that ends the run."""
     db.execute(
         "INSERT INTO results (calibration_id, zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg,"
         " position_error_mm, result, diagnosis) VALUES (?, ?, ?, ?, ?, ?, ?, ?)",

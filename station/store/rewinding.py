@@ -1,4 +1,4 @@
-"""A history taken back to the moment before a run measured anything, on a copy."""
+"""A copy of a history, taken back to the moment before a run measured anything."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ _LATER = (
     "DELETE FROM events WHERE calibration_id >= :run",
     "DELETE FROM idempotency_keys WHERE calibration_id >= :run",
     "DELETE FROM calibrations WHERE id > :run",
-    # what was cleared, or changed of the robot, since
+    # data that were cleared, or changed of the robot, since then
     "UPDATE memories SET cleared_ms = NULL, cleared_by = NULL"
     " WHERE cleared_ms >= (SELECT created_ms FROM calibrations WHERE id = :run)",
     "DELETE FROM robots WHERE serial = (SELECT robot_serial FROM calibrations WHERE id = :run)"
@@ -33,14 +33,14 @@ _FOUND = (
 
 
 def rewind(copy: Path, run: int) -> None:
-    """Only a copy: everything from this run on is removed but the run itself, which is queued again."""
+    """Only on a copy: remove everything from this run on except the run itself, which is queued again."""
     with closing(sqlite3.connect(copy)) as db, db:
         for sql in _LATER:
             db.execute(sql, {"run": run})
 
 
 def found(database: Path, run: int) -> tuple[list[tuple[object, ...]], list[tuple[object, ...]]]:
-    """All readings of a run, and how it ended with which result, as they are in the database."""
+    """All readings of a run, its end and its result, as stored in the database."""
     with closing(sqlite3.connect(database)) as db:
         readings = db.execute(
             "SELECT * FROM readings WHERE calibration_id = ? ORDER BY reading", [run]

@@ -1,4 +1,4 @@
-"""Robot files by version, and what passed runs leave to a robot's next one."""
+"""Robot files by version, and the data that passed runs leave to a robot's next one."""
 
 from __future__ import annotations
 
@@ -19,15 +19,15 @@ from station.store.rows import compact, moment
 from station.store.times import now_ms
 
 MOST_OF_TYPE = 50
-"""Robots that teach a further one: more change nothing."""
+"""Maximum number of robots for the prior of a further one: more make no difference."""
 
 
 class RobotFile(Protocol):
-    """Of any kind of machine."""
+    """A robot file for any kind of machine."""
 
     @property
     def serial(self) -> str:
-        """Of the robot."""
+        """Serial of the robot."""
         ...
 
     def to_json(self) -> Sections:
@@ -36,10 +36,10 @@ class RobotFile(Protocol):
 
 
 class RobotFiles(AuditTrail):
-    """A changed robot file is a new version; a run keeps the version it was made with."""
+    """A changed robot file is a new version; a run refers to the version it was made with."""
 
     def save_robot(self, robot: RobotFile) -> int:
-        """Keep a robot file; a changed one becomes a new version.  Returns the version's row id.
+        """Store a robot file; a changed one becomes a new version.  Returns the version's row id.
 
         :raises NotApplicable: the serial is that of another kind of machine, or robots of its type have other
             nominal lengths.
@@ -64,7 +64,7 @@ class RobotFiles(AuditTrail):
             return int(cursor.lastrowid or 0)
 
     def change_robot(self, by: Actor, robot: RobotFile) -> None:
-        """Keep a robot file that somebody gave."""
+        """Store a robot file that a person supplied."""
         before = self._readers.one(
             "SELECT file FROM robots WHERE serial = ? ORDER BY id DESC LIMIT 1", [robot.serial]
         )
@@ -86,7 +86,7 @@ class RobotFiles(AuditTrail):
         return _five_bar(self.robot_file(serial), f"robot {serial}")
 
     def robot_or_nominal(self, serial: str) -> Robot:
-        """The same, and the paper's Table 1 for a robot that no file is kept of."""
+        """The same, or the paper's Table 1 for a robot without a stored file."""
         try:
             return self.robot(serial)
         except NotFound:
@@ -104,7 +104,7 @@ class RobotFiles(AuditTrail):
         ]
 
     def robot_file_of(self, calibration_id: int) -> Sections:
-        """The robot file of any kind as it was when the calibration was made.  :raises NotFound:"""
+        """The robot file of any kind with which the calibration was made. :raises NotFound:"""
         row = self._readers.one(
             "SELECT file FROM robots WHERE id = (SELECT robot_id FROM calibrations WHERE id = ?)",
             [calibration_id],
@@ -114,17 +114,17 @@ class RobotFiles(AuditTrail):
         return _sections(row["file"])
 
     def robot_of(self, calibration_id: int) -> Robot:
-        """The same of a five-bar.  :raises NotFound: :raises NotApplicable:"""
+        """The same for a five-bar. :raises NotFound: :raises NotApplicable:"""
         return _five_bar(self.robot_file_of(calibration_id), f"robot of calibration {calibration_id}")
 
 
 class Memories(RobotFiles):
-    """Geometry and mechanism as passed runs found them; the newest that was not cleared counts."""
+    """Geometry and mechanism found by passed runs; the newest that was not cleared counts."""
 
     def memory(self, serial: str, as_of: datetime | None = None) -> Remembered | None:
-        """What the robot's next run may use: of its newest pass, not cleared, under the same robot file.
+        """The memory for the robot's next run: from its newest pass, not cleared, with the same robot file.
 
-        :param as_of: when the run began, from which its age is counted; None is now
+        :param as_of: start of the run, from which the age is counted; None is now
         """
         row = self._readers.one(
             "SELECT calibration_id, at_ms, memory, robot_id, cleared_ms FROM memories"
@@ -138,7 +138,7 @@ class Memories(RobotFiles):
         return replace(_remembered(row), as_of=as_of)
 
     def memory_left_by(self, calibration_id: int) -> Remembered:
-        """What one run left to the next, cleared or not.  :raises NotFound:"""
+        """The data that one run left to the next, cleared or not. :raises NotFound:"""
         row = self._readers.one(
             "SELECT calibration_id, at_ms, memory FROM memories WHERE calibration_id = ?", [calibration_id]
         )
@@ -147,7 +147,7 @@ class Memories(RobotFiles):
         return _remembered(row)
 
     def others_of_type(self, robot: Robot) -> list[tuple[Robot, LastingParameters]]:
-        """Other robots of its type with what their newest pass left, newest first; none that was cleared."""
+        """Other robots of its type with the memory of their newest pass, newest first; none cleared."""
         rows = self._readers.all(
             "SELECT memories.robot_serial, memory, file FROM memories"
             " JOIN calibrations ON calibrations.id = calibration_id JOIN robots ON robots.id = robot_id"
@@ -167,9 +167,9 @@ class Memories(RobotFiles):
         ]
 
     def forget(self, serial: str, by: Actor) -> None:
-        """The robot's next run starts without memory; what was known stays on record.
+        """The robot's next run starts without memory; the old memory remains stored.
 
-        Again is harmless.  :raises NotFound: no such robot.
+        Repeating it is harmless. :raises NotFound: no such robot.
         """
         self.robot(serial)
         with self._writing() as db:
@@ -182,7 +182,7 @@ class Memories(RobotFiles):
 
 
 def _check_type(db: Database, robot: RobotFile) -> None:
-    """:raises NotApplicable: robots of its type have other nominal lengths; says which and what to do."""
+    """:raises NotApplicable: robots of its type have other nominal lengths; with the remedy."""
     file: Sections = json.loads(compact(robot.to_json()))
     kind = _robot_section(file).get("type")
     if kind is None:

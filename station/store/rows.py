@@ -1,4 +1,4 @@
-"""Between the rows of the database and the records of the program."""
+"""Conversion between the rows of the database and the records of the program."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ LIST_COLUMNS = (
     " zero1_deg, zero1_sd_deg, zero2_deg, zero2_sd_deg"
 )
 IN_LISTS = 2
-"""Zero offsets that lists show; an arm has more."""
+"""Number of zero offsets that lists show; an arm has more."""
 _SAMPLE_DIGITS = 5
 _SAMPLE_UNIT_MM = 10.0**-_SAMPLE_DIGITS
 """A tenth of the finest step of any supported readout."""
@@ -58,17 +58,17 @@ def compact(value: object) -> str:
 
 
 def moment(ms: int | None) -> datetime | None:
-    """UTC."""
+    """A time in UTC."""
     return None if ms is None else datetime.fromtimestamp(ms / 1000, UTC)
 
 
 def millis(time: datetime) -> int:
-    """Since 1970; a time without a zone is UTC."""
+    """Milliseconds since 1970; a time without a zone is UTC."""
     return round((time if time.tzinfo else time.replace(tzinfo=UTC)).timestamp() * 1000)
 
 
 def row_id(cursor: int | str) -> int:
-    """The number in a page's cursor.  :raises InputRefused: it is none."""
+    """The number in a page's cursor.  :raises InputRefused: it is not a cursor."""
     try:
         number = int(cursor)
     except ValueError:
@@ -111,17 +111,17 @@ def _verified_error_mm(result: CalibrationResult) -> float | None:
 
 
 def pack_document(document: DiagnosisDocument | None) -> bytes | None:
-    """With every digit: joint commands are computed from it.  Plain zlib."""
+    """The document with every digit, since joint commands are computed from it. Plain zlib."""
     return None if document is None else zlib.compress(document.model_dump_json(by_alias=True).encode(), 9)
 
 
 def document_from(blob: bytes) -> DiagnosisDocument:
-    """The document again, also one of an older schema."""
+    """The document restored, also one of an older schema."""
     return DiagnosisDocument.model_validate_json(zlib.decompress(blob))
 
 
 def _storable(value: JsonValue) -> JsonValue:
-    """Six significant digits are more than any uncertainty asks for, and a third of the bytes."""
+    """Rounded to six significant digits: more than any uncertainty needs, and a third of the bytes."""
     if isinstance(value, float):
         return float(f"{value:.6g}") if math.isfinite(value) else None
     if isinstance(value, dict):
@@ -136,12 +136,12 @@ def _finite(value: float) -> float | None:
 
 
 def summary_from_row(row: sqlite3.Row) -> CalibrationSummary:
-    """As lists show it."""
+    """A run as lists show it."""
     return CalibrationSummary.model_validate(_summary(row))
 
 
 def calibration_from_row(row: sqlite3.Row) -> Calibration:
-    """All that the store knows of it; what the drives hold of it is not in its row."""
+    """The complete record in the store; the state of its zeros in the drives is not in its row."""
     parts = json.loads(row["result"]) if row["result"] else {}
     offsets = parts.pop("zero_offsets", [])
     summary = _summary(row) | ({"zero_offsets": offsets} if len(offsets) > IN_LISTS else {})
@@ -168,7 +168,7 @@ def _summary(row: sqlite3.Row) -> dict[str, object]:
 
 
 def request_hash(request: CalibrationRequest) -> bytes:
-    """Tells whether an idempotency key came with the same request."""
+    """Shows whether an idempotency key came with the same request."""
     fields = {
         "robot_serial": request.robot_serial,
         "plan": request.label,
@@ -182,7 +182,7 @@ def request_hash(request: CalibrationRequest) -> bytes:
 
 
 def asked_more(request: CalibrationRequest) -> dict[str, JsonValue]:
-    """What a request says of accuracy, references and a gauge study, if it says anything."""
+    """The accuracy, references and gauge study of a request, if it contains any."""
     more: dict[str, JsonValue] = {
         "references": [reference.model_dump() for reference in request.references],
         "until_mm": request.until_mm,
@@ -197,7 +197,7 @@ def reading_row(reading: Reading) -> tuple[object, ...]:
     numbers = (reading.t_s, *reading.theta_deg, reading.scale_mm, *reading.samples_mm)
     if not all(math.isfinite(number) for number in numbers):
         raise ValueError(f"reading {reading.reading} has a number that is not finite")
-    # Samples differ in their last digits: whole units from the mean take a third of the bytes.
+    # Samples differ in their last digits: integer units from the mean take a third of the bytes.
     mean = round(reading.scale_mm, _SAMPLE_DIGITS)
     samples = [round((sample - mean) / _SAMPLE_UNIT_MM) for sample in reading.samples_mm]
     return (
@@ -216,7 +216,7 @@ def reading_row(reading: Reading) -> tuple[object, ...]:
 
 
 def reading_from_row(row: sqlite3.Row) -> Reading:
-    """The record again, of a row of READING_COLUMNS."""
+    """The record from a row of READING_COLUMNS."""
     number, sequence, t_s, theta1, theta2, first, second, scale_mm, position, samples, *more = row
     temperature_c, payload_kg, mount = more
     return Reading(
@@ -235,7 +235,7 @@ def reading_from_row(row: sqlite3.Row) -> Reading:
 
 
 def zero_write_from_row(row: sqlite3.Row) -> ZeroWrite:
-    """The record again."""
+    """The record from a row."""
     return ZeroWrite(
         id=row["id"],
         run_id=row["run_id"],
@@ -252,9 +252,9 @@ def _samples(scale_mm: float, units: str | None) -> tuple[float, ...]:
     if units is None:
         return ()
     mean, kept = round(round(scale_mm, _SAMPLE_DIGITS) / _SAMPLE_UNIT_MM), from_json(units)
-    if isinstance(kept, int):  # only their number was kept, which says how sure their mean is
+    if isinstance(kept, int):  # only their number was stored, which gives the uncertainty of their mean
         return (mean / _SAMPLES_PER_MM,) * kept
-    # the quotient of whole numbers is what rounding to so many digits gives, in a third of the time
+    # the quotient of integers equals the value rounded to this many digits, in a third of the time
     return tuple((mean + unit) / _SAMPLES_PER_MM for unit in kept)
 
 

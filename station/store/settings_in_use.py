@@ -1,4 +1,4 @@
-"""The settings that the last start used, and what a start found changed in them."""
+"""The settings of the last start, and the differences found at a start."""
 
 from __future__ import annotations
 
@@ -11,17 +11,17 @@ SECRET = "changed; its value is not shown"  # noqa: S105 - what stands in place 
 
 
 class SettingsInUse(AuditTrail):
-    """Each difference is an entry of the audit."""
+    """Each difference is an entry in the audit."""
 
     def settings_in_use(self) -> dict[str, str]:
-        """By key, as the last start read them; empty before the first."""
+        """Settings of the last start by key; empty before the first."""
         return {row["key"]: row["value"] for row in self._readers.all("SELECT * FROM settings_in_use")}
 
     def use_settings(self, by: Actor, values: Mapping[str, str], secret: frozenset[str]) -> None:
-        """These hold from now on; what differs from the last start is recorded, one entry a key.
+        """Store the settings of this start; differences from the last one are recorded, one entry per key.
 
         :param values: by key, in text
-        :param secret: keys whose values are kept as hashes and never told
+        :param secret: keys whose values are stored as hashes and never shown
         """
         before = self.settings_in_use()
         if before == values:

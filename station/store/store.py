@@ -1,7 +1,7 @@
-"""What is kept: one SQLite file; every reading is on the disk before the next move.
+"""The store: one SQLite file; every reading is on the disk before the next motion.
 
-One writer behind a lock, WAL and synchronous=FULL; readers have connections of their own and never
-wait for it.  Rows become records in `station.store.rows`.
+One writer behind a lock, WAL and synchronous=FULL; readers have separate connections and never wait for it.
+Rows become records in `station.store.rows`.
 """
 
 from __future__ import annotations
@@ -66,7 +66,7 @@ log = logging.getLogger(__name__)
 
 S = TypeVar("S", bound=CalibrationSummary)
 _DEEDS = {"apply": "run.applied", "rollback": "run.rolled_back"}
-"""What the audit calls the start of a run of this kind."""
+"""Audit actions for the start of a run, by kind."""
 
 
 class Store(
@@ -105,12 +105,12 @@ class Store(
         by: Actor = STATION,
         made_by: MadeBy | None = None,
     ) -> int:
-        """A new calibration in state queued; its idempotency key is kept in the same transaction.
+        """A new calibration in state queued; its idempotency key is stored in the same transaction.
 
-        :param uid: where it is known already; else made here.
-        :param by: who starts it, for the audit.
-        :param made_by: what measures it, where this station does.
-        :raises KeyReused: the key is taken (ask `find_key` first to answer a repeated request).
+        :param uid: if it is known already; otherwise generated.
+        :param by: the person who starts it, for the audit.
+        :param made_by: software and devices, if this station measures it.
+        :raises KeyReused: the key is in use (call `find_key` first to answer a repeated request).
         """
         robot_id = self.save_robot(robot)
         with self._writing() as db:
@@ -164,9 +164,9 @@ class Store(
         body_hash: bytes = b"",
         by: Actor = STATION,
     ) -> int:
-        """A run that was measured elsewhere, whole or not at all.  :raises KeyReused: as `create`.
+        """Store a run that was measured elsewhere, in one transaction.  :raises KeyReused: as `create`.
 
-        :param log: in place of readings, of another kind of machine.
+        :param log: in place of readings, for another kind of machine.
         """
         with self._writing():
             calibration_id = self.create(request, robot, key=key, body_hash=body_hash, by=by)
@@ -187,9 +187,9 @@ class Store(
         return None if row is None else self._as_ended(summary_from_row(row))
 
     def find_key(self, key: str, body_hash: bytes) -> int | None:
-        """The calibration that a key started, None when the key is new.
+        """The calibration that a key started, None if the key is new.
 
-        :raises KeyReused: the key came with another request.
+        :raises KeyReused: the key was used for another request.
         """
         row = self._readers.one("SELECT body_hash, calibration_id FROM idempotency_keys WHERE key = ?", [key])
         if row is None:
@@ -199,7 +199,7 @@ class Store(
         return int(row["calibration_id"])
 
     def set_state(self, calibration_id: int, state: State, *, steps: int | None = None) -> None:
-        """Move a calibration that has not ended to queued or running; `steps` is how many are planned."""
+        """Move a calibration that has not ended to queued or running; `steps` is the planned number."""
         with self._writing() as db:
             db.execute(
                 "UPDATE calibrations SET state = ?, steps = coalesce(?, steps),"
@@ -216,12 +216,13 @@ class Store(
         *,
         judged: bool = True,
     ) -> State:
-        """End a calibration, once: the first end stands.  Returns the state that it has now.
+        """End a calibration; only the first end counts. Returns its state.
 
-        It fails closed (`end_of`).  What a pass leaves to the next run is kept with it.  An end that the
-        store does not take is shown from memory, as a failure, until `repeat_ends` has stored it.
+        In case of doubt it is a failure (`end_of`). The data that a pass leaves to the next run are stored
+        with it. An end that the store does not accept is shown from memory, as a failure, until `repeat_ends`
+        has stored it.
 
-        :param judged: False for a run that says nothing about a robot: it has no verdict and no result
+        :param judged: False for a run that does not judge a robot: it has no verdict and no result
         """
         if (earlier := self._unstored[calibration_id]) is not None:
             return earlier.state
@@ -233,7 +234,7 @@ class Store(
             return self._unstored.keep(calibration_id, end, error).state
 
     def repeat_ends(self) -> None:
-        """Store the ends that the store did not take before, if it takes them now."""
+        """Store the ends that the store did not accept before, if it accepts them now."""
         self._unstored.repeat(self._end)
 
     def _end(self, calibration_id: int, end: End) -> State:
@@ -269,9 +270,9 @@ class Store(
         return end.state if ended else self.summary(calibration_id).state
 
     def interrupt_unfinished(self) -> list[int]:
-        """At start-up: what was queued or running when the station went down is interrupted.
+        """At start-up, mark runs that were queued or running when the station went down as interrupted.
 
-        Where the last process knew how such a run had ended, that is stored.  Returns the ids.
+        If the last process knew the end of such a run, that is stored.  Returns the ids.
         """
         rows = self._readers.all("SELECT id FROM calibrations WHERE state IN (?, ?, ?)", list(UNFINISHED))
         known = self._unstored.left_behind()
@@ -282,7 +283,7 @@ class Store(
         return ids
 
     def verify(self) -> Verified:
-        """Whether every finished run is as it ended."""
+        """Whether every finished run is unchanged since its end."""
         return verify(self._readers.all)
 
     def in_chain(self, head: str) -> bool:
@@ -335,9 +336,9 @@ class Store(
         until: datetime | None = None,
         ended_since: datetime | None = None,
     ) -> Page:
-        """A page of summaries; `cursor` is the `next` of the page before.  The rest as `Filters`.
+        """A page of summaries; `cursor` is the `next` of the previous page. Other arguments as in `Filters`.
 
-        :raises InputRefused: a cursor that is none.
+        :raises InputRefused: the cursor is invalid.
         """
         filters = Filters(
             search, robot_serial, robot_type, state, verdict, plan, work_order, since, until, ended_since
@@ -359,7 +360,7 @@ class Store(
         return Page(matching, items[-1].id if len(rows) > limit else None)
 
     def count(self, filters: Filters) -> tuple[int, bool]:
-        """How many runs these filters let through, `MOST_COUNTED` at most; whether there are more."""
+        """Number of runs that match these filters, at most `MOST_COUNTED`; and whether there are more."""
         conditions, values = filters.conditions(self._or_unstored, order=None)
         index = " INDEXED BY calibrations_found" if filters.indexed else ""
         found = self._up_to(MOST_COUNTED + 1, f"calibrations{index}{where(conditions)}", values)
@@ -377,7 +378,7 @@ class Store(
         return 0 if row is None else int(row["n"])
 
     def _or_unstored(self, column: str) -> str:
-        """SQL that lets runs through whose stored state and verdict are not those that are shown."""
+        """SQL that includes runs whose stored state and verdict are not the displayed ones."""
         runs = ", ".join(map(str, self._unstored.runs))
         return f" OR id IN ({runs})" if runs and column in ("verdict", "state") else ""
 
@@ -391,7 +392,7 @@ class Store(
         return [self._as_ended(summary_from_row(row)) for row in rows]
 
     def _as_ended(self, row: S) -> S:
-        """With the end that is not stored yet."""
+        """The summary with an end that is not stored yet."""
         end = self._unstored[row.id]
         return row if end is None else end.shown_in(row)
 
@@ -404,7 +405,7 @@ class Store(
             self.add_wire(calibration_id, wire)
 
     def add_readings(self, calibration_id: int, readings: Sequence[Reading]) -> None:
-        """Several in one transaction, as an import does."""
+        """Store several in one transaction, as an import does."""
         marks = ", ".join("?" * 14)
         with self._writing() as db:
             db.conn.executemany(
@@ -416,9 +417,9 @@ class Store(
             )
 
     def drop_samples(self, ended_before: datetime) -> int:
-        """Keep mean and number alone of the samples of runs that ended before; how many readings had more.
+        """Retain only mean and number of samples of runs that ended before; how many readings changed.
 
-        A run at a time, so that nobody who measures waits; what was dropped is on record as an event.
+        One run at a time, so that a measurement does not wait; each deletion is recorded as an event.
         """
         rows = self._readers.all(
             "SELECT DISTINCT calibration_id AS run FROM readings JOIN calibrations ON id = calibration_id"

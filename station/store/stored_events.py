@@ -1,4 +1,4 @@
-"""Events: what is worth remembering of a run, or of the station itself."""
+"""Events: noteworthy facts of a run, or of the station itself."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class StoredEvents(KeptFile):
     def add_event(
         self, calibration_id: int | None, kind: str, data: dict[str, JsonValue] | None = None
     ) -> None:
-        """Something worth remembering: who aborted, what a device said."""
+        """Add a noteworthy fact: who aborted, a message of a device."""
         with self._writing() as db:
             db.execute(
                 "INSERT INTO events (calibration_id, at_ms, kind, data) VALUES (?, ?, ?, ?)",
@@ -27,7 +27,7 @@ class StoredEvents(KeptFile):
             )
 
     def latest_time(self) -> datetime | None:
-        """The latest that is on record of any run or event; None before the first."""
+        """The latest recorded time of any run or event; None before the first."""
         row = self._readers.one(
             "SELECT max(coalesce((SELECT max(created_ms) FROM calibrations), 0),"
             " coalesce((SELECT ended_ms FROM calibrations ORDER BY id DESC LIMIT 1), 0),"
@@ -36,7 +36,7 @@ class StoredEvents(KeptFile):
         return moment(row["latest_ms"] or None) if row is not None else None
 
     def events(self, calibration_id: int | None) -> list[StoredEvent]:
-        """Of one run, or of the station itself (None)."""
+        """Events of one run, or of the station itself (None)."""
         rows = self._readers.all(
             "SELECT id, at_ms, kind, data FROM events WHERE calibration_id IS ? ORDER BY id", [calibration_id]
         )

@@ -1,4 +1,4 @@
-"""Finished runs, their readings and findings as plain columns, many at a time, for analysis elsewhere."""
+"""Finished runs, their readings and findings as plain columns, many at a time, for external analysis."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ from station.records import LARGEST_ID, State
 from station.store.kept_file import KeptFile
 
 Columns = dict[str, tuple[object, ...]]
-"""By name, all equally long."""
+"""Columns by name, all of equal length."""
 Table = Literal["runs", "readings", "findings", "run_of_each"]
 
 UNFINISHED = (State.QUEUED, State.RUNNING, State.WAITING)
 GROWING = ("calibrations", "readings", "results", "findings", "chain", "events", "audit", "happenings")
 MIGRATIONS = "_sqlite_migrations"
-"""Where the library keeps which steps were applied."""
+"""Table in which the library records the applied steps."""
 
 RUNS = {
     "id": "id",
@@ -41,7 +41,7 @@ RUNS = {
     "position_error_mm": "position_error_mm",
 }
 RUN_OF_EACH = {"run_id": "id", "run_uid": "uid", "robot_serial": "robot_serial", "created_at": "created_ms"}
-"""What all readings and findings of a run have of it."""
+"""Columns of the run in each of its readings and findings."""
 READINGS = {
     "run_id": "calibration_id",
     "reading": "reading",
@@ -75,14 +75,14 @@ _SOURCES: dict[Table, tuple[dict[str, str], str, str]] = {
     "findings": (FINDINGS, "findings", "calibration_id, finding, n"),
     "run_of_each": (RUN_OF_EACH, "calibrations", "id"),
 }
-"""Columns with where each comes from, tables, and order, beginning with the number of the run."""
+"""Columns with the source of each, tables, and order, beginning with the number of the run."""
 
 
 class Tables(KeptFile):
     """Ranges of run numbers, both ends included."""
 
     def finished_after(self, run: int, most: int) -> list[tuple[int, str]]:
-        """Number and month of creation (UTC, "2026-11") of runs after `run`, as far as all have ended."""
+        """Number and month of creation (UTC, "2026-11") of runs after `run`, up to the first unfinished."""
         marks = ", ".join("?" * len(UNFINISHED))
         rows = self._readers.all(
             "SELECT id, strftime('%Y-%m', created_ms / 1000, 'unixepoch') AS month FROM calibrations"
@@ -94,7 +94,7 @@ class Tables(KeptFile):
         return [(row["id"], row["month"]) for row in rows]
 
     def table(self, table: Table, first: int, last: int) -> Iterator[Columns]:
-        """Rows of these runs, some at a time: one a run, a reading, a parameter of an effect that was found.
+        """Rows of these runs, in batches: one for each run, reading, or parameter of a found effect.
 
         Times are in ms since 1970.
         """

@@ -1,4 +1,4 @@
-"""When things happened: the clock of the computer, and of a run only once."""
+"""Times of events: the computer's clock is read only once per run."""
 
 from __future__ import annotations
 
@@ -17,14 +17,14 @@ def now_ms() -> int:
 
 
 def monotonic_ms() -> int:
-    """Milliseconds since whenever; no setting of the clock changes them."""
+    """Milliseconds since an arbitrary time; setting the clock does not change them."""
     return time.monotonic_ns() // 1_000_000
 
 
 class RunTimes:
     """Times of the runs of this process: the clock at their creation plus monotonic time.
 
-    So a clock that jumps during a run changes neither its duration nor the order of its times.
+    A clock that jumps during a run therefore changes neither its duration nor the order of its times.
     """
 
     def __init__(self) -> None:
@@ -35,7 +35,7 @@ class RunTimes:
         self._begun[run] = created_ms - monotonic_ms()
 
     def now_ms(self, run: int) -> int:
-        """The time of this run; by the clock where another process created it."""
+        """The time of this run; the clock if another process created it."""
         begun = self._begun.get(run)
         return now_ms() if begun is None else begun + monotonic_ms()
 
@@ -44,5 +44,5 @@ class RunTimes:
         return datetime.fromtimestamp(self.now_ms(run) / 1000, UTC)
 
     def end(self, run: int) -> None:
-        """Nothing more will happen to it."""
+        """The run has ended."""
         self._begun.pop(run, None)

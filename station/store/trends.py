@@ -22,11 +22,11 @@ _COLUMNS = {
     "software": "json_extract(what, '$.software')",
 }
 _POINTS = TypeAdapter(list[TrendPoint])
-"""A thousand at once take a third of the time that they take one by one."""
+"""A thousand at once take a third of the time of single ones."""
 
 
 class Trends(KeptFile):
-    """What process control asks for."""
+    """Queries of process control."""
 
     def trend(
         self,

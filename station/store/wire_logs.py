@@ -12,10 +12,10 @@ from station.store.times import now_ms
 
 
 class WireLogs(KeptFile):
-    """One zlib stream a run, in pieces; the last may be missing after a crash."""
+    """One zlib stream per run, in pieces; the last may be missing after a crash."""
 
     def add_wire(self, run: int, piece: bytes) -> None:
-        """The next piece; an empty one is none."""
+        """Add the next piece; an empty one is ignored."""
         if not piece:
             return
         with self._writing() as db:
@@ -26,21 +26,21 @@ class WireLogs(KeptFile):
             )
 
     def wire_log(self, run: int) -> list[str]:
-        """Its lines, the header first.  :raises NotFound: no such run, or no log of it is kept."""
+        """Its lines, the header first.  :raises NotFound: no such run, or no log of it is stored."""
         rows = self._readers.all("SELECT piece FROM wire_logs WHERE run_id = ? ORDER BY n", [run])
         if not rows:
             raise NotFound(f"No wire log of run {run} is kept here.")
         return zlib.decompressobj().decompress(b"".join(row["piece"] for row in rows)).decode().splitlines()
 
     def wire_bytes(self, run: int) -> int:
-        """What it takes in the database; 0 where there is none."""
+        """Its size in the database; 0 without one."""
         row = self._readers.one(
             "SELECT coalesce(sum(length(piece)), 0) AS bytes FROM wire_logs WHERE run_id = ?", [run]
         )
         return int(row["bytes"]) if row is not None else 0
 
     def drop_wire(self, ended_before: datetime) -> int:
-        """Forget the logs of runs that ended before; how many.  Each is on record as an event of its run."""
+        """Delete the logs of runs that ended before; returns their number. Each deletion is an event."""
         rows = self._readers.all(
             "SELECT DISTINCT run_id FROM wire_logs JOIN calibrations ON id = run_id WHERE ended_ms < ?",
             [millis(ended_before)],

@@ -1,4 +1,4 @@
-"""The journal of zeros: every zero is on the disk before its drive is told."""
+"""The journal of zeros: every zero is on the disk before it is sent to its drive."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from station.store.times import now_ms
 
 
 class ZeroJournal(KeptFile):
-    """All that is said about what the drives hold comes from these rows."""
+    """All information on the zeros in the drives comes from these rows."""
 
     def begin_zero_write(self, run_id: int, joint: int, offset_deg: float, from_deg: float) -> int:
-        """On the disk before the drive is told; its row id for `end_zero_write`."""
+        """Written to the disk before the drive receives it; returns its row id for `end_zero_write`."""
         with self._writing() as db:
             cursor = db.execute(
                 "INSERT INTO zero_writes (run_id, joint, at_ms, offset_deg, from_deg) VALUES (?, ?, ?, ?, ?)",
@@ -21,7 +21,7 @@ class ZeroJournal(KeptFile):
             return int(cursor.lastrowid or 0)
 
     def end_zero_write(self, write_id: int, to_deg: float | None) -> None:
-        """What the drive's feedback says afterwards; None: it did not take the zero."""
+        """The drive's feedback afterwards; None: it did not accept the zero."""
         with self._writing() as db:
             db.execute(
                 "UPDATE zero_writes SET to_deg = ?, taken = ? WHERE id = ?",

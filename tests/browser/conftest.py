@@ -1,4 +1,4 @@
-"""A headless Chromium that may only ask this computer, and stations to show it."""
+"""A headless Chromium that may only access this computer, and stations to show in it."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 
 def needed(found: object, what: str) -> None:
-    """Without it the tests are skipped; where nothing may be skipped, they fail."""
+    """Without the program the tests are skipped; where nothing may be skipped, they fail."""
     if not found and os.environ.get("CI") == "true":
         pytest.fail(f"{what} is needed for the browser tests")
     if not found:
@@ -79,7 +79,7 @@ class Station:
 
     @staticmethod
     def _port(home: Path) -> int:
-        """A station that comes back is found at its old address."""
+        """A restarted station has its old address."""
         kept = home / "port"
         return int(kept.read_text()) if kept.is_file() else 0
 
@@ -87,12 +87,12 @@ class Station:
         return self.api.get(path).json()
 
     def bring_back(self) -> None:
-        """A run-up that was stopped may end outside the workspace."""
+        """A stopped run-up may end outside the workspace."""
         if self.get("/station")["retract"]["needed"]:
             self._ended("/retract", {})
 
     def complete(self, **body: object) -> dict[str, Any]:
-        """A run, started as a MES does; as it is once it has ended."""
+        """A complete run, started as a MES does; its record after the end."""
         return self._ended("/calibrations", body)
 
     def _ended(self, path: str, body: dict[str, object]) -> dict[str, Any]:
@@ -129,7 +129,7 @@ Serve = Callable[..., Station]
 
 @pytest.fixture
 def serve(tmp_path: Path) -> Iterator[Serve]:
-    """Starts stations; with the same home a station comes back with its history and address."""
+    """Starts stations; with the same home a station has its earlier history and address."""
     needed(*BUILT_PAGE)
     with ExitStack() as opened:
 
@@ -148,7 +148,7 @@ def serve(tmp_path: Path) -> Iterator[Serve]:
 
 @pytest.fixture(scope="package")
 def station(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Station]:
-    """One for the tests that leave nothing under way."""
+    """One station for the tests that leave no run active."""
     needed(*BUILT_PAGE)
     station = Station(tmp_path_factory.mktemp("station"), speed=200.0)
     yield station
@@ -172,7 +172,7 @@ def slow_station(stoppable_station: Station) -> Station:
 
 @pytest.fixture(scope="package")
 def chromium() -> Iterator[Browser]:
-    # closed with this package: its event loop would stand in the way of other tests' own
+    # closed with this package: its event loop would disturb other tests' own
     path = shutil.which("chromium")
     needed(path, "chromium")
     with sync_playwright() as playwright:
@@ -183,7 +183,7 @@ def chromium() -> Iterator[Browser]:
 
 @contextmanager
 def recorded(context: BrowserContext, name: str) -> Iterator[None]:
-    """Where a folder is given, every step is recorded there, to be watched with `playwright show-trace`."""
+    """If a folder is given, every step is recorded there, for `playwright show-trace`."""
     folder = os.environ.get(RECORD)
     if not folder:
         yield

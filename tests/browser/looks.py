@@ -1,8 +1,8 @@
-"""How views look: compared with reference pictures, and free of texts that cannot be read.
+"""The appearance of views: compared with reference pictures, and free of unreadable texts.
 
-Pictures are small (an eighth of the size, 16 greys), drawn with fonts that Debian does not change and with
-two zeros for every number and hash, so that another computer, another day and other noise give the same.
-`make pictures` makes them again; look at what changed before you commit it.
+Pictures are small (an eighth of the size, 16 greys), drawn with fonts that are stable in Debian and with two
+zeros for every number and hash, so that another computer, another day and other noise give the same picture.
+`make pictures` makes them again; check the changes before you commit them.
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ MAKE = "STATION_PICTURES"
 """Environment variable: reference pictures are written, not compared; a folder takes them in full size."""
 CELL_PX, GREYS = 8, 16
 SAME = 32
-"""Of 255: two cells that differ less look the same from afar."""
+"""Of 255: a smaller difference between two cells is not visible at a distance."""
 MOST_DIFFERENT = 0.003
-"""Of all cells; about a word.  Noise of the readings, in charts and maps, made 0.0002 at most."""
+"""Maximum share of all cells; about a word. Noise of the readings, in charts and maps, made 0.0002."""
 STYLE = """
   *, *::before, *::after { font-family: "DejaVu Sans", "WenQuanYi Micro Hei" !important; }
   header time, .where small, .values dd { visibility: hidden !important; }
@@ -56,24 +56,24 @@ WORDS = r"""besides => {
 SAME_EVERYWHERE = frozenset(
     {"ada", "csv", "fb", "html", "http", "json", "mes", "min", "new", "pdf", "pin", "utc"}
 )
-"""Names, units and file formats."""
+"""Names, units and file formats, which are the same in every language."""
 Cells = NDArray[np.float64]
 
 
 def spoiled(page: Page) -> list[str]:
-    """Texts over one another, over a button, cut, or beside the page."""
+    """Texts that overlap each other or a button, are cut off, or are outside the page."""
     found: list[str] = page.evaluate(SPOILED)
     return found
 
 
 def foreign_words(page: Page, besides: str) -> list[str]:
-    """Latin words of a page in Chinese, but for names, units, formats and what is in elements `besides`."""
+    """Latin words of a page in Chinese, except names, units, formats and contents of elements `besides`."""
     words: list[str] = page.evaluate(WORDS, besides)
     return [word for word in words if word.lower() not in SAME_EVERYWHERE]
 
 
 def picture(page: Page, shown: Path | None = None) -> Image.Image:
-    """The whole view as it is compared; in full size, its digits as they are, as file `shown`."""
+    """The whole view for the comparison; in full size, with its real digits, as file `shown`."""
     options = {"full_page": True, "animations": "disabled", "caret": "hide"}
     if shown is not None:
         page.screenshot(path=shown, **options)  # type: ignore[arg-type]
@@ -85,7 +85,7 @@ def picture(page: Page, shown: Path | None = None) -> Image.Image:
 
 
 def share_that_differs(one: Image.Image, other: Image.Image) -> float:
-    """Of the cells, each with its neighbours; what only one of the two has differs."""
+    """Share of the cells, each with its neighbours; a cell that exists in only one of the two differs."""
     high, wide = max(one.height, other.height), max(one.width, other.width)
     a, b = (_blurred(_on_black(image, high, wide)) for image in (one, other))
     return float(np.mean(np.abs(a - b) > SAME))
@@ -107,7 +107,7 @@ def _blurred(cells: Cells) -> Cells:
 
 
 def trouble_with(page: Page, name: str) -> str | None:
-    """What is wrong with how the view looks; None if it looks as in its reference picture."""
+    """The fault in the appearance of a view; None if it agrees with its reference picture."""
     page.evaluate(STYLED, STYLE)
     if texts := spoiled(page):
         return f"{name}: {'; '.join(texts)}"

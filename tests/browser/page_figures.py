@@ -24,7 +24,7 @@ from tests.browser.conftest import FLAGS, SMALL
 COLD_STARTS, RUNS, LOOKS = 20, 500, 20
 SHORT, LONG = 10, 100_000
 EVERY = 50
-"""Runs from one look at the memory to the next."""
+"""Number of runs between two memory measurements."""
 READY = "() => document.querySelector('.state strong')?.textContent === 'READY'"
 WATCH_EVENTS = """() => {
   window.taken = [];

@@ -1,4 +1,4 @@
-"""Every plan done at the page on the emulated rig, as an operator would; leaves a picture of each step.
+"""Every plan carried out at the page on the emulated rig, as by an operator, with a picture of each step.
 
 python -m tests.browser.plans docs/how-to/plans
 """
@@ -21,21 +21,21 @@ from tests.browser.steps import confirm, open_station
 
 RUN_LIMIT_MS = 180_000
 COLOURS = 24
-"""Of a picture: the page has few."""
+"""Colours of a picture: the page has few."""
 COLLISION = [{"device": "axis1", "kind": "lost_counts"}]
 TYPE = "FB-375"
 TAUGHT = "pick,10.5,170.25\nplace,-8.0,181.5\n"
 
 
 class Operator:
-    """Somebody at the page; `steps` are the pictures, in their order."""
+    """An operator at the page; `steps` are the pictures, in order."""
 
     def __init__(self, page: Page, station: Station, folder: Path) -> None:
         self.page, self.station, self._folder = page, station, folder
         self.steps: list[str] = []
 
     def picture(self, name: str) -> None:
-        """As small as it can be read: half of the size, few colours."""
+        """As small as readable: half of the size, few colours."""
         png = self.page.screenshot(full_page=False, animations="disabled", caret="hide")
         whole = Image.open(BytesIO(png)).convert("RGB")
         small = whole.resize((whole.width * 3 // 4, whole.height * 3 // 4), Image.Resampling.LANCZOS)
@@ -55,7 +55,7 @@ class Operator:
         confirm(page, page.locator(".start"))
 
     def end(self) -> int:
-        """Wait for the end, and open the result; the number of the run."""
+        """Wait for the end, and open the result; returns the number of the run."""
         page = self.page
         expect(page.locator(".outcome")).to_be_visible(timeout=RUN_LIMIT_MS)
         page.locator(".outcome").get_by_role("link").click()
@@ -69,7 +69,7 @@ class Operator:
         return self.end()
 
     def answer(self, value: str | None) -> None:
-        """What the run asks, with a number or by confirming."""
+        """Answer the prompt of the run, with a number or by confirming."""
         page = self.page
         if value is not None:
             page.locator("#answer").fill(value)
@@ -82,7 +82,7 @@ class Operator:
         return said.inner_text()
 
     def press_next(self, name: str) -> None:
-        """The one next step of the result."""
+        """Press the recommended next step of the result."""
         step = self.page.get_by_role("region", name="Next step")
         step.get_by_role("button", name=name).click()
         confirm(self.page, step)
@@ -148,7 +148,7 @@ def referenced(operator: Operator, run: int) -> None:
     operator.picture("reference")
     drive = re.search(r"says ([−\d.-]+)°", said)
     assert drive, said
-    # the emulated arm has no level on it: what it would show, as the run before knows
+    # the emulated arm has no level: the value comes from the previous run
     level = float(drive[1].replace("−", "-")) + zeros[0]["value_deg"]
     operator.answer(f"{level:.3f}")
     operator.end()
@@ -180,7 +180,7 @@ def taught_by_a_fleet(operator: Operator) -> None:
 
 
 def walk(page: Page, station: Station, folder: Path) -> list[str]:
-    """All of it, each on the machine as the step before left it."""
+    """All plans in sequence, each on the machine as the previous one left it."""
     operator = Operator(page, station, folder)
     open_station(page, station)
     calibrated_and_applied(operator)

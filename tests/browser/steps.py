@@ -1,4 +1,4 @@
-"""What an operator does at the page, in words."""
+"""An operator's actions at the page, in words."""
 
 from __future__ import annotations
 
@@ -21,22 +21,22 @@ def open_station(page: Page, station: Station) -> None:
 
 
 def loaded(page: Page, load: Callable[[], object]) -> None:
-    """Until the page knows who is there and what codes look like, which may be after it shows READY."""
+    """Wait until the page has the user and the patterns of the codes, which may be after it shows READY."""
     with page.expect_response("**/api/v1/scans"), page.expect_response("**/api/v1/session"):
         load()
 
 
 SCANNER_MS = 5
-"""From one key of a scanner to the next."""
+"""Time from one key of a scanner to the next."""
 CODES = {"Enter": 13, "Tab": 9}
 HOLD_MS = 1200
-"""Longer than what confirms has to be held."""
+"""Longer than a confirming button has to be held."""
 
 
 def scan(page: Page, code: str, *, end: str = "Enter", delay: float = SCANNER_MS) -> None:
-    """As a barcode scanner does: key after key, then Enter, into whatever has the focus.
+    """Send keys like a barcode scanner: key after key, then Enter, to the focused element.
 
-    Each event carries the time at which the scanner sends it, however loaded this computer is.
+    Each event has the time at which the scanner sends it, however loaded this computer is.
     """
     keys = page.context.new_cdp_session(page)
     at_s = time.time()
@@ -55,7 +55,7 @@ def confirm(page: Page, within: Locator | None = None) -> None:
 
 
 def arm(page: Page, serial: str = "FB-7", plan: str = "paper") -> None:
-    """Everything up to the confirmation."""
+    """All steps up to the confirmation."""
     page.get_by_label("Robot serial").fill(serial)
     page.get_by_label("Plan").select_option(plan)
     page.get_by_label("Operator").fill("ada")

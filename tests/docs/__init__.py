@@ -1,1 +1,1 @@
-"""The documentation: its code runs, its links work, its reference is fresh."""
+"""The documentation: its code runs, its links work, its reference is up to date."""

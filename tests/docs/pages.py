@@ -1,4 +1,4 @@
-"""Pages of the documentation and the fenced blocks in them that a test carries out."""
+"""Pages of the documentation and the fenced blocks in them that a test executes."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ def markdown() -> list[Path]:
 
 
 def with_code() -> list[Path]:
-    """The tutorials and guides whose blocks are carried out."""
+    """The tutorials and guides whose blocks are executed."""
     pages = [*(ROOT / "docs/tutorials").glob("*.md"), *(ROOT / "docs/how-to").glob("*.md")]
     return sorted(page for page in pages if any(True for _ in blocks(page)))
 
 
 def blocks(page: Path) -> Iterator[Block]:
-    """In the order of the page."""
+    """The blocks in the order of the page."""
     text = page.read_text(encoding="utf-8")
     for match in FENCE.finditer(text):
         kind, _, name = match["info"].strip().partition(" ")

@@ -1,4 +1,4 @@
-"""What every driver test may use, and what none may leave behind."""
+"""Common fixtures of driver tests, and a check of what they leave behind."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ def nothing_left_behind() -> Iterator[None]:
 
 
 def _open_files() -> list[str]:
-    """What this process holds open, sorted."""
+    """The open files of this process, sorted."""
     names = []
     for entry in Path("/proc/self/fd").iterdir():
         try:
@@ -34,6 +34,6 @@ def _open_files() -> list[str]:
 
 @pytest.fixture
 def rig() -> Iterator[EmulatedRig]:
-    """The rig that ships, much faster than real time."""
+    """The supplied rig, much faster than real time."""
     with EmulatedRig(load_rig(DEFAULT_RIG), speed=500) as running:
         yield running

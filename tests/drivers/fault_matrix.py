@@ -51,7 +51,7 @@ SETTINGS = Settings(emulated=EmulatedSettings(speed=500.0), limits=LimitSettings
 
 @dataclass(frozen=True)
 class Cell:
-    """How a run with a fault ended."""
+    """The end of a run with a fault."""
 
     seconds: float
     state: State
@@ -69,7 +69,7 @@ class Cell:
 
 
 class Bench:
-    """One station on one emulated rig, for as many cells as wanted."""
+    """One station on one emulated rig, for any number of cells."""
 
     def __init__(
         self, devices: Sequence[str], folder: Path, stack: ExitStack, *, own_times: bool = False
@@ -134,7 +134,7 @@ class Bench:
         return run
 
     def _go_outside(self) -> None:
-        """By hand, as it were: with the drives, past the station."""
+        """Move the drives outside the workspace, without the station."""
         axes = self.runtime.orchestrator._machine.devices.axes
         for axis, angle in zip(axes, OUTSIDE_DEG, strict=True):
             axis.enable()
@@ -144,7 +144,7 @@ class Bench:
             time.sleep(0.01)
 
     def _truth_deg(self) -> tuple[float, float]:
-        """True zero offsets as the drives count now: one that lost counts, or its power, from elsewhere."""
+        """True zero offsets in the drives' present frames, also after lost counts or power."""
         time.sleep(SAVED_S)
         zeros = json.loads((self._folder / "emulated-rig.json").read_text())["zero_pulses"]
         first, second = (zero * DEG_PER_PULSE for zero in zeros)
@@ -170,7 +170,7 @@ class Bench:
         return ""
 
     def _next(self, *, applied: bool) -> str:
-        """The next runs: back into the workspace where needed, zeros as they were, a check or calibration."""
+        """The next runs: return into the workspace if needed, restored zeros, a check or calibration."""
         orchestrator = self.runtime.orchestrator
         deadline_s = time.monotonic() + LIMIT_S
         while not self._found() and time.monotonic() < deadline_s:
@@ -185,18 +185,18 @@ class Bench:
             if self.runtime.store.summary(run).state is not State.SUCCEEDED:
                 return f"no way back: {self._reason(run)}"
         if not applied:
-            run = self._run("check")  # the shortest
+            run = self._run("check")  # the shortest run
             if self.runtime.store.summary(run).verdict == "pass":
                 return ""
-        # Also after a check of a run during which a drive lost counts, now that they are found again.
+        # Also after a check of a run during which a drive lost counts, which are restored now.
         run = self._run("rapid")  # `paper` need not converge with the step of a SIKO head
         if self.runtime.store.summary(run).verdict != "pass":
             return f"the next run: {self._reason(run)}"
-        self.good = run  # what has been applied once is not applied again
+        self.good = run  # zeros that were applied once are not applied again
         return ""
 
     def _found(self) -> bool:
-        """Look at the machine; whether all devices answer again, as they must by themselves."""
+        """Query the machine; returns whether all devices answer again, as they must without help."""
         orchestrator = self.runtime.orchestrator
         orchestrator.while_idle(lambda *_: orchestrator._machine.watch(), LIMIT_S)
         views = orchestrator.snapshot().devices
@@ -208,7 +208,7 @@ class Bench:
 
 @dataclass(frozen=True)
 class Place:
-    """Where a step begins: before the n-th call of a method."""
+    """The beginning of a step: before the n-th call of a method."""
 
     owner: type
     method: str
@@ -226,7 +226,7 @@ _PLACES = {
 
 
 def _before(place: Place, then: Callable[[], None]) -> AbstractContextManager[object]:
-    """Something happens at a place."""
+    """Call a function at a place."""
     original = getattr(place.owner, place.method)
     calls = itertools.count(1)
 
@@ -255,7 +255,7 @@ def _with_short_timeouts(rig: EmulatedRig, settings: Settings) -> Settings:
     scale, servo = found.scale, found.servo
     assert scale is not None and servo is not None
     own = {"timeout_s": SERVO_TIMEOUT_S}
-    if servo.profile == "orientalmotor":  # with several rigs at a time a computer is busy
+    if servo.profile == "orientalmotor":  # with several rigs at a time the computer is busy
         own["watchdog_ms"] = WATCHDOG_MS
     scale_options = scale.options.model_copy(update={"timeout_s": SCALE_TIMEOUT_S})
     return found.model_copy(
@@ -270,7 +270,7 @@ _settings_of_rig = EmulatedRig.settings
 
 
 def cells(faults: Sequence[tuple[str, str]], steps: Sequence[str]) -> Iterator[tuple[tuple[str, str], str]]:
-    """Which there are: a fault of the scale does not touch a way back that does without it."""
+    """The existing cells: a fault of the scale does not affect a return that works without it."""
     yield from product(faults, steps)
 
 
@@ -285,7 +285,7 @@ class Part:
 
 
 def part(number: int, rig: Sequence[str], every: int, own_times: bool) -> Part:
-    """Try the cells of one rig; each is told on standard error as it ends."""
+    """Try the cells of one rig; each result is written to standard error."""
     wrong, longest_s, tried = 0, 0.0, 0
     rows: dict[tuple[str, str], dict[str, str]] = {}
     with tempfile.TemporaryDirectory() as folder, ExitStack() as stack:

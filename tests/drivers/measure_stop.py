@@ -2,7 +2,7 @@
 
 `python -m tests.drivers.measure_stop [TIMES]`: time from the call to the arrival of the stop frame at the
 device, on RS-485 at 38400 (a pseudo-terminal that keeps the time of each byte) and over a TCP gateway that
-serves each connection in order.  The driver is asking the silent drive when the stop comes.
+serves each connection in order.  The driver is querying the silent drive when the stop is requested.
 """
 
 from __future__ import annotations

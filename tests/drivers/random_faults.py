@@ -1,9 +1,9 @@
-"""Readings over lines that spoil one request in a hundred, in every way that a station recovers from.
+"""Readings over lines that disturb one request in a hundred, in every way that a station recovers from.
 
 `python -m tests.drivers.random_faults [--readings N] [--rate P] [--rig SERVO,SCALE,LINE] [--seed S]`: the
 whole station, its database included, moves an emulated machine without noise to random positions.  Each
-stored reading, every sample of it, is compared with what the machine's own physics says of the stored joint
-angles.
+stored reading, with every sample, is compared with the value that the machine's own physics gives for the
+stored joint angles.
 """
 
 from __future__ import annotations
@@ -54,7 +54,7 @@ LIMITS = LimitSettings(speed_deg_s=150.0, settle_s=0.0, samples=3)
 
 
 class RandomOrders(Orders):
-    """Every request may be spoiled."""
+    """Every request may be disturbed."""
 
     def __init__(self, rate: float, rng: Random) -> None:
         super().__init__()
@@ -74,7 +74,7 @@ class RandomOrders(Orders):
 
 @dataclass
 class Outcome:
-    """What came of it."""
+    """The result of a test."""
 
     readings: int = 0
     wrong: list[str] = field(default_factory=list)
@@ -93,7 +93,7 @@ class Outcome:
 
 
 def measured(servo: str, scale: str, line: str, readings: int, rate: float, seed: int) -> Outcome:
-    """So many readings of one rig."""
+    """The given number of readings of one rig."""
     outcome = Outcome()
     orders = RandomOrders(rate, Random(f"{seed} faults"))
     places = Random(f"{seed} positions")
@@ -185,7 +185,7 @@ def _wrong(readings: Iterable[Reading], tolerance_mm: float) -> list[str]:
 
 
 def main() -> int:
-    """0, or 1 where a wrong value was stored."""
+    """0, or 1 if a wrong value was stored."""
     parser = argparse.ArgumentParser(prog="python -m tests.drivers.random_faults")
     parser.add_argument("--readings", type=int, default=10_000, help="of all rigs together")
     parser.add_argument("--rate", type=float, default=0.01, help="share of requests that are spoiled")

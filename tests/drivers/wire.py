@@ -1,4 +1,4 @@
-"""The far end of a line in tests: exact exchanges, nothing missing, wrong or left over."""
+"""The far end of a line in tests: exact exchanges, none missing, wrong or left over."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _PATIENCE_S = 5.0
 
 @dataclass(frozen=True)
 class Say:
-    """An answer that comes after a pause."""
+    """An answer after a pause."""
 
     data: bytes
     after_s: float = 0.0
@@ -29,7 +29,7 @@ class Say:
 
 SILENCE = b""
 NEW_CONNECTION: tuple[bytes, bytes] = (b"", b"")
-"""The far end of a network connection takes the next one before the next exchange."""
+"""The far end of a network connection accepts the next one before the next exchange."""
 Exchange = tuple[bytes, bytes | Say]
 
 
@@ -105,7 +105,7 @@ class PtyEnd(_FarEnd):
         super().__init__(exchanges)
         self._device, self._station = os.openpty()
         tty.setraw(self._station)
-        # a number is given again at once: whoever opens a lost port anew must not find another test's line
+        # a number is assigned again at once: reopening a lost port must not find another test's line
         self._names = tempfile.TemporaryDirectory()
         self.port = f"{self._names.name}/port"
         Path(self.port).symlink_to(os.ttyname(self._station))
@@ -135,7 +135,7 @@ class TcpEnd(_FarEnd):
         self._earlier: list[socket.socket] = []
 
     def _next_connection(self) -> None:
-        """The one before stays open on this side, as a host does that lost its peer without a word."""
+        """The previous one stays open on this side, as on a host that lost its peer silently."""
         if self._connection is not None:
             self._earlier.append(self._connection)
             self._connection = None
@@ -162,7 +162,7 @@ class TcpEnd(_FarEnd):
 
 @contextmanager
 def echoing_port() -> Iterator[str]:
-    """A serial port whose adapter sends back all that it is sent, with nobody else on the line."""
+    """A serial port whose adapter echoes all sent bytes, with no device on the line."""
     device, station = os.openpty()
     tty.setraw(station)
     ended = threading.Event()

@@ -1,4 +1,4 @@
-"""Requests, procedures and kinds of run as tests ask for them."""
+"""Requests, procedures and kinds of run for tests."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def start_procedure(plan: PlanName, robot: Robot, memory: Remembered | None = No
 
 
 def kinds_with(factory: ProcedureFactory) -> Mapping[str, RunKind]:
-    """The kinds of run, with another procedure for what is measured by a plan."""
+    """The kinds of run, with another procedure for runs that measure by a plan."""
     own = {name: kind for name, kind in RUN_KINDS.items() if kind.plans}
     changed = {
         name: replace(kind, procedure=lambda start: factory(start.plan, start.robot))
@@ -41,7 +41,7 @@ def kinds_with(factory: ProcedureFactory) -> Mapping[str, RunKind]:
 
 
 def result(**fields: Any) -> CalibrationResult:
-    """A result, from plain values; a pass unless they say otherwise."""
+    """A result, from plain values; a pass by default."""
     usual = {
         "verdict": "pass",
         "outcome": "good",

@@ -44,7 +44,7 @@ Start = Callable[..., Orchestrator]
 
 @pytest.fixture
 def start(store: Store, rig: Rig) -> Iterator[Start]:
-    """Orchestrators on the fake rig; shut down at the end, after what hangs was released."""
+    """Orchestrators on the fake rig; shut down at the end, after hanging calls were released."""
     with ExitStack() as opened:
 
         def start(

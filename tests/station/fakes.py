@@ -1,4 +1,4 @@
-"""In-process devices that do what they are told at once, and fail where a test asks them to."""
+"""In-process devices that carry out commands at once, and fail where a test requests it."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ CALLS = {
 
 @dataclass
 class Script:
-    """What goes wrong: for one of `CALLS`, from the n-th time on, do this."""
+    """Scripted faults: for one of `CALLS`, from the n-th time on, do this."""
 
     faults: dict[str, tuple[int, Callable[[], None]]] = field(default_factory=dict)
     calls: list[str] = field(default_factory=list)
@@ -69,7 +69,7 @@ class Script:
 
 
 class FakeAxis:
-    """A drive without inertia: it is where it was sent, unless told to keep moving."""
+    """A drive without inertia: it is at its target at once, unless told to keep moving."""
 
     def __init__(self, number: int, script: Script) -> None:
         self.name = f"axis {number}"
@@ -77,7 +77,7 @@ class FakeAxis:
         self.offset_deg = 0.0
         """Actual less nominal joint angle."""
         self.stands_off_deg = 0.0
-        """How far beside its command it comes to rest."""
+        """Deviation from its command at rest."""
         self.enabled = False
         self.alarm: int | None = None
         self.alarm_resettable = True
@@ -140,7 +140,7 @@ class FakeAxis:
 
 
 class FakeScale:
-    """Reads the distance the axes make, minus a constant."""
+    """Reads the distance from the axes, minus a constant."""
 
     def __init__(self, axes: Sequence[FakeAxis], script: Script) -> None:
         self.name = "scale"
@@ -173,7 +173,7 @@ class Rig:
     scale: FakeScale
     devices: Devices
     released: Event = field(default_factory=Event)
-    """Set at the end of the test: what hangs, hangs until then."""
+    """Set at the end of the test: hanging calls wait for it."""
 
 
 def make_rig() -> Rig:

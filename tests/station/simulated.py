@@ -32,7 +32,7 @@ GEOMETRIC_ERRORS_MM = np.array([0.03, -0.02, -0.02, 0.01, 0.01, 0.02, -0.03, -0.
 """e1x e1y e2x e2y L1 L2 l1 l2 of Table 2, groups 1 to 3; groups 4 to 6 have a tenth."""
 DRM_MM = (1.0, 0.5)
 DRAWN_OFFSETS_DEG = (1.1, -0.7)
-"""Of a `Drawn` machine."""
+"""Zero offsets of a `Drawn` machine."""
 TEN = 10
 
 
@@ -44,7 +44,7 @@ def group(number: int) -> Real:
 
 
 def measure(robot: Robot, truth: Real, places: Complex, seed: int, repeats: int = 1) -> Measurements:
-    """Each place read `repeats` times, joints standing on their commanded pulses."""
+    """Each position read `repeats` times, with joints on their commanded pulses."""
     places = np.repeat(places, repeats)
     labels = [f"P{k // repeats}" for k in range(len(places))]
     theta_deg = np.degrees(inverse(robot.geometry, places))
@@ -54,7 +54,7 @@ def measure(robot: Robot, truth: Real, places: Complex, seed: int, repeats: int 
 def read(
     machine: SimulatedMachine, sequence: MeasurementSequence, before: int = 0, samples: int = 1
 ) -> list[Reading]:
-    """A measurement sequence as a run records it, after so many readings."""
+    """A measurement sequence as a run records it, after this many readings."""
     taken = machine.run(sequence.stops, samples)
     return [
         Reading(
@@ -65,7 +65,7 @@ def read(
             float(taken.distance[k]),
             stop.position,
             sequence.number,
-            # only their number counts
+            # only their number is used
             (float(taken.distance[k]),) * samples if samples > 1 else (),
         )
         for k, stop in enumerate(sequence.stops)
@@ -75,7 +75,7 @@ def read(
 def carried_out(
     machine: SimulatedMachine, procedure: Procedure, before: int = 0, samples: int = 1
 ) -> tuple[list[Reading], CalibrationResult]:
-    """A procedure that only measures, to its end."""
+    """Carry out a procedure that only measures, to its end."""
     readings: list[Reading] = []
     try:
         sequence = next(procedure)
@@ -89,7 +89,7 @@ def carried_out(
 
 
 def calibrated(procedure: Procedure, robot: Robot, truth: Real, seed: int) -> CalibrationResult:
-    """What a procedure finds on a machine with errors `truth` (12,)."""
+    """The result of a procedure on a machine with errors `truth` (12,)."""
     return carried_out(SimulatedMachine(robot, truth, "exact", seed), procedure, samples=5)[1]
 
 
@@ -99,7 +99,7 @@ def value_and_sd(result: CalibrationResult) -> tuple[Sequence[float], Sequence[f
 
 
 class Drawn:
-    """A machine with random errors within tolerance and effects as its rig file would say them."""
+    """A machine with random errors within tolerance and effects as in its rig file."""
 
     def __init__(
         self,
@@ -117,7 +117,7 @@ class Drawn:
         self._count = 0
 
     def sequence(self) -> Measurements:
-        """120 readings: ten places three times over, a 9 x 5 grid there and back."""
+        """120 readings: ten positions three times each, a 9 x 5 grid forwards and backwards."""
         grid = ROBOT.workspace_grid(9, 5).reshape(9, 5).copy()
         grid[1::2] = grid[1::2, ::-1]
         there = grid.ravel()
@@ -126,11 +126,11 @@ class Drawn:
         return self._measure(places, [f"r{k}" for k in range(TEN)] * 3 + across + across[::-1])
 
     def fresh(self) -> Measurements:
-        """40 readings at random interior places."""
+        """40 readings at random interior positions."""
         return self._measure(self._interior(40), [f"f{k}" for k in range(40)])
 
     def stand(self, theta_deg: Real) -> Complex:
-        """(K,) mm, where the platform truly stands at joint commands theta_deg (K, 2)."""
+        """(K,) mm, true position of the platform at joint commands theta_deg (K, 2)."""
         return self._machine.stand(theta_deg)
 
     def _interior(self, count: int) -> Complex:
@@ -138,7 +138,7 @@ class Drawn:
         return np.asarray(self._rng.uniform(x0, x1, count) + 1j * self._rng.uniform(y0, y1, count))
 
     def _measure(self, places: Complex, labels: Sequence[str]) -> Measurements:
-        """One reading at each place, commanded by nominal geometry."""
+        """One reading at each position, commanded by nominal geometry."""
         taken = self._machine.visit(np.degrees(inverse(ROBOT.geometry, places)), labels)
         first = self._count + 1
         self._count += len(taken)

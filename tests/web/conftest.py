@@ -30,7 +30,7 @@ from tests.waiting import all_threads_end, soon
 from web.app import create_app
 
 passwords._hasher = PasswordHasher(time_cost=1, memory_cost=8, parallelism=1)
-"""The real cost, 64 MB and a processor for a moment, is looked at in tests/station/people."""
+"""The real cost, 64 MB and a processor for a moment, is tested in tests/station/people."""
 BODY = {"robot_serial": "FB-1", "plan": "paper", "operator": "ada"}
 LIMIT_S = 10.0
 
@@ -43,7 +43,7 @@ def no_thread_left() -> Iterator[None]:
 
 @dataclass
 class Service:
-    """The application and what it stands on."""
+    """The application and its parts."""
 
     client: TestClient
     runtime: Runtime
@@ -55,7 +55,7 @@ class Service:
         return self.client.post("/api/v1/calibrations", json={**BODY, **changes}, headers=headers)
 
     def hold(self) -> int:
-        """Start a run that goes on until it is aborted; its id."""
+        """Start a run that continues until it is aborted; returns its id."""
         self.patch.setattr("station.motion.positioner._ARRIVAL_MARGIN_S", 600.0)
         self.rig.axes[0].stuck = True
         before = self.rig.script.calls.count("axis 1 move_to")
@@ -72,31 +72,31 @@ class Service:
         return {"Authorization": f"Bearer {key}"}
 
     def complete(self, **changes: Any) -> int:
-        """One run from start to end; its id."""
+        """One run from start to end; returns its id."""
         run = int(self.start(**changes).json()["id"])
         assert self.runtime.orchestrator.wait(run, LIMIT_S).ended
         return run
 
     def device(self, name: str) -> dict[str, Any]:
-        """What the station says of one device."""
+        """The station's data of a device."""
         devices: list[dict[str, Any]] = self.client.get("/api/v1/station").json()["devices"]
         return next(device for device in devices if device["name"] == name)
 
     def wait_for(self, call: str, times: int = 1) -> None:
-        """Until the worker has made this call to a device so many times."""
+        """Wait until the worker has made this call to a device this many times."""
         soon(lambda: self.rig.script.calls.count(call) >= times, f"no {call}")
 
 
 @pytest.fixture
 def service(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Service]:
-    """Open, as the emulated rig on a loopback address is."""
+    """An open service, as with the emulated rig on a loopback address."""
     with a_service(tmp_path, monkeypatch) as made:
         yield made
 
 
 @pytest.fixture
 def closed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Service]:
-    """One where everybody signs in."""
+    """A service where everybody has to sign in."""
     service = ServiceSettings(open=False)
     with a_service(tmp_path, monkeypatch, SETTINGS.model_copy(update={"service": service})) as made:
         yield made
@@ -114,7 +114,7 @@ def a_service(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, settings: Settings = SETTINGS
 ) -> Iterator[Service]:
     with a_runtime(tmp_path, settings) as (runtime, rig):
-        # a failure inside the service must come back as its answer, not as the test's exception
+        # a failure inside the service must be returned as its answer, not as the test's exception
         client = TestClient(create_app(runtime), base_url="http://station", raise_server_exceptions=False)
         with client:
             yield Service(client, runtime, rig, monkeypatch)
@@ -134,13 +134,13 @@ def a_runtime(tmp_path: Path, settings: Settings = SETTINGS) -> Iterator[tuple[R
 
 
 def _wait_for_devices(orchestrator: Orchestrator) -> None:
-    """Until they are connected: a stop before that is confirmed by nobody."""
+    """Wait until they are connected: a stop before that has no confirmation."""
     soon(lambda: all(device.state != "unknown" for device in orchestrator.snapshot().devices))
 
 
 @contextmanager
 def listening(app: FastAPI) -> Iterator[int]:
-    """The application behind a real socket of this computer; its port."""
+    """The application behind a real socket of this computer; returns its port."""
     with socket.socket() as listener:
         listener.bind(("127.0.0.1", 0))
         config = uvicorn.Config(app, log_config=None, access_log=False, proxy_headers=False)

@@ -2,9 +2,9 @@
 
     python -m tests.web.fuzz --cases 2000 [--as viewer] [--seed 1]
 
-schemathesis makes the requests, good ones and broken ones; a real service on the emulated machine answers
-them over a socket.  No answer may be a failure of the service; where the table of roles says so it must be a
-refusal; and it must be what the OpenAPI file says.
+schemathesis makes the requests, valid and invalid ones; a real service on the emulated machine answers them
+over a socket. No answer may be a failure of the service; it must be a refusal if the table of roles requires
+it; and it must agree with the OpenAPI file.
 """
 
 from __future__ import annotations
@@ -43,26 +43,26 @@ NOBODY = "nobody"
 EVERYBODY = (NOBODY, *get_args(Role))
 KEPT_OUT = (401, 403)
 ANSWERS = {"/api/v1/stop": 502, "/readyz": 503}
-"""What is an answer there: an axis that has an ordered fault did not confirm, or is not ready."""
+"""Statuses that are valid answers there: an axis with an ordered fault did not confirm, or is not ready."""
 CONFORMING = ("response_schema_conformance", "content_type_conformance", "status_code_conformance")
 WAIT_S = 60.0
 
 
 @dataclass
 class Found:
-    """What came of the requests of one who asks."""
+    """The result of one author's requests."""
 
     cases: int = 0
     statuses: Counter[int] = field(default_factory=Counter)
     wrong: dict[str, str] = field(default_factory=dict)
-    """By what is wrong and where: the first request that showed it."""
+    """The first request for each kind of fault and location."""
 
     def note(self, what: str, case: Any) -> None:
         self.wrong.setdefault(what, case.as_curl_command()[:600])
 
 
 class Asker:
-    """One role, or nobody, against one station."""
+    """One role, or nobody, with one station."""
 
     def __init__(self, who: str, runtime: Runtime, address: str) -> None:
         self.who, self._runtime, self._address = who, runtime, address
@@ -79,7 +79,7 @@ class Asker:
         return {"Authorization": f"Bearer {key}"}
 
     def try_out(self, operation: Any, cases: int, number: int) -> None:
-        """So many requests of one operation."""
+        """This many requests of one operation."""
 
         @seed(number)
         @settings(
@@ -118,12 +118,12 @@ class Asker:
         path, status = case.operation.path, answer.status_code
         name = f"{case.method} {path}"
         if status == 404 and answer.json().get("detail") == "Not Found":
-            return  # no route took it: a serial with a line break, for instance
+            return  # no route matched: a serial with a line break, for instance
         permission = self._needs.get((case.method.upper(), path), Permission.ENTER)
         if status >= 500 and ANSWERS.get(path) != status:
             self.found.note(f"{name}: {status} {answer.text[:200]}", case)
         may = permission is Permission.ENTER or (self.who in ALLOWED[permission])
-        panel = permission is Permission.STOP  # this computer's own stop needs no sign-in
+        panel = permission is Permission.STOP  # a stop from this computer needs no sign-in
         if not (may or panel) and status not in (*KEPT_OUT, 405):
             self.found.note(f"{name}: {self.who} got {status}", case)
         try:
@@ -141,7 +141,7 @@ def _checks() -> list[Any]:
 
 @contextmanager
 def station() -> Iterator[tuple[Runtime, str]]:
-    """On the emulated machine, where everybody signs in."""
+    """A station on the emulated machine, where everybody has to sign in."""
     with tempfile.TemporaryDirectory() as folder:
         wanted = Settings(service=ServiceSettings(open=False), emulated=EmulatedSettings(speed=1000.0))
         with Runtime.open(wanted, Path(folder)) as runtime, listening(create_app(runtime)) as port:
@@ -150,7 +150,7 @@ def station() -> Iterator[tuple[Runtime, str]]:
 
 
 def fuzz(who: str, cases: int, number: int) -> Found:
-    """So many requests as one role, spread over all operations."""
+    """This many requests as one role, spread over all operations."""
     document = kept_description()
     schema = schemathesis.openapi.from_dict(document, config=SchemathesisConfig())
     operations = [found.ok() for found in schema.get_all_operations() if isinstance(found, Ok)]
@@ -173,7 +173,7 @@ def fuzz(who: str, cases: int, number: int) -> Found:
 
 
 def main() -> int:
-    """0, or 1 where something is that must not be."""
+    """0, or 1 if a requirement is violated."""
     parser = argparse.ArgumentParser(prog="python -m tests.web.fuzz")
     parser.add_argument("--cases", type=int, default=2000, help="of each")
     parser.add_argument("--as", dest="who", choices=EVERYBODY, action="append")

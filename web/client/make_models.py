@@ -1,7 +1,7 @@
 """`python web/client/make_models.py` writes the client's models from `web/openapi.json`.
 
-Only what the client reads and sends, by datamodel-code-generator.  Answers are read leniently: a value that a
-later station adds to a list of choices, or a new field, must not stop an older client.
+Only the client's own requests and answers, with datamodel-code-generator. Answers are parsed leniently: a
+value that a later station adds to a list of choices, or a new field, must not stop an older client.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ Schemas = dict[str, JsonValue]
 
 
 def schemas() -> Schemas:
-    """By name, with all that they refer to."""
+    """Schemas by name, with all schemas they refer to."""
     document = json.loads(OPENAPI.read_text(encoding="utf-8"))["components"]["schemas"]
     found: Schemas = {}
     _collect(document, SENT, found, lenient=False)
@@ -40,13 +40,13 @@ def schemas() -> Schemas:
 
 
 def digest() -> str:
-    """Of the schemas and of this file: other models come from another one."""
+    """Digest of the schemas and of this file, which changes if the models change."""
     text = json.dumps(schemas(), sort_keys=True) + Path(__file__).read_text(encoding="utf-8")
     return hashlib.sha256(text.encode()).hexdigest()
 
 
 def header() -> str:
-    """The first lines of the models that fit the schemas of today."""
+    """The first lines of models that match the current schemas."""
     return _HEADER.format(digest=digest())
 
 
@@ -59,7 +59,7 @@ def _collect(document: Schemas, names: tuple[str, ...], found: Schemas, *, lenie
 
 
 def _plain(schema: JsonValue, *, lenient: bool) -> JsonValue:
-    """Without titles, which repeat the name of the field, and limits, which the station checks."""
+    """The schema without titles, which repeat the name of the field, and limits, which the station checks."""
     if isinstance(schema, list):
         return [_plain(one, lenient=lenient) for one in schema]
     if not isinstance(schema, dict):

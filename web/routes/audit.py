@@ -1,4 +1,4 @@
-"""`/audit`: who did what."""
+"""`/audit`: the actions and their authors."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def read_audit(
     cursor: Cursor = None,
     contains: Contained = "",
 ) -> AuditList:
-    """Who started, stopped, applied, changed and signed in.  `station audit` checks the chain too."""
+    """Every start, stop, application, change and sign-in. `station audit` checks the chain too."""
     found = runtime.store.audit(limit=limit + 1, cursor=cursor, contains=contains.strip())
     items, last = page_of(found, limit)
     return AuditList(items=items, next=last.n if last else None)
@@ -44,7 +44,7 @@ def read_audit(
 
 @router.get("/audit.csv", response_class=CsvResponse, dependencies=[needs(Permission.ADMINISTER)])
 def download_audit(runtime: TheRuntime, contains: Contained = "") -> CsvResponse:
-    """All of it, the newest entry first."""
+    """The whole audit, newest entry first."""
     found = runtime.store.audit(limit=_ALL, contains=contains.strip())
     entries = (entry.model_dump(mode="json") for entry in found)
     rows = ([_cell(entry[column]) for column in _COLUMNS] for entry in entries)

@@ -11,7 +11,7 @@ router = Router(prefix="/backups", tags=["backups"])
 
 
 class BackupList(Record):
-    """The newest first."""
+    """Backups, newest first."""
 
     items: list[BackupMade]
     next: None = None
@@ -25,13 +25,13 @@ def list_backups(runtime: TheRuntime) -> BackupList:
 
 @router.post("", status_code=201, response_model=BackupMade, dependencies=[needs(Permission.MAINTAIN)])
 def back_up(runtime: TheRuntime) -> BackupMade:
-    """Make one in the folder of the station file; `file` is its path on the station's computer."""
+    """Make a backup in the folder of the station file; `file` is its path on the station's computer."""
     return runtime.backup()
 
 
 @router.post("/drill", status_code=201, response_model=BackupDrill, dependencies=[needs(Permission.MAINTAIN)])
 def practise_restore(runtime: TheRuntime) -> BackupDrill:
-    """Make one, open it beside the history, check its chains and compare the numbers of rows.
+    """Make a backup, open it beside the history, check its chains and compare the numbers of rows.
 
     The history is not touched.  The restore itself is `station restore`, with the service stopped.
     """

@@ -47,7 +47,7 @@ def start_calibration(
     by: Annotated[Actor, needs(Permission.START)],
     starter: TheStarter,
 ) -> CalibrationSummary:
-    """Start a run.  The same `Idempotency-Key` with the same body answers the same run."""
+    """Start a run. The same `Idempotency-Key` with the same body returns the same run."""
     request = CalibrationRequest(kind=kind_of_plan(body.plan), **dict(body))
     return starter.submit(request, by)
 
@@ -83,13 +83,13 @@ def list_calibrations(
     cursor: Cursor = None,
     order: TheOrder = "newest",
 ) -> CalibrationList:
-    """Page by page, newest first unless asked otherwise."""
+    """Page by page, newest first by default."""
     page = runtime.store.calibrations(limit=limit, cursor=cursor, order=order, **asdict(filters))
     return CalibrationList(items=page.items, next=page.next)
 
 
 class RunCount(Record):
-    """How many runs there are in a list."""
+    """The number of runs in a list."""
 
     count: int
     """At most 10,000."""
@@ -99,7 +99,7 @@ class RunCount(Record):
 
 @router.get("/count", response_model=RunCount, dependencies=[needs(Permission.READ)])
 def count_calibrations(runtime: TheRuntime, filters: TheFilters) -> RunCount:
-    """Of the list with the same filters."""
+    """The number of runs with the same filters as the list."""
     count, more = runtime.store.count(filters)
     return RunCount(count=count, more=more)
 
@@ -136,7 +136,7 @@ async def abort_calibration(
     runtime: TheRuntime,
     later: BackgroundTasks,
 ) -> CalibrationSummary:
-    """End a run at once and make the machine safe; calling it again changes nothing."""
+    """End a run at once and make the machine safe; repeating it is harmless."""
 
     def abort() -> CalibrationSummary:
         _check_own(runtime, calibration_id, by)
@@ -165,7 +165,7 @@ def answer_prompt(
     runtime: TheRuntime,
     operator: CallerName = None,
 ) -> CalibrationSummary:
-    """Answer what a run in state `waiting` asks.  After a value that cannot be it goes on waiting."""
+    """Answer the prompt of a run in state `waiting`. After an impossible value it continues to wait."""
     runtime.orchestrator.answer(calibration_id, body.prompt, body.value, by.name)
     return runtime.store.summary(calibration_id)
 
@@ -177,7 +177,7 @@ def answer_prompt(
     dependencies=[needs(Permission.READ)],
 )
 def translate(calibration_id: CalibrationId, body: TranslateBody, runtime: TheRuntime) -> TranslatedList:
-    """Taught joint positions as the same physical positions under the zeros of this run."""
+    """Convert taught joint positions to the same physical positions under the zeros of this run."""
     change = change_of(runtime.store, calibration_id, body.taught_under)
     change = change.back() if body.back else change
     return TranslatedList(items=list(translated(change, body.positions, runtime.settings.joints)))
@@ -194,7 +194,7 @@ def apply_calibration(
 ) -> CalibrationSummary:
     """Write the zero offsets to the drives, read them back, verify at fresh positions.
 
-    A run of its own; when its verification fails it puts the old zeros back by itself.
+    It is a separate run; if its verification fails, it restores the old zeros automatically.
     """
     return starter.follow("apply", calibration_id, body.operator, by)
 
@@ -208,7 +208,7 @@ def apply_calibration(
 def roll_back_calibration(
     calibration_id: CalibrationId, body: ApplyBody, by: Operating, starter: StarterWithoutKey
 ) -> CalibrationSummary:
-    """Put the old zeros back; a run of its own.  Calling it again answers the run that did it."""
+    """Restore the old zeros, in a separate run. Repeating the request returns the same run."""
     return starter.follow("rollback", calibration_id, body.operator, by)
 
 
@@ -221,15 +221,15 @@ def roll_back_calibration(
 def separate(
     calibration_id: CalibrationId, body: ApplyBody, by: Operating, starter: TheStarter
 ) -> CalibrationSummary:
-    """Distinguish the causes that a diagnostic run left open, by the motion of `/separating`.
+    """Distinguish the causes that a diagnostic run left undecided, by the motion of `/separating`.
 
-    A run of its own: it continues the readings of that run, and new fresh readings confirm.
+    It is a separate run: it continues the readings of that run, and new fresh readings confirm the result.
     """
     return starter.follow("separate", calibration_id, body.operator, by)
 
 
 def _check_own(runtime: Runtime, calibration_id: int, by: Actor) -> None:
-    """:raises Forbidden: a MES ends only what it started."""
+    """:raises Forbidden: a MES may only end runs that it started."""
     if by.role == "mes":
         starter = runtime.store.started_by(calibration_id)
         if starter is None or (starter.via, starter.name) != (by.via, by.name):

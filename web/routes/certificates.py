@@ -22,7 +22,7 @@ router = Router(prefix="/calibrations/{calibration_id}", tags=["calibrations"])
     dependencies=[needs(Permission.READ)],
 )
 def read_certificate(calibration_id: CalibrationId, runtime: TheRuntime) -> Response:
-    """What the run certifies, with its record, its hash and the station's signature."""
+    """The certified content of the run, with its record, its hash and the station's signature."""
     return _issued(runtime, calibration_id, "json", "en")
 
 
@@ -35,7 +35,7 @@ def read_certificate(calibration_id: CalibrationId, runtime: TheRuntime) -> Resp
 def certificate_page(
     calibration_id: CalibrationId, runtime: TheRuntime, language: InLanguage = "en"
 ) -> Response:
-    """One A4 page that needs nothing but itself, with the JSON inside."""
+    """One self-contained A4 page, with the JSON inside."""
     return _issued(runtime, calibration_id, "html", language)
 
 

@@ -1,4 +1,4 @@
-"""`/datasets`: a measurement file made elsewhere becomes a run with its diagnosis.  The rig is not needed."""
+"""`/datasets`: import of a measurement file as a run with its diagnosis. The rig is not needed."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ FILES = ("file", "fresh")
 
 router = Router(prefix="/datasets", tags=["datasets"])
 _one_at_a_time = Lock()
-"""So that many uploads cannot keep the processor from a run, and a key is never used twice at once."""
+"""Many uploads must not take the processor from a run, and a key must not be used twice at once."""
 
 
 @router.post(
@@ -42,11 +42,11 @@ async def import_measurement_file(
     by: Annotated[Actor, needs(Permission.OPERATE)],
     idempotency_key: IdempotencyKey = None,
 ) -> CalibrationSummary:
-    """Diagnose a measurement file and keep it as a finished run of plan `dataset`.
+    """Diagnose a measurement file and store it as a finished run of plan `dataset`.
 
-    A CSV body, or a form with `file` and, to confirm the cause, `fresh`: readings taken afterwards at
-    other places.  Only what fresh readings confirm is a pass.  A refused file leaves nothing behind.
-    The log of a serial arm needs the arm's robot file, kept with `PUT /robots/{serial}` before.
+    A CSV body, or a form with `file` and, to confirm the cause, `fresh`: readings taken afterwards at other
+    positions. Only a result confirmed by fresh readings is a pass. A refused file leaves no data. The log of
+    a serial arm needs the arm's robot file, stored with `PUT /robots/{serial}` before.
     """
     sent = await uploaded(request, *FILES)
     fields = _with(query, sent.fields)
@@ -69,7 +69,7 @@ async def import_measurement_file(
 
 
 def _with(query: DatasetFields, form: Mapping[str, str]) -> DatasetFields:
-    """Form fields count before those of the query.  :raises RequestValidationError:"""
+    """Form fields take precedence over those of the query. :raises RequestValidationError:"""
     try:
         return DatasetFields.model_validate({**query.model_dump(exclude_unset=True), **form})
     except ValidationError as error:

@@ -1,4 +1,4 @@
-"""`/devices`: what maintenance is shown of the devices; `/doctor` looks at them now."""
+"""`/devices`: details of the devices for maintenance; `/doctor` examines them now."""
 
 from __future__ import annotations
 
@@ -15,20 +15,20 @@ from web.problems import documented
 from web.routes.parts import TheRuntime
 
 LOOK_LIMIT_S = 60.0
-"""Longer than every device that is silent, one after the other."""
+"""Longer than for all devices being silent, one after the other."""
 
 router = Router(tags=["maintenance"])
 
 
 class DeviceList(Record):
-    """Scale first."""
+    """Devices, scale first."""
 
     items: list[DeviceDetail]
     next: None = None
 
 
 class Found(Record):
-    """What the examination found, with what it consists of."""
+    """The result of the examination, with its parts."""
 
     text: str
     condition: Literal["ok", "note", "trouble"] = Field(
@@ -49,7 +49,7 @@ class Found(Record):
 
 @router.get("/devices", response_model=DeviceList, dependencies=[needs(Permission.READ)])
 def read_devices(runtime: TheRuntime) -> DeviceList:
-    """State, identity, age of the last answer and round trips, as known; asks no device."""
+    """State, identity, age of the last answer and round trips, as known; no device is queried."""
     return DeviceList(items=list(runtime.orchestrator.device_details()))
 
 
@@ -60,7 +60,7 @@ def read_devices(runtime: TheRuntime) -> DeviceList:
     dependencies=[needs(Permission.MAINTAIN)],
 )
 def examine_devices(runtime: TheRuntime) -> Found:
-    """Look at every device and its line between two runs; nothing moves.  As `station doctor`."""
+    """Examine every device and its line between two runs; nothing moves. As `station doctor`."""
     settings = runtime.settings
     try:
         return Found.of(

@@ -1,4 +1,4 @@
-"""What a run found, under `/calibrations/{id}`: diagnosis, residuals, report, separating motion, solve."""
+"""Results of a run, under `/calibrations/{id}`: diagnosis, residuals, report, separating motion, solve."""
 
 from __future__ import annotations
 
@@ -73,7 +73,7 @@ def read_residuals(calibration_id: CalibrationId, runtime: TheRuntime) -> Residu
     "/separating", response_model=Separating, responses=documented(404), dependencies=[needs(Permission.READ)]
 )
 def read_separating(calibration_id: CalibrationId, runtime: TheRuntime) -> Separating:
-    """The motion that tells the cause from its look-alikes, or why there is none.
+    """The motion that distinguishes the cause from its alternatives, or why there is none.
 
     `POST .../separate` runs it.
     """
@@ -101,7 +101,7 @@ def read_report(
 ) -> HTMLResponse:
     """The diagnosis as a page with drawings, computed again from the stored readings.
 
-    That of an arm's log was kept when the log was imported, in English.
+    The report of an arm's log was stored when the log was imported, in English.
     """
     headers = {"Content-Security-Policy": REPORT_POLICY}
     if (kept := runtime.store.log_documents(calibration_id)) is not None:
@@ -119,7 +119,7 @@ def read_report(
 def solve(calibration_id: CalibrationId, body: SolveBody, runtime: TheRuntime) -> Solution:
     """Joint commands that bring P to the targets under the run's model, with every effect on the position.
 
-    Refused are targets out of reach or beyond what an effect was learned on, and those without the
+    Targets are refused if they are out of reach or outside the learned range of an effect, or without the
     approach, temperature or payload that an effect needs; the problem names target and field.
     """
     check_not_locked(runtime.store, calibration_id)
@@ -133,7 +133,7 @@ def solve(calibration_id: CalibrationId, body: SolveBody, runtime: TheRuntime) -
 
 
 def _again(runtime: Runtime, calibration_id: int) -> tuple[Findings, list[Reading]]:
-    """The diagnosis of a run from its readings.  :raises NotFound: no such run, or it has none."""
+    """The diagnosis of a run, repeated from its readings. :raises NotFound: no such run, or it has none."""
     store = runtime.store
     store.diagnosis(calibration_id)
     readings = store.readings(calibration_id)

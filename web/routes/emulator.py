@@ -21,7 +21,7 @@ router = Router(prefix="/emulator", tags=["emulator"])
     dependencies=[needs(Permission.READ)],
 )
 def read_faults(runtime: TheRuntime) -> list[FaultOrder]:
-    """What is ordered at present."""
+    """The active orders."""
     return list(_seen_rig(runtime).faults)
 
 
@@ -32,9 +32,9 @@ def read_faults(runtime: TheRuntime) -> list[FaultOrder]:
     dependencies=[needs(Permission.MAINTAIN)],
 )
 def order_faults(body: list[FaultOrder], runtime: TheRuntime) -> list[FaultOrder]:
-    """These faults and no others from now on; an empty list takes all back.
+    """Activate these faults and no others; an empty list withdraws all.
 
-    Without `for_s` and `count` a fault stays until it is taken back, except for events (`jump`,
+    Without `for_s` and `count` a fault is active until it is withdrawn, except for events (`jump`,
     `lost_counts`, `reboot`, `alarm`, `following_error`), which happen once.
     """
     return list(_rig(runtime).order(body))
@@ -58,12 +58,12 @@ def read_effects(runtime: TheRuntime) -> list[EffectTable]:
     dependencies=[needs(Permission.MAINTAIN)],
 )
 def order_effects(body: list[EffectTable], runtime: TheRuntime) -> list[EffectTable]:
-    """These imperfections of the machine and no others from now on, as `[[effect]]` of a rig file."""
+    """Activate these imperfections of the machine and no others, as `[[effect]]` of a rig file."""
     return list(_rig(runtime).order_effects(body))
 
 
 def _seen_rig(runtime: TheRuntime) -> EmulatedRig:
-    """:raises NotApplicable: what is ordered was drawn unseen."""
+    """:raises NotApplicable: the ordered effects are hidden by an exercise."""
     rig = _rig(runtime)
     if runtime.training is not None and runtime.training.hides:
         raise NotApplicable("An unseen exercise is under way; reveal it at the training desk first.")

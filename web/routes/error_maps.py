@@ -1,4 +1,4 @@
-"""`/calibrations/{id}/error-map`: how far off the robot may be, place by place, before and after a run."""
+"""`/calibrations/{id}/error-map`: the expected position error over the workspace, before and after a run."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ router = Router(prefix="/calibrations/{calibration_id}", tags=["calibrations"])
     dependencies=[needs(Permission.READ)],
 )
 def read_error_map(calibration_id: CalibrationId, runtime: TheRuntime) -> ErrorMap:
-    """The expected position error over the workspace, and the 95 % bound at each place.
+    """The expected position error over the workspace, and the 95 % bound at each position.
 
-    Computed again from the stored readings; of a run that identified no zero offsets there is none.
+    Computed again from the stored readings; not available for a run that identified no zero offsets.
     """
     return error_map(runtime.store, calibration_id, runtime.settings.joints)

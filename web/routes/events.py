@@ -1,4 +1,4 @@
-"""`/events` for those who pull, `/deliveries` for those who are told."""
+"""`/events` for clients that poll, `/deliveries` for receivers."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ router = Router(tags=["events"])
 
 
 class EventList(Record):
-    """Events in the order in which they happened."""
+    """Events in chronological order."""
 
     items: list[Event]
     next: int | None = Field(description="`after` of the next page, null when there are no more yet")
@@ -36,7 +36,7 @@ def read_events(
     after: Annotated[int, Query(ge=0, le=LARGEST_ID, description="number of the last event known")] = 0,
     limit: Annotated[int, Query(ge=1, le=500)] = 100,
 ) -> EventList:
-    """What happened after event number `after`; ask again with the last `n` for what comes then."""
+    """Events after event number `after`; request again with the last `n` for later ones."""
     items, last = page_of(runtime.store.happenings(after=after, limit=limit + 1), limit)
     return EventList(items=items, next=last.n if last else None)
 
@@ -48,7 +48,7 @@ def read_deliveries(
     limit: Annotated[int, Query(ge=1, le=500)] = 100,
     cursor: Cursor = None,
 ) -> DeliveryList:
-    """How far every event got to every receiver of `[[outbox....]]`."""
+    """The delivery of every event to every receiver of `[[outbox....]]`."""
     found = runtime.store.deliveries(state=state, cursor=cursor, limit=limit + 1)
     items, last = page_of(found, limit)
     return DeliveryList(items=items, next=last.id if last else None)
@@ -62,7 +62,7 @@ def resend(
     by: Annotated[Actor, needs(Permission.MAINTAIN)],
     runtime: TheRuntime,
 ) -> Delivery:
-    """Deliver it again, before all later ones; the receiver knows it by its `uid`."""
+    """Deliver it again, before all later ones; the receiver recognizes it by its `uid`."""
     delivery = runtime.store.resend(delivery_id)
     runtime.store.record(by, "delivery.resent", f"delivery {delivery_id}")
     return delivery

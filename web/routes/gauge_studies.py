@@ -1,4 +1,4 @@
-"""`/calibrations/{id}/gauge-study.*` and `/resume`: what gauge studies say of the station."""
+"""`/calibrations/{id}/gauge-study.*` and `/resume`: evaluation of gauge studies for the station."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ TheStudy = Annotated[StationGauge, Depends(_study)]
     dependencies=[needs(Permission.READ)],
 )
 def read_gauge_study(study: TheStudy) -> StationGauge:
-    """Components of the scatter of zero offsets, with intervals, and what they come from."""
+    """Components of the scatter of zero offsets, with intervals, and their sources."""
     return study
 
 
@@ -58,7 +58,7 @@ def read_gauge_study(study: TheStudy) -> StationGauge:
     dependencies=[needs(Permission.READ)],
 )
 def gauge_study_page(study: TheStudy) -> Response:
-    """The report, as one page that needs nothing but itself."""
+    """The report as one self-contained page."""
     page = gauge_page(study).to_html()
     headers = {"Content-Security-Policy": SELF_CONTAINED}
     return Response(page, media_type="text/html; charset=utf-8", headers=headers)
@@ -86,8 +86,8 @@ def gauge_study_pdf(study: TheStudy) -> Response:
 def resume(
     calibration_id: CalibrationId, body: ApplyBody, by: Operating, starter: TheStarter
 ) -> CalibrationSummary:
-    """Go on with a gauge study that was interrupted, after the last mounting that it finished.
+    """Continue an interrupted gauge study after the last mounting that it finished.
 
-    A run of its own, which takes over the readings of that one.
+    It is a separate run, which takes over the readings of that one.
     """
     return starter.follow("gauge_study", calibration_id, body.operator, by)

@@ -1,4 +1,4 @@
-"""`/healthz` and `/readyz`, for whoever supervises the process."""
+"""`/healthz` and `/readyz`, for process supervision."""
 
 from __future__ import annotations
 
@@ -19,13 +19,13 @@ router = APIRouter(tags=["health"])
 
 @router.get("/healthz", response_model=Alive)
 async def healthz() -> Alive:
-    """200 as long as the process answers at all."""
+    """200 as long as the process answers."""
     return Alive()
 
 
 @router.get("/readyz", response_model=Ready, responses=documented(503))
 async def readyz(runtime: TheRuntime) -> Ready | JSONResponse:
-    """200 when a run could start; else what is missing."""
+    """200 if a run could start; otherwise the missing conditions."""
 
     def look() -> list[str]:
         room = runtime.orchestrator.no_room()

@@ -20,7 +20,7 @@ Administrator = Annotated[Actor, needs(Permission.ADMINISTER)]
 
 
 class KeyBody(Body):
-    """Which program the key is for, and what it may do."""
+    """Name of the program that the key is for, and its role."""
 
     name: PersonName
     role: Role
@@ -30,14 +30,14 @@ class KeyBody(Body):
 
 
 class NewKey(Record):
-    """A key that was made just now."""
+    """A new key."""
 
     key: str = Field(description="for `Authorization: Bearer KEY`; it cannot be shown again")
     kept: ApiKey
 
 
 class KeyList(Record):
-    """Oldest first."""
+    """Keys, oldest first."""
 
     items: list[ApiKey]
     next: None = None
@@ -45,13 +45,13 @@ class KeyList(Record):
 
 @router.get("", response_model=KeyList, dependencies=[needs(Permission.ADMINISTER)])
 def list_keys(runtime: TheRuntime) -> KeyList:
-    """Every key that was ever made, with its last use; the keys themselves are not kept."""
+    """All keys ever made, with their last use; the keys themselves are not stored."""
     return KeyList(items=runtime.store.api_keys())
 
 
 @router.post("", status_code=201, response_model=NewKey)
 def add_key(body: KeyBody, by: Administrator, runtime: TheRuntime, response: Response) -> NewKey:
-    """Make a key; the answer is the only place where it ever stands."""
+    """Make a key; only this answer contains it."""
     kept, key = Administration(runtime.store).add_key(by, body.name, body.role, body.days)
     response.headers["Location"] = f"/api/v1/keys/{kept.id}"
     return NewKey(key=key, kept=kept)
@@ -61,5 +61,5 @@ def add_key(body: KeyBody, by: Administrator, runtime: TheRuntime, response: Res
 def revoke_key(
     key_id: Annotated[int, Path(ge=1, le=LARGEST_ID)], by: Administrator, runtime: TheRuntime
 ) -> ApiKey:
-    """From now on the key opens nothing; it stays in the list.  Again is harmless."""
+    """Revoke the key from now on; it remains in the list. Repeating it is harmless."""
     return runtime.store.revoke_key(by, key_id)

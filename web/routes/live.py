@@ -16,16 +16,16 @@ from web.guarded import Router, needs, who_asks
 from web.live import LiveFeed
 
 NOT_SIGNED_IN = 4401
-"""Close code of a feed whose client is known no more."""
+"""Close code of a feed whose client is no longer signed in."""
 LOOK_EVERY_S = 2.0
-"""So soon a session that ended and a key that was revoked are noticed."""
+"""Interval at which ended sessions and revoked keys are detected."""
 
 router = Router()
 
 
 @router.websocket("/live")
 async def live(websocket: WebSocket, by: Annotated[Actor, needs(Permission.READ)]) -> None:
-    """Feed the client until either side leaves, or it may not watch any more."""
+    """Serve the client until either side leaves, or it may no longer watch."""
     await websocket.accept()
     feed: LiveFeed = websocket.app.state.feed
     async with asyncio.TaskGroup() as tasks:
@@ -38,7 +38,7 @@ async def live(websocket: WebSocket, by: Annotated[Actor, needs(Permission.READ)
 
 
 async def _feed(feed: LiveFeed, websocket: WebSocket) -> None:
-    # who is gone is found out by sending as well as by receiving
+    # a departed client is detected by sending as well as by receiving
     with suppress(WebSocketDisconnect):
         await feed.serve(websocket.send_text)
 

@@ -1,4 +1,4 @@
-"""`/metrics`: what a Prometheus server scrapes.  Asks no device and waits for no run."""
+"""`/metrics`: values for a Prometheus server. Queries no device and waits for no run."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ class MetricsText(Response):
 
 @router.get("/metrics", response_class=MetricsText, dependencies=[needs(Permission.READ)])
 def read_metrics(request: Request, accept: Annotated[str, Header()] = "") -> MetricsText:
-    """In Prometheus' text format, or in that of OpenMetrics where it is asked for."""
+    """In Prometheus' text format, or in that of OpenMetrics if requested."""
     metrics: Metrics = request.app.state.metrics
     content_type, text = metrics.exposed(accept)
     return MetricsText(text, headers={"Content-Type": content_type})

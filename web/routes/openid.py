@@ -1,4 +1,4 @@
-"""`/session/openid`: a browser's way to the plant's provider and back; every end is a view of the page."""
+"""`/session/openid`: sign-in with the plant's provider; every outcome is a view of the page."""
 
 from __future__ import annotations
 
@@ -40,14 +40,14 @@ TheProvider = Annotated[OpenId, Depends(_provider)]
 
 
 class SignInWays(Record):
-    """How somebody can sign in."""
+    """The possible ways to sign in."""
 
     openid: str | None = Field(description="name of the plant's provider, null where there is none")
 
 
 @router.get("/ways", response_model=SignInWays, dependencies=[needs(Permission.ENTER)])
 async def read_ways(request: Request) -> SignInWays:
-    """With name and password, with badge and PIN, and perhaps with a provider at `/session/openid`."""
+    """Name and password, badge and PIN, and optionally a provider at `/session/openid`."""
     provider: OpenId | None = request.app.state.openid
     return SignInWays(openid=provider.label if provider else None)
 
@@ -60,7 +60,7 @@ async def read_ways(request: Request) -> SignInWays:
     dependencies=[needs(Permission.ENTER)],
 )
 async def begin(provider: TheProvider, request: Request) -> RedirectResponse:
-    """For a browser: on to the provider's page."""
+    """For a browser: redirect to the provider's page."""
     earlier = next(iter(sent_sessions(request)), None)
     try:
         begun = await aside(lambda: provider.begin(_here(request, f"{PATH}/callback"), earlier))
@@ -68,7 +68,7 @@ async def begin(provider: TheProvider, request: Request) -> RedirectResponse:
         return _refused(refused)
     answer = RedirectResponse(begun.url, _SEE_OTHER)
     secure = request.url.scheme == "https"
-    # lax: the provider's page leads back here
+    # lax: the provider's page redirects back here
     answer.set_cookie(BROWSER, begun.state, path=PATH, httponly=True, samesite="lax", secure=secure)
     return answer
 
@@ -87,13 +87,13 @@ async def complete(
     request: Request,
     later: BackgroundTasks,
 ) -> RedirectResponse:
-    """Back from the provider: signed in at the page, or at the sign-in with the reason."""
+    """Return from the provider: signed in at the page, or at the sign-in with the reason."""
     given, browser = dict(request.query_params), request.cookies.get(BROWSER)
     try:
         user, earlier = await aside(lambda: provider.complete(given, browser))
     except SignInRefused as refused:
         return _refused(refused)
-    if earlier is not None:  # who signed in before at this page is not there any more
+    if earlier is not None:  # the previous user of this page is no longer there
         await aside(lambda: access.sign_out(earlier))
     cookie = await aside(lambda: access.sign_in_by_provider(user))
     actor = Actor(name=user.name, via="user", role=user.role)
@@ -112,14 +112,14 @@ async def complete(
     dependencies=[needs(Permission.ENTER)],
 )
 async def end(provider: TheProvider, request: Request) -> RedirectResponse:
-    """After `DELETE /session`: on to the provider's own sign-out, which leads back to the sign-in."""
+    """After `DELETE /session`: redirect to the provider's own sign-out, which leads back to the sign-in."""
     back = _here(request, "/sign-in")
     address = await aside(lambda: provider.sign_out_url(back))
     return RedirectResponse(address or "/sign-in", _SEE_OTHER)
 
 
 def _here(request: Request, path: str) -> str:
-    """An address of this station as this browser reaches it; `Borders` has looked at the name."""
+    """An address of this station as this browser reaches it; `Borders` has checked the name."""
     return str(request.base_url.replace(path=path))
 
 

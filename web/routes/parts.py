@@ -1,4 +1,4 @@
-"""What routes ask for by type."""
+"""Parameter and answer types of the routes."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ TheRuntime = Annotated[Runtime, Depends(_runtime)]
 CallerName = Annotated[str | None, Header(alias="X-Operator", max_length=64, description="for the log")]
 IdempotencyKey = Annotated[str | None, Header(alias="Idempotency-Key", min_length=1, max_length=255)]
 LOCATION = {"Location": {"description": "the run's address", "schema": {"type": "string"}}}
-"""The header of an answer that made a run, for OpenAPI."""
+"""The header of an answer that created a run, for OpenAPI."""
 
 
 def file_of(media_type: str) -> dict[int | str, dict[str, Any]]:
@@ -60,10 +60,10 @@ T = TypeVar("T")
 
 
 def page_of(found: list[T], limit: int) -> tuple[list[T], T | None]:
-    """A page of what was read with one item more, and its last item where another page follows."""
+    """A page of the items read, of which there is one more, and its last item if another page follows."""
     return found[:limit], found[limit - 1] if len(found) > limit else None
 
 
 Cursor = Annotated[int | None, Query(ge=1, le=LARGEST_ID, description="`next` of the page before")]
 Moment = Annotated[datetime, BeforeValidator(_no_number)]
-"""A number is refused: `2026` would be taken for seconds since 1970, and the filter would let all pass."""
+"""A number is refused: `2026` would be read as seconds since 1970, and the filter would match everything."""

@@ -1,4 +1,4 @@
-"""`/plans`: what a plan would measure, how long it takes and what accuracy it promises."""
+"""`/plans`: the positions of a plan, its duration and its predicted accuracy."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class PlanOffered(Record):
 
 
 class PlanList(Record):
-    """In the order in which they are offered."""
+    """Plans in the order in which they are offered."""
 
     items: list[PlanOffered]
     next: None = None
@@ -32,7 +32,7 @@ class PlanList(Record):
 
 @router.get("", response_model=PlanList, dependencies=[needs(Permission.READ)])
 def list_plans() -> PlanList:
-    """Every plan that a start may name."""
+    """Every plan that a start request may name."""
     return PlanList(items=[PlanOffered(name=name, recommended=name == RECOMMENDED) for name in PLANS])
 
 

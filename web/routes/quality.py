@@ -1,4 +1,4 @@
-"""`/quality` and `/robots/{serial}/trend`: is the process capable, and where does it move?"""
+"""`/quality` and `/robots/{serial}/trend`: capability and trend of the process."""
 
 from __future__ import annotations
 
@@ -43,8 +43,9 @@ def read_station_trend(
     since: Annotated[Moment | None, Query(description="ended then or later")] = None,
     limit: Annotated[int, Query(ge=1, le=5000)] = 200,
 ) -> Trend:
-    """The newest finished runs of all robots, or of all of one type, oldest first, with control charts, of
-    effects as well."""
+    """The newest finished runs of all robots, or of all of one type, oldest first, with control charts, also
+    of effects.
+    """
     store = runtime.store
     points = store.trend(limit=limit, robot_type=robot_type, since=since, kinds=IN_TREND)
     return trend(None, points, store.effects(limit=limit, robot_type=robot_type, since=since))

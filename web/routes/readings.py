@@ -27,7 +27,7 @@ RUN_UID = "Run-Uid"
     dependencies=[needs(Permission.READ)],
 )
 def list_readings(calibration_id: CalibrationId, runtime: TheRuntime) -> ReadingList:
-    """Every reading of the run, in the order taken; of an arm's log only `readings.csv` has them."""
+    """Every reading of the run, in the order taken; for an arm's log only `readings.csv` has them."""
     if runtime.store.logs_of(calibration_id):
         raise NotApplicable(
             f"Run {calibration_id} was made from the log of an arm; readings.csv is that log as it was."
@@ -44,7 +44,7 @@ def list_readings(calibration_id: CalibrationId, runtime: TheRuntime) -> Reading
     dependencies=[needs(Permission.READ)],
 )
 def download_readings(calibration_id: CalibrationId, runtime: TheRuntime) -> Response:
-    """The measurement file itself, an imported one as it was sent; the header `Run-Uid` says of which run."""
+    """The measurement file itself, an imported one as received; the header `Run-Uid` identifies the run."""
     name = f"calibration-{calibration_id}-readings.csv"
     uid = runtime.store.summary(calibration_id).uid
     headers = {"Content-Disposition": f'attachment; filename="{name}"', RUN_UID: uid}

@@ -1,4 +1,4 @@
-"""`/retract`: the way back into the workspace."""
+"""`/retract`: the return into the workspace."""
 
 from __future__ import annotations
 
@@ -19,5 +19,5 @@ router = Router(tags=["station"])
     responses={202: {"description": "Started", "headers": LOCATION}, **documented(409)},
 )
 def retract(body: ApplyBody, by: Operating, starter: TheStarter) -> CalibrationSummary:
-    """Bring the arm back into its workspace: a slow run of its own, each step reduces the distance to it."""
+    """Bring the arm back into its workspace, in a separate slow run; each step reduces the distance to it."""
     return starter.retract(body.operator, by)

@@ -1,4 +1,4 @@
-"""`/robots`: what is known of one robot, and forgetting it."""
+"""`/robots`: the data of one robot, and clearing its memory."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ router = Router(prefix="/robots", tags=["robots"])
     "/{serial:path}", response_model=Robot, responses=documented(404), dependencies=[needs(Permission.READ)]
 )
 def read_robot(serial: Serial, runtime: TheRuntime) -> Robot:
-    """Its file, and what its next run will know of geometry and mechanism."""
+    """Its file, and the memory of geometry and mechanism for its next run."""
     return _known(runtime, serial)
 
 
@@ -46,7 +46,7 @@ def read_robot(serial: Serial, runtime: TheRuntime) -> Robot:
 def clear_check(
     serial: Serial, body: ClearBody, by: Annotated[Actor, needs(Permission.MAINTAIN)], runtime: TheRuntime
 ) -> CalibrationHolds:
-    """After a failed check an engineer lets calibrated work go on; who and why stay on record."""
+    """An engineer permits work with the calibration after a failed check; person and reason are recorded."""
     holds = runtime.orchestrator.clear_failed_check(serial, body.operator, body.reason)
     runtime.store.record(by, "check.cleared", f"robot {serial}", after={"reason": body.reason})
     return holds
@@ -64,9 +64,9 @@ async def put_robot(
     by: Annotated[Actor, needs(Permission.MAINTAIN)],
     runtime: TheRuntime,
 ) -> Robot:
-    """Keep a robot file, as TOML or as JSON of the same sections; a changed one is a new version.
+    """Store a robot file, as TOML or as JSON of the same sections; a changed one is a new version.
 
-    Runs keep the version that they were made with, and what was remembered of the old one is not used.
+    Runs refer to the version that they were made with, and the memory of the old version is not used.
     """
     kind = request.headers.get("content-type", "").partition(";")[0].strip().lower()
     if kind in TOML:
@@ -100,5 +100,5 @@ def forget(
     runtime: TheRuntime,
     operator: CallerName = None,
 ) -> None:
-    """The next run starts without memory; what was known stays on record.  Again is harmless."""
+    """The next run starts without memory; the old memory remains stored. Repeating it is harmless."""
     runtime.store.forget(serial, by)

@@ -1,4 +1,4 @@
-"""`/calibrations.csv`: the list of runs as a table, sent as it is read."""
+"""`/calibrations.csv`: the list of runs as a table, sent while it is read."""
 
 from __future__ import annotations
 

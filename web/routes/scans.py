@@ -1,4 +1,4 @@
-"""`/scans`: what a scanner at the page may read, and what it read that was refused."""
+"""`/scans`: the codes that a scanner at the page may read, and refused scans."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ Because = Literal["unknown", "unreadable", "nothing_to_confirm"]
 
 
 class ScanCodes(Record):
-    """`[scan]` of the station file.  Patterns are of the whole text, ASCII only."""
+    """`[scan]` of the station file. Patterns match the whole text, ASCII only."""
 
     serial: str
     badge: str
@@ -26,7 +26,7 @@ class ScanCodes(Record):
 
 
 class RefusedScan(BaseModel):
-    """What was scanned, as far as it may be kept, and why it was refused."""
+    """The scanned text, as far as it may be stored, and why it was refused."""
 
     model_config = ConfigDict(extra="forbid")
 
@@ -36,13 +36,13 @@ class RefusedScan(BaseModel):
 
 @router.get("", response_model=ScanCodes, dependencies=[needs(Permission.ENTER)])
 def read_codes(runtime: TheRuntime) -> ScanCodes:
-    """By what the page recognizes a serial number, a badge and the code that confirms."""
+    """Patterns by which the page recognizes a serial number, a badge and the code that confirms."""
     return ScanCodes(**runtime.settings.scan.model_dump())
 
 
 @router.post("/refused", status_code=204)
 def refuse(scan: RefusedScan, by: Annotated[Actor, needs(Permission.OPERATE)], runtime: TheRuntime) -> None:
-    """Keep in the audit that a scan was refused.  A badge opens a session: its text is not kept."""
+    """Record in the audit that a scan was refused. A badge opens a session: its text is not stored."""
     badge = re.fullmatch(runtime.settings.scan.badge, scan.text, re.ASCII)
     runtime.store.record(
         by, "scan.refused", "a badge" if badge else scan.text, after={"because": scan.because}

@@ -35,7 +35,7 @@ class SignInBody(Body):
 
 
 class FirstAdministratorBody(Body):
-    """The secret of the link that the first start printed, and who signs in with it."""
+    """The secret of the link that the first start printed, and the new administrator's credentials."""
 
     secret: Secret
     name: PersonName
@@ -44,7 +44,7 @@ class FirstAdministratorBody(Body):
 
 @router.get("", response_model=SignedIn, dependencies=[needs(Permission.READ)])
 async def read_session(access: TheAccess, request: Request) -> SignedIn:
-    """Who asks, by session or key; 401 where nobody is signed in."""
+    """The author of the request, by session or key; 401 if nobody is signed in."""
     actor: Actor = request.state.actor
     return access.session(actor)
 
@@ -74,7 +74,7 @@ async def sign_in(
         cookie, user = await aside(lambda: access.sign_in(name, password, address))
     else:
         raise FieldRefused("name", "Give name and password, or badge and PIN.")
-    for earlier in sent_sessions(request):  # who signed in before at this page is not there any more
+    for earlier in sent_sessions(request):  # the previous user of this page is no longer there
         await aside(partial(access.sign_out, earlier))
     actor = _actor(user)
     later.add_task(record_later, runtime.orchestrator, actor, "session.begun", f"user {user.id}")
@@ -92,7 +92,7 @@ async def make_first_administrator(
 
 @router.delete("", status_code=204, dependencies=[needs(Permission.ENTER)])
 async def sign_out(access: TheAccess, request: Request, response: Response) -> None:
-    """Sign out; again is harmless."""
+    """Sign out; repeating it is harmless."""
     for cookie in sent_sessions(request):
         await aside(partial(access.sign_out, cookie))
     delete_session(response, request)

@@ -1,4 +1,4 @@
-"""What the routes that start a run share: how it is asked for once, and the answer with the way to it."""
+"""Common parts of the routes that start a run: the idempotency key, and the answer with the run's address."""
 
 from __future__ import annotations
 
@@ -19,36 +19,36 @@ STARTED: dict[int | str, dict[str, Any]] = {
     **documented(409),
 }
 FOLLOWED = {**STARTED, **documented(404)}
-"""Of a run that is about an earlier one."""
+"""The run that another one refers to."""
 
 
 @dataclass(frozen=True, slots=True)
 class Starter:
-    """Starts the run that a request asks for, and answers it."""
+    """Starts the run of a request, and returns it."""
 
     runtime: Runtime
     response: Response
     idempotency_key: str | None = None
 
     def submit(self, request: CalibrationRequest, by: Actor) -> CalibrationSummary:
-        """A run as it is asked for."""
+        """Start a run from a request."""
         orchestrator = self.runtime.orchestrator
         return self._answer(orchestrator.submit(request, idempotency_key=self.idempotency_key, by=by))
 
     def retract(self, operator: str, by: Actor) -> CalibrationSummary:
-        """The way back into the workspace."""
+        """Start the return into the workspace."""
         orchestrator = self.runtime.orchestrator
         return self._answer(orchestrator.retract(operator, idempotency_key=self.idempotency_key, by=by))
 
     def follow(self, kind: str, calibration_id: int, operator: str, by: Actor) -> CalibrationSummary:
-        """A run of this kind about an earlier one."""
+        """Start a run of this kind that refers to an earlier one."""
         submitted = self.runtime.orchestrator.follow(
             kind, calibration_id, operator, idempotency_key=self.idempotency_key, by=by
         )
         return self._answer(submitted)
 
     def _answer(self, submitted: Submitted) -> CalibrationSummary:
-        """The run, with the way to it."""
+        """The run, with its address."""
         self.response.headers["Location"] = f"/api/v1/calibrations/{submitted.id}"
         return self.runtime.store.summary(submitted.id)
 
@@ -65,5 +65,5 @@ async def _without_key(runtime: TheRuntime, response: Response) -> Starter:
 
 TheStarter = Annotated[Starter, Depends(_with_key)]
 StarterWithoutKey = Annotated[Starter, Depends(_without_key)]
-"""For what answers the same run when it is asked for again, with or without a key."""
+"""For requests that return the same run when repeated, with or without a key."""
 Operating = Annotated[Actor, needs(Permission.OPERATE)]

@@ -1,4 +1,4 @@
-"""`/station`: devices, interlocks, live values and the run under way."""
+"""`/station`: devices, interlocks, live values and the active run."""
 
 from __future__ import annotations
 
@@ -12,5 +12,5 @@ router = Router(tags=["station"])
 
 @router.get("/station", response_model=StationView, dependencies=[needs(Permission.READ)])
 def read_station(runtime: TheRuntime, access: TheAccess) -> StationView:
-    """The whole station at this moment."""
+    """The complete current state of the station."""
     return runtime.orchestrator.snapshot().as_open(access.open)

@@ -1,4 +1,4 @@
-"""`/stop`: the quick stop, past every queue."""
+"""`/stop`: the quick stop, which overtakes every queue."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ async def stop(
         axes = await aside(lambda: orchestrator.stop(by.name), timeout_s=STOP_TIMEOUT_S)
     except TimeoutError:
         axes = dict.fromkeys(orchestrator.axes, f"no answer within {STOP_TIMEOUT_S:g} s")
-    except Exception as error:  # whatever fails here: who stops must get an answer about the axes
+    except Exception as error:  # after any failure here the caller must still get an answer about the axes
         log.exception("The stop failed")
         axes = dict.fromkeys(orchestrator.axes, f"the stop failed ({type(error).__name__})")
     stopped = Stopped.of(axes)

@@ -24,7 +24,7 @@ ALL: tuple[ChallengeGroup, ...] = ("catalogue", "unnamed", "fault")
 
 
 class ChallengeBody(Body):
-    """What is to be wrong with the machine."""
+    """The error to give the machine."""
 
     kind: Annotated[str, Field(max_length=64)]
     joint: Literal[1, 2] | None = Field(default=None, description="where the kind is at a joint")
@@ -34,27 +34,27 @@ class ChallengeBody(Body):
 
 
 class DrawBody(Body):
-    """From which groups something is drawn unseen."""
+    """Groups from which a hidden error is drawn."""
 
     groups: Annotated[tuple[ChallengeGroup, ...], Field(min_length=1, max_length=3)] = ALL
 
 
 @router.get("", response_model=TrainingView, responses=documented(404), dependencies=[needs(Permission.READ)])
 def read_training(runtime: TheRuntime) -> TrainingView:
-    """What can be chosen, the exercise under way and those done; what is unseen is not told."""
+    """The possible errors, the current exercise and the completed ones; a hidden error is not shown."""
     return _desk(runtime).view()
 
 
 @router.post("", status_code=201, response_model=TrainingView, responses=documented(404, 409))
 def choose(body: ChallengeBody, by: Trainer, runtime: TheRuntime) -> TrainingView:
-    """Begin an exercise: this is wrong with the machine, and nothing else, until it is repaired."""
+    """Begin an exercise: the machine has this error, and no other, until it is repaired."""
     view = _desk(runtime).choose(body.kind, body.joint, body.size)
     return _recorded(view, by, runtime)
 
 
 @router.post("/draw", status_code=201, response_model=TrainingView, responses=documented(404, 409))
 def draw(body: DrawBody, by: Trainer, runtime: TheRuntime) -> TrainingView:
-    """Begin an exercise with something that is drawn and told only when asked for or after a run."""
+    """Begin an exercise with a hidden error that is revealed on request or after a run."""
     return _recorded(_desk(runtime).draw(body.groups), by, runtime)
 
 
@@ -65,7 +65,7 @@ def draw(body: DrawBody, by: Trainer, runtime: TheRuntime) -> TrainingView:
     dependencies=[needs(Permission.MAINTAIN)],
 )
 def reveal(runtime: TheRuntime) -> TrainingView:
-    """Tell what was drawn."""
+    """Reveal the hidden error."""
     return _desk(runtime).reveal()
 
 
@@ -76,12 +76,12 @@ def reveal(runtime: TheRuntime) -> TrainingView:
     dependencies=[needs(Permission.MAINTAIN)],
 )
 def repair(runtime: TheRuntime) -> TrainingView:
-    """Take away every effect and every fault, also those of `/emulator/effects` and `/emulator/faults`."""
+    """Remove every effect and every fault, also those of `/emulator/effects` and `/emulator/faults`."""
     return _desk(runtime).repair()
 
 
 def _recorded(view: TrainingView, by: Actor, runtime: TheRuntime) -> TrainingView:
-    if view.current is not None:  # without what it is: the audit is read while it is unseen
+    if view.current is not None:  # without its content: the audit is readable while it is hidden
         runtime.store.record(by, "training.begun", f"exercise {view.current.n}")
     return view
 

@@ -1,4 +1,4 @@
-"""`/users`: who signs in at the page.  Passwords, PINs and badges come in, and never go out."""
+"""`/users`: the users who sign in at the page. Passwords, PINs and badges are never returned."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ Administrator = Annotated[Actor, needs(Permission.ADMINISTER)]
 
 
 class UserBody(Body):
-    """Somebody who is to sign in: with a password, with badge and PIN, or with either."""
+    """A new user: with a password, with badge and PIN, or with both."""
 
     name: PersonName
     role: Role
@@ -34,7 +34,7 @@ class UserBody(Body):
 
 
 class UserChangeBody(Body):
-    """What is to be different; what is left out stays."""
+    """The changes; omitted fields are unchanged."""
 
     role: Role | None = None
     disabled: bool | None = Field(default=None, description="true: kept, signed off, not let in again")
@@ -47,7 +47,7 @@ class UserChangeBody(Body):
 
 
 class UserList(Record):
-    """By name."""
+    """Users, by name."""
 
     items: list[User]
     next: None = None
@@ -55,13 +55,13 @@ class UserList(Record):
 
 @router.get("", response_model=UserList, dependencies=[needs(Permission.ADMINISTER)])
 def list_users(runtime: TheRuntime) -> UserList:
-    """Everybody who was added and not removed, also the disabled."""
+    """All users who were added and not removed, also disabled ones."""
     return UserList(items=runtime.store.users())
 
 
 @router.post("", status_code=201, response_model=User)
 async def add_user(body: UserBody, by: Administrator, runtime: TheRuntime, response: Response) -> User:
-    """Add somebody, who may sign in at once."""
+    """Add a user, who can sign in at once."""
     new = NewUser(**body.model_dump())
     user = await aside(lambda: Administration(runtime.store).add_user(by, new))
     response.headers["Location"] = f"/api/v1/users/{user.id}"
@@ -70,12 +70,12 @@ async def add_user(body: UserBody, by: Administrator, runtime: TheRuntime, respo
 
 @router.patch("/{user_id}", response_model=User, responses=documented(404, 409))
 async def change_user(user_id: UserId, body: UserChangeBody, by: Administrator, runtime: TheRuntime) -> User:
-    """Another role, password, badge or PIN, disabled or enabled; it holds from the next request on."""
+    """Change role, password, badge or PIN, disable or enable; valid from the next request on."""
     change = UserChange(**body.model_dump())
     return await aside(lambda: Administration(runtime.store).change_user(by, user_id, change))
 
 
 @router.delete("/{user_id}", status_code=204, responses=documented(404, 409))
 def remove_user(user_id: UserId, by: Administrator, runtime: TheRuntime) -> None:
-    """Remove somebody and sign them off; the audit keeps what they did."""
+    """Remove a user and end their sessions; their actions remain in the audit."""
     Administration(runtime.store).remove_user(by, user_id)

@@ -1,4 +1,4 @@
-"""`/versions`: what this station consists of, for whoever has to report it."""
+"""`/versions`: the components of this station, for fault reports."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ LIBRARIES = (
 
 
 class Versions(Record):
-    """Versions of the program and of what it runs on."""
+    """Versions of the program and of its platform."""
 
     program: str
     schema_step: str = Field(description="last step that was applied to the tables of the history")
@@ -36,7 +36,7 @@ class Versions(Record):
 
 @router.get("/versions", response_model=Versions, dependencies=[needs(Permission.READ)])
 def read_versions(runtime: TheRuntime, request: Request) -> Versions:
-    """Everything that a report of a fault should name."""
+    """All versions that a fault report should contain."""
     feed: LiveFeed = request.app.state.feed
     return Versions(
         program=__version__,

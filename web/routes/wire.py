@@ -1,4 +1,4 @@
-"""`/calibrations/{id}/wire`: what crossed the wires in a run, request by request."""
+"""`/calibrations/{id}/wire`: the wire traffic of a run, request by request."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ router = Router(prefix="/calibrations/{calibration_id}", tags=["maintenance"])
 
 
 class WireList(Record):
-    """In the order in which they happened."""
+    """Exchanges in chronological order."""
 
     items: list[WireExchange]
     next: int | None = Field(description="cursor of the next page, null on the last")
@@ -35,7 +35,7 @@ def read_wire(
         int, Query(ge=0, le=LARGEST_ID, description="`next` of the page before: how many to pass over")
     ] = 0,
 ) -> WireList:
-    """Each request with its answer and how long that took.  As `station wire`."""
+    """Each request with its answer and the elapsed time. As `station wire`."""
     header, *lines = runtime.store.wire_log(calibration_id)
     items = exchanges(header, lines)
     end = cursor + limit

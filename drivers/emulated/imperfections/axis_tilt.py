@@ -9,10 +9,10 @@ from drivers.emulated.imperfections.base import JointEffect, Lengths, Scene
 
 
 class AxisTilt(JointEffect):
-    """An arm that turns about a tilted axis leaves the plane; its shadow in the plane is shorter and askew.
+    """An arm that turns about a tilted axis leaves the plane; its projection is shorter and rotated.
 
-    The axis leans by `tilt_deg` towards `towards_deg`: of the arm's two components the one in that
-    direction is shortened by cos(tilt), the one across stays.
+    The axis leans by `tilt_deg` towards `towards_deg`: of the arm's two components the one in that direction
+    is shortened by cos(tilt), the one across stays.
     """
 
     stage: ClassVar[int] = 3

@@ -12,8 +12,8 @@ _CENTRES_MM = {1: (80.0, 0.0), 2: (-80.0, 0.0)}
 class BaseFlex(Effect):
     """The post that carries both joints bends by the platform's moment, which is proportional to x.
 
-    Both joint centres go aside by `sideways_mm` and turn about the base by `roll_deg` where P is at
-    x = `reach_mm`, the other way on the other side; the foot of the mechanism stands on its own.
+    Both joint centres move sideways by `sideways_mm` and turn about the base by `roll_deg` where P is at x =
+    `reach_mm`, the other way on the other side; the foot of the mechanism is separate.
     """
 
     kind: Literal["base_flex"] = "base_flex"

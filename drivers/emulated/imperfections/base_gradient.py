@@ -12,7 +12,7 @@ class BaseGradient(Effect):
     """A motor warms one bracket of the base, which grows up and outwards with the time constant.
 
     The centre of that joint moves by `out_mm` away from the other and by `up_mm`, when all is warm; the
-    thermometer on the machine is on the other side and sees nothing.
+    thermometer on the machine is on the other side and does not detect it.
     """
 
     kind: Literal["base_gradient"] = "base_gradient"

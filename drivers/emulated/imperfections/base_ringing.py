@@ -1,4 +1,4 @@
-"""Base that still rings when it is read (outside the diagnosis's catalogue)."""
+"""Base that still oscillates when it is read (outside the diagnosis's catalogue)."""
 
 import math
 from typing import Literal
@@ -9,10 +9,10 @@ from drivers.emulated.imperfections.base import Effect, Scene
 
 
 class BaseRinging(Effect):
-    """A stop rings the machine on its soft feet, and the head sees the end of it.
+    """A stop makes the machine oscillate on its soft feet, and the head detects the end of it.
 
-    From rest on the reading swings with `frequency_hz` and dies out with `tau_s`; its start is
-    `mm_at_100_deg_per_s` times the sum of the joints' signed top speeds over 100 deg/s.
+    From standstill on, the reading oscillates with `frequency_hz` and decays with `tau_s`; its initial
+    amplitude is `mm_at_100_deg_per_s` times the sum of the joints' signed top speeds over 100 deg/s.
     """
 
     kind: Literal["base_ringing"] = "base_ringing"

@@ -1,4 +1,4 @@
-"""Joint centre that runs out (outside the diagnosis's catalogue)."""
+"""Joint centre with runout (outside the diagnosis's catalogue)."""
 
 import math
 from typing import Literal
@@ -7,7 +7,7 @@ from drivers.emulated.imperfections.base import Effect, JointNumber, Scene
 
 
 class BearingRunout(Effect):
-    """An oval race carries the joint's centre round a small circle, `waves` times in a turn of the arm."""
+    """An oval race moves the joint's centre on a small circle, `waves` times per turn of the arm."""
 
     kind: Literal["bearing_runout"] = "bearing_runout"
     joint: JointNumber

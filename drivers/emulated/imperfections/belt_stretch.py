@@ -9,10 +9,10 @@ from drivers.emulated.imperfections.base import JointEffect, Scene
 
 
 class BeltStretch(JointEffect):
-    """A belt drive yields to the arm's weight, the more the slacker the belt.
+    """A belt drive deflects under the arm's weight, more with a slacker belt.
 
-    The slackness changes with the cube of the travel: the sag of a horizontal arm is `deg_at_horizontal`
-    at the drive's zero and (1 + `change`) times that where the joint has turned `reach_deg`.
+    The slackness changes with the cube of the travel: the sag of a horizontal arm is `deg_at_horizontal` at
+    the drive's zero and (1 + `change`) times that where the joint has turned `reach_deg`.
     """
 
     stage: ClassVar[int] = 3

@@ -10,8 +10,8 @@ from drivers.emulated.imperfections.base import JointEffect, Scene
 class CableDrag(JointEffect):
     """A loom that is stretched at one end of the joint's range holds the arm back, against its motion.
 
-    The arm lags by `deg_at_end` where the joint has turned `reach_deg` from the drive's zero, in
-    proportion before, the other way round beyond zero.
+    The arm lags by `deg_at_end` where the joint has turned `reach_deg` from the drive's zero, in proportion
+    before, with opposite sign beyond zero.
     """
 
     stage: ClassVar[int] = 3

@@ -8,7 +8,7 @@ from drivers.emulated.imperfections.base import JointEffect, Scene
 
 
 class CountSlip(JointEffect):
-    """From its `from_stop`-th stop on the arm stands `step_deg` beside what the drive counts."""
+    """From its `from_stop`-th stop on, the arm deviates by `step_deg` from the drive's count."""
 
     stage: ClassVar[int] = 0
 

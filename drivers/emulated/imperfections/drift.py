@@ -6,7 +6,7 @@ from drivers.emulated.imperfections.base import Effect, Scene
 
 
 class Drift(Effect):
-    """A mounting that relaxes: the reading creeps in proportion to time, whatever the machine does."""
+    """A mounting that relaxes: the reading creeps in proportion to time, independent of the motion."""
 
     kind: Literal["drift"] = "drift"
     mm_per_hour: float

@@ -7,9 +7,9 @@ from drivers.emulated.imperfections.base import JointEffect, Scene
 
 
 class EncoderEccentricity(JointEffect):
-    """The disc's centre is beside the axis, so its angle is wrong by a sine once in a turn.
+    """The disc's centre is offset from the axis, so its angle error is a sine once per turn.
 
-    The servo loop brings the *encoder* to its target; the error is what the arm stands beside it.
+    The servo loop brings the *encoder* to its target; the error is the arm's deviation from it.
     """
 
     stage: ClassVar[int] = 0

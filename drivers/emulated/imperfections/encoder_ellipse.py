@@ -1,4 +1,4 @@
-"""Encoder that errs twice a turn (outside the diagnosis's catalogue)."""
+"""Encoder with an error twice per turn (outside the diagnosis's catalogue)."""
 
 import math
 from typing import ClassVar, Literal
@@ -7,7 +7,7 @@ from drivers.emulated.imperfections.base import JointEffect, Scene
 
 
 class EncoderEllipse(JointEffect):
-    """A code disc clamped to an oval errs by a sine `waves` times in a turn of the joint."""
+    """A code disc clamped to an oval: its error is a sine `waves` times per turn of the joint."""
 
     stage: ClassVar[int] = 0
 

@@ -1,4 +1,4 @@
-"""Magnetised or damaged place of the scale (outside the diagnosis's catalogue)."""
+"""Magnetised or damaged point of the scale (outside the diagnosis's catalogue)."""
 
 import math
 from typing import Literal
@@ -9,7 +9,7 @@ from drivers.emulated.imperfections.base import Effect, Scene
 
 
 class FieldBump(Effect):
-    """Around one place of its travel the head misreads: a bell of height `height_mm`, sd `half_width_mm`."""
+    """Around one point of its travel the head misreads: a bell of height `height_mm`, sd `half_width_mm`."""
 
     kind: Literal["field_bump"] = "field_bump"
     rho_mm: float

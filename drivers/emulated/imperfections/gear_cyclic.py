@@ -9,7 +9,7 @@ from drivers.emulated.imperfections.base import JointEffect, Scene
 
 
 class GearCyclic(JointEffect):
-    """A wheel that runs out makes its ratio swing, `per_rev` times in one turn of the joint."""
+    """A wheel with runout makes its ratio vary, `per_rev` times per turn of the joint."""
 
     stage: ClassVar[int] = 1
 

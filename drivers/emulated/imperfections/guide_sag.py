@@ -8,10 +8,10 @@ from drivers.emulated.imperfections.base import Effect, Scene
 
 
 class GuideSag(Effect):
-    """The further it is drawn out and the more it leans aside, the more the guide rod sags.
+    """The guide rod sags more the further it is extended and the more it is inclined.
 
-    The head's reading errs with the square of the travel times the place: `mm_at_corner` where the rod
-    is drawn out `draw_mm` beyond `short_mm` and P is at x = `reach_mm`.
+    The head's reading error is proportional to the square of the travel times the position: `mm_at_corner`
+    where the rod is extended `draw_mm` beyond `short_mm` and P is at x = `reach_mm`.
     """
 
     kind: Literal["guide_sag"] = "guide_sag"

@@ -1,4 +1,4 @@
-"""Readout that jumps and comes back (outside the diagnosis's catalogue)."""
+"""Readout that jumps and returns (outside the diagnosis's catalogue)."""
 
 from typing import Literal
 
@@ -8,7 +8,7 @@ from drivers.emulated.imperfections.base import Effect, Scene
 
 
 class HealingStep(Effect):
-    """A chip under the slider adds `step_mm` from the `from_stop`-th stop on, gone `for_stops` later."""
+    """A chip under the slider adds `step_mm` from the `from_stop`-th stop on, for `for_stops` stops."""
 
     kind: Literal["healing_step"] = "healing_step"
     step_mm: float = 0.02

@@ -1,4 +1,4 @@
-"""Play in the passive joint at an elbow."""
+"""Clearance in the passive joint at an elbow."""
 
 import math
 from typing import Literal
@@ -9,10 +9,10 @@ from drivers.emulated.imperfections.base import Effect, JointNumber, Lengths, Sc
 
 
 class JointClearance(Effect):
-    """The pin lies against that side of its bore towards which the load pulls it.
+    """The load pulls the pin against one side of its bore.
 
-    The distal link carries the weight of P together with its neighbour; pulled, it acts `mm`
-    longer, pushed `mm` shorter.  Which of the two it is follows from equilibrium at P.
+    The distal link carries the weight of P together with its neighbour; pulled, it acts `mm` longer, pushed
+    `mm` shorter.  Equilibrium at P determines which of the two applies.
     """
 
     kind: Literal["joint_clearance"] = "joint_clearance"

@@ -7,10 +7,10 @@ from drivers.emulated.imperfections.base import Effect, Lengths, Scene
 
 
 class LinkBend(Effect):
-    """A distal link hangs through between its ends, and its chord is shorter than the link.
+    """A distal link sags between its ends, and its chord is shorter than the link.
 
-    By `mm_at_horizontal` where the link lies flat; the sag goes with the cosine of its slope, the
-    shortening with its square.
+    The shortening is `mm_at_horizontal` for a horizontal link; the sag is proportional to the cosine of its
+    slope, the shortening to the square of that.
     """
 
     kind: Literal["link_bend"] = "link_bend"

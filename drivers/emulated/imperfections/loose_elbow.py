@@ -1,4 +1,4 @@
-"""Loose passive joint that friction drags over (outside the diagnosis's catalogue)."""
+"""Loose passive joint moved by friction (outside the diagnosis's catalogue)."""
 
 from typing import Literal
 
@@ -8,10 +8,10 @@ from drivers.emulated.imperfections.base import Effect, JointNumber, Lengths, Sc
 
 
 class LooseElbow(Effect):
-    """The elbow's pin is pushed ahead by the arm: it lies at one side of its bore or the other.
+    """The elbow's pin is pushed ahead by the arm: it is at one side of its bore or the other.
 
-    After a motion that lifts the elbow (joint 1 positive, joint 2 negative) the distal link acts
-    `mm` longer, after the other one `mm` shorter.
+    After a motion that lifts the elbow (joint 1 positive, joint 2 negative) the distal link acts `mm` longer,
+    after the other one `mm` shorter.
     """
 
     kind: Literal["loose_elbow"] = "loose_elbow"

@@ -1,4 +1,4 @@
-"""Head that sits a little differently at every stop (outside the diagnosis's catalogue)."""
+"""Head with a slightly different position at every stop (outside the diagnosis's catalogue)."""
 
 from random import Random
 from typing import Literal
@@ -9,7 +9,7 @@ from drivers.emulated.imperfections.base import Effect, Scene
 
 
 class LooseHead(Effect):
-    """The head is loose on its carrier and sits differently at each stop, with standard deviation `sd_mm`."""
+    """The head is loose on its carrier and shifts at each stop, with standard deviation `sd_mm`."""
 
     kind: Literal["loose_head"] = "loose_head"
     sd_mm: float = Field(default=0.01, ge=0)

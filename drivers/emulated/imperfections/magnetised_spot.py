@@ -9,7 +9,7 @@ from drivers.emulated.imperfections.base import Effect, Scene
 
 
 class MagnetisedSpot(Effect):
-    """A magnet has touched the scale: the head is led ahead before the spot and held back behind it.
+    """A magnet has touched the scale: the head reads ahead before the spot and behind after it.
 
     The error is the slope of a bell about `rho_mm`, with its extremes of `peak_mm` at `half_width_mm` on
     either side.

@@ -9,7 +9,7 @@ from drivers.emulated.imperfections.base import Effect, Scene
 
 
 class Outliers(Effect):
-    """Dirt on the grating: with probability `rate` a stop reads `size_mm` too much or too little."""
+    """Contamination on the grating: with probability `rate` a stop reads `size_mm` too much or too little."""
 
     kind: Literal["outliers"] = "outliers"
     rate: float = Field(ge=0, le=1)

@@ -1,4 +1,4 @@
-"""Platform that hangs askew (outside the diagnosis's catalogue)."""
+"""Platform that tilts (outside the diagnosis's catalogue)."""
 
 from typing import Literal
 
@@ -8,9 +8,9 @@ from drivers.emulated.imperfections.base import Effect, Scene, turned
 
 
 class PlatformTilt(Effect):
-    """The platform turns about P as it swings aside, and takes the mechanism's joint O_2 along.
+    """The platform turns about P as it moves sideways, and moves the mechanism's joint O_2.
 
-    O_2 hangs at (0, -`arm_mm`) from P; the turn is `deg_at_reach` at x = `reach_mm`, in proportion before.
+    O_2 is at (0, -`arm_mm`) from P; the turn is `deg_at_reach` at x = `reach_mm`, in proportion before.
     """
 
     kind: Literal["platform_tilt"] = "platform_tilt"

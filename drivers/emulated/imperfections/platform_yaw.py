@@ -1,4 +1,4 @@
-"""Platform that a distal link drags round (outside the diagnosis's catalogue)."""
+"""Platform turned by a distal link (outside the diagnosis's catalogue)."""
 
 import math
 from typing import Literal
@@ -12,8 +12,8 @@ _AT_HOME_DEG = {1: 56.528, 2: 123.472}
 class PlatformYaw(Effect):
     """A tight joint at P couples the platform to one distal link: it turns by `share` of that link's turn.
 
-    The link's turn counts from where it points with the arms at their zeros; O_2 hangs at (0, -`arm_mm`)
-    from P.
+    The link's turn is relative to its direction with the arms at their zeros; O_2 is at (0, -`arm_mm`) from
+    P.
     """
 
     kind: Literal["platform_yaw"] = "platform_yaw"

@@ -1,4 +1,4 @@
-"""Reading that wanders (outside the diagnosis's catalogue)."""
+"""Reading with a random walk (outside the diagnosis's catalogue)."""
 
 from random import Random
 from typing import Literal
@@ -9,7 +9,7 @@ from drivers.emulated.imperfections.base import Effect, Scene
 
 
 class RandomWalk(Effect):
-    """A loose head mount that settles anew with every move: each stop shifts it by `mm_per_stop` (sd)."""
+    """A loose head mount that settles again after every motion: each stop shifts it by `mm_per_stop` (sd)."""
 
     kind: Literal["random_walk"] = "random_walk"
     mm_per_stop: float = Field(ge=0)

@@ -1,4 +1,4 @@
-"""Readout that has jumped (outside the diagnosis's catalogue)."""
+"""Readout with a jump (outside the diagnosis's catalogue)."""
 
 from typing import Literal
 
@@ -8,7 +8,7 @@ from drivers.emulated.imperfections.base import Effect, Scene
 
 
 class ReadingStep(Effect):
-    """A knock moves the head on its carrier: from the `from_stop`-th stop on it reads `step_mm` more."""
+    """An impact moves the head on its carrier: from the `from_stop`-th stop on it reads `step_mm` more."""
 
     kind: Literal["reading_step"] = "reading_step"
     step_mm: float = 0.02

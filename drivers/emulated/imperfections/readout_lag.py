@@ -1,4 +1,4 @@
-"""Display that still holds a part of its last value (outside the diagnosis's catalogue)."""
+"""Display that retains a part of its last value (outside the diagnosis's catalogue)."""
 
 from typing import Literal
 
@@ -8,7 +8,7 @@ from drivers.emulated.imperfections.base import Effect, LastStop, Scene
 
 
 class ReadoutLag(Effect):
-    """The display's filter is too slow: it shows `share` of the way back to the value of the last stop."""
+    """The display's filter is too slow: it retains `share` of the difference to the last stop's value."""
 
     kind: Literal["readout_lag"] = "readout_lag"
     share: float = Field(default=0.00015, ge=0, le=1)

@@ -8,8 +8,8 @@ from drivers.emulated.imperfections.base import JointEffect, LastStop, Scene
 
 
 class ReversalSlip(JointEffect):
-    """A loose clamp gives at each reversal: forwards by `deg_up` where the motion turns positive, back by
-    `deg_down` where it turns negative.  Where the two differ the zero creeps away.
+    """A loose clamp slips at each reversal: forwards by `deg_up` where the motion becomes positive, back by
+    `deg_down` where it becomes negative. If the two differ, the zero creeps.
     """
 
     stage: ClassVar[int] = 0

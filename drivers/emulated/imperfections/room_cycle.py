@@ -9,7 +9,7 @@ from drivers.emulated.imperfections.base import Effect, Scene
 
 
 class RoomCycle(Effect):
-    """The thin carrier of the head breathes with the room's air: a sine in time that no thermometer sees."""
+    """The thin carrier of the head expands with the room's air: a sine in time, unseen by any thermometer."""
 
     kind: Literal["room_cycle"] = "room_cycle"
     amplitude_mm: float = 0.014

@@ -8,7 +8,7 @@ from drivers.emulated.imperfections.base import Effect, Scene
 
 
 class ScaleBow(Effect):
-    """On a bent guide the head tilts, and by its distance from the line measured (Abbe) it misreads.
+    """On a bent guide the head tilts, and its distance from the measured line causes an (Abbe) error.
 
     The error is a parabola: nothing at mid-travel, `mm_at_end` at both ends.
     """

@@ -8,7 +8,7 @@ from drivers.emulated.imperfections.base import Effect, Play, Scene
 
 
 class ScaleHysteresis(Effect):
-    """The slider's friction tilts the head; it follows `width_mm` late, so the reading lags the travel."""
+    """The slider's friction tilts the head; it lags by `width_mm`, so the reading lags the travel."""
 
     follows_path: ClassVar[bool] = True
 

@@ -6,7 +6,7 @@ from drivers.emulated.imperfections.base import Effect, JointNumber, Scene
 
 
 class SinkingBearing(Effect):
-    """The wedge under one bracket gives way: its joint's centre goes down by `mm_per_min`."""
+    """The wedge under one bracket slips: its joint's centre sinks by `mm_per_min`."""
 
     kind: Literal["sinking_bearing"] = "sinking_bearing"
     joint: JointNumber

@@ -10,8 +10,8 @@ from drivers.emulated.imperfections.base import Effect, Play, Scene
 class SliderDrag(Effect):
     """The head's cable tightens as the slider moves out, and tilts the head against its motion.
 
-    The head follows late, by nothing where the scale stands at `slack_mm` and by `width_mm` a
-    hundred millimetres further out.
+    The head lags by zero where the scale is at `slack_mm`, and by `width_mm` a hundred millimetres further
+    out.
     """
 
     follows_path: ClassVar[bool] = True

@@ -8,7 +8,7 @@ from drivers.emulated.imperfections.base import Effect, JointNumber, Lengths, Sc
 
 
 class SlippingLink(Effect):
-    """The clamp of one distal link lets go once: from the `from_stop`-th stop on the link is `mm` longer."""
+    """The clamp of one distal link slips once: from the `from_stop`-th stop on the link is `mm` longer."""
 
     kind: Literal["slipping_link"] = "slipping_link"
     joint: JointNumber

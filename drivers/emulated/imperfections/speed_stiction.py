@@ -8,7 +8,7 @@ from drivers.emulated.imperfections.base import JointEffect, Scene
 
 
 class SpeedStiction(JointEffect):
-    """An arm that comes slowly has its grease squeezed out and sticks short of its place.
+    """An arm that arrives slowly has its grease squeezed out and sticks short of its target.
 
     It lags its last motion by `deg` / (1 + top speed / `frees_deg_per_s`).
     """

@@ -1,4 +1,4 @@
-"""Sticky place of the guide (outside the diagnosis's catalogue)."""
+"""Sticky section of the guide (outside the diagnosis's catalogue)."""
 
 import math
 from typing import ClassVar, Literal
@@ -9,7 +9,7 @@ from drivers.emulated.imperfections.base import Effect, Play, Scene
 
 
 class StickyPatch(Effect):
-    """Dry grease around one place: the head follows up to `width_mm` late, a bell of sd `radius_mm`."""
+    """Dry grease around one point: the head lags by up to `width_mm`, a bell of sd `radius_mm`."""
 
     follows_path: ClassVar[bool] = True
 

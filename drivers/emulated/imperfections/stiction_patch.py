@@ -1,4 +1,4 @@
-"""A sticky or dented place of the guide (outside the diagnosis's catalogue)."""
+"""Sticky or dented section of the guide (outside the diagnosis's catalogue)."""
 
 import math
 from typing import Literal
@@ -9,7 +9,7 @@ from drivers.emulated.imperfections.base import Effect, Scene
 
 
 class StictionPatch(Effect):
-    """Around one place of the workspace the slider hangs back: a bell of depth `depth_mm`, sd `radius_mm`."""
+    """Around one point of the workspace the slider lags: a bell of depth `depth_mm`, sd `radius_mm`."""
 
     kind: Literal["stiction_patch"] = "stiction_patch"
     x_mm: float

@@ -9,7 +9,7 @@ from drivers.emulated.imperfections.base import Effect, JointNumber, Scene
 
 
 class StiffeningSag(Effect):
-    """Both gears wind up under their arms' weight, less and less the more teeth come to bear.
+    """Both gears wind up under their arms' weight, with increasing stiffness as more teeth engage.
 
     At a share cos(theta) of the full load the sag is `deg_at_horizontal` times (1 + k) cos / (1 + k |cos|)
     with k = `stiffening`; k = 0 is a linear spring.

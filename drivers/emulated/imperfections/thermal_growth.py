@@ -11,7 +11,7 @@ from drivers.emulated.imperfections.base import Effect, Lengths, Scene
 class ThermalGrowth(Effect):
     """The temperature rises by `rise_k` with time constant `tau_s`; links and scale grow with it.
 
-    A grown scale reads too little, in proportion to the travel.  A coefficient of zero leaves a part out.
+    A grown scale reads too little, in proportion to the travel.  A coefficient of zero excludes a part.
     """
 
     kind: Literal["thermal_growth"] = "thermal_growth"

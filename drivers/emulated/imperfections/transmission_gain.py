@@ -1,4 +1,4 @@
-"""Ratio of a transmission that is not what it says."""
+"""Transmission ratio that differs from its nominal value."""
 
 from typing import ClassVar, Literal
 
@@ -6,7 +6,7 @@ from drivers.emulated.imperfections.base import JointEffect, Scene
 
 
 class TransmissionGain(JointEffect):
-    """A friction or belt stage turns the joint `ppm` millionths further than the drive counts."""
+    """A friction or belt stage turns the joint `ppm` millionths further than the drive's count."""
 
     stage: ClassVar[int] = 1
 

@@ -1,4 +1,4 @@
-"""Joint zero that wanders (outside the diagnosis's catalogue)."""
+"""Joint zero with a random walk (outside the diagnosis's catalogue)."""
 
 from random import Random
 from typing import ClassVar, Literal
@@ -9,7 +9,7 @@ from drivers.emulated.imperfections.base import JointEffect, Scene
 
 
 class WanderingZero(JointEffect):
-    """A clamp that creeps with every move: each stop shifts the arm by `deg_per_stop` (sd), unseen."""
+    """A clamp that creeps with every motion: each stop shifts the arm by `deg_per_stop` (sd), undetected."""
 
     stage: ClassVar[int] = 0
 

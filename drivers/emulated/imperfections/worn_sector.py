@@ -9,7 +9,7 @@ from drivers.emulated.imperfections.base import JointEffect, Scene
 
 
 class WornSector(JointEffect):
-    """Where the gear has worked most its teeth are worn, and the arm sinks into the gap there.
+    """The teeth are worn where the gear was used most, and the arm sinks into the gap there.
 
     The wear is a cosine hump of depth `deg` at the travel `at_deg`, `sector_deg` wide from edge to edge.
     """

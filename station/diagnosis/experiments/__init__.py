@@ -1,8 +1,8 @@
-"""Experiments that decide between explanations, each rated by the probability that it will.
+"""Experiments that decide between explanations, each rated by the probability that it decides.
 
-`in_question` holds the explanations to decide between; `outcomes` says what an experiment would read under
-each of them, and how often one of them would then be left; `further_motion` chooses the stops of more
-motion; `by_hand` has what a person has to do; `rating` puts all in order.
+`in_question` holds the explanations to decide between. `outcomes` predicts the readings of an experiment
+under each explanation, and how often one explanation would then remain. `further_motion` chooses the stops of
+additional motion. `by_hand` lists the experiments that a person has to do. `rating` sorts all of them.
 """
 
 from __future__ import annotations

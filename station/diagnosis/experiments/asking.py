@@ -1,4 +1,4 @@
-"""Readings as they would be taken: where, from which side, when; and what an explanation says of them."""
+"""Planned readings (position, side of approach, time), and what an explanation predicts for them."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ RUN_UP = np.radians(1.0)
 
 
 def asked(found: ExplanationSet, places: Complex, sides: Real, stops: int) -> Measurements:
-    """Readings at places (K,) from sides (K, 2), in the middle of an experiment of so many stops."""
+    """Readings at positions (K,) from sides (K, 2), in the middle of an experiment of this many stops."""
     learned = found.mechanism.measurements
     robot, p = found.mechanism.robot, found.shown.x[: found.shown.size]
     theta = inverse(robot.geometry, places) - p[:2]
@@ -40,19 +40,19 @@ def asked(found: ExplanationSet, places: Complex, sides: Real, stops: int) -> Me
 
 
 def placed(mechanism: FiveBar, p: Real, before: Real) -> Measurements:
-    """The readings of a mechanism with the distances that they would have, come from `before` (K, 2)."""
+    """The readings of a mechanism with their nominal distances, where the arm comes from `before` (K, 2)."""
     m = mechanism.measurements
     here, there = (mechanism.observe(p, angles).value for angles in (m.theta, before))
     return replace(m, distance=here, came_from=np.column_stack([before, there]))
 
 
 def _all(column: Real | None, count: int) -> Real | None:
-    """As at the end of the readings."""
+    """The conditions at the end of the readings."""
     return None if column is None else np.full(count, column[-1])
 
 
 def outcome(found: ExplanationSet, mechanism: FiveBar, hypothesis: Hypothesis) -> Outcome:
-    """What one explanation says of the readings of a mechanism."""
+    """What one explanation predicts for the readings of a mechanism."""
     settled = hypothesis.settled
     residual, jacobian = tangent(mechanism, found.weighing.reference, settled)
     sd = specified_as(found.weighing, mechanism) * settled.level

@@ -1,4 +1,4 @@
-"""Experiments that a person has to do: what each explanation says that they would read."""
+"""Experiments that a person has to do, with the readings that each explanation predicts."""
 
 from __future__ import annotations
 
@@ -20,18 +20,18 @@ MOUNT_BESIDE_MM = 200.0
 GRID = (8, 5)
 ANGLES = 5
 REFERENCE_SD = np.radians(0.005)
-"""Of a good level or index."""
+"""Standard uncertainty of a good level or index."""
 GAUGE_PLACES, GAUGE_SD_MM, START_SD_MM = 10, 2e-3, 10.0
 KNOWN_SHARE = 0.5
-"""Standard deviation of what a payload adds, relative to it: compliance per kilogram is not known."""
+"""Relative standard deviation of the effect of a payload: compliance per kilogram is not known."""
 LOADED = frozenset(
     {"platform by load", "mechanism by load", "bearing under load", "frame under load", "link under load"}
 )
-"""Unnamed errors that grow with the load; sag is the named one."""
+"""Unnamed errors that grow with the load; the named one is sag."""
 
 
 def second_mount(found: ExplanationSet, some: Sequence[Hypothesis]) -> list[Outcome]:
-    """The mechanism at another point of the base, known as well as the first."""
+    """The mechanism at another point of the base, known as well as the first one."""
     learned = found.mechanism
     robot = learned.robot
     mounts = {**robot.mounts, MOUNT: (robot.c[0] + MOUNT_BESIDE_MM, robot.c[1])}
@@ -62,7 +62,7 @@ def joint_reference(found: ExplanationSet, some: Sequence[Hypothesis], joint: in
 
 
 def payload(found: ExplanationSet, some: Sequence[Hypothesis]) -> list[Outcome]:
-    """The same positions with a payload that about doubles what sags."""
+    """The same positions with a payload that about doubles the sag."""
     places, sides = _stops(found)
     mechanism = found.mechanism.of(asked(found, places, sides, len(places)))
     out = []
@@ -80,7 +80,7 @@ def payload(found: ExplanationSet, some: Sequence[Hypothesis]) -> list[Outcome]:
 
 
 def gauge(found: ExplanationSet, some: Sequence[Hypothesis]) -> list[Outcome]:
-    """The reading against a known length, over the travel; where it starts is not known."""
+    """The reading against a known length, over the travel; its start is not known."""
     situation = found.weighing.frame.situation
     s = _at_once(situation.take(_spread(situation.travel, GAUGE_PLACES)))
     out = []
@@ -96,14 +96,14 @@ def gauge(found: ExplanationSet, some: Sequence[Hypothesis]) -> list[Outcome]:
 
 
 def _stops(found: ExplanationSet) -> tuple[Complex, Real]:
-    """Places over the workspace, each from another side than the one before."""
+    """Positions over the workspace, each approached from a different side than the previous one."""
     places = found.mechanism.robot.workspace_grid(*GRID)
     sides = np.array([SIDES[k % len(SIDES)] for k in range(len(places))], dtype=float)
     return places, sides
 
 
 def _at_once(s: Situation) -> Situation:
-    """Nothing changes with time or temperature during the experiment."""
+    """The same time and temperature during the whole experiment."""
     count = len(s)
     rise = None if s.rise is None else np.full(count, s.rise[-1])
     return replace(s, t_s=np.full(count, s.t_s.max()), rise=rise)
@@ -114,7 +114,7 @@ def _loaded(family: Family) -> bool:
 
 
 def _on(family: Family, s: Situation, member: int, target: str) -> Real:
-    """(N, q) what a unit of each amplitude adds to one target."""
+    """(N, q) contribution of a unit of each amplitude to one target."""
     out: Real = np.zeros((len(s), family.width))
     for action in family.actions(s, family.hidden[member : member + 1]):
         if action.target == target:
@@ -123,6 +123,6 @@ def _on(family: Family, s: Situation, member: int, target: str) -> Real:
 
 
 def _spread(values: Real, count: int) -> Index:
-    """Rows at evenly spread values."""
+    """Rows at evenly spaced values."""
     order = np.argsort(values, kind="stable")
     return np.asarray(order[np.linspace(0, len(order) - 1, count).astype(int)])

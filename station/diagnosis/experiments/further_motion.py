@@ -1,4 +1,4 @@
-"""Further motion: readings where the explanations disagree most beyond noise and their own uncertainty."""
+"""Further motion: readings at which the explanations differ most, relative to noise and uncertainty."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ from station.records import Complex, Real
 
 PLACES = (17, 9)
 INSET_MM = 4.0
-"""Kept free of the workspace's edge for the run-up."""
+"""Distance from the workspace's edge that is kept free for the run-up."""
 WORTH, APART = 2.0 * ALIAS, 4.0
-"""Chi-square to be expected between two explanations: enough of it, and worth mentioning."""
+"""Expected chi-square between two explanations: enough to decide, and worth mentioning."""
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,7 @@ class Motion:
     sides: Real
     """(N, 2)"""
     outcomes: tuple[Outcome, ...]
-    """What each explanation says of them."""
+    """The prediction of each explanation."""
     apart: tuple[int, ...]
     """Numbers of the explanations that they should distinguish from the first."""
 
@@ -41,14 +41,14 @@ class Motion:
 def motion(
     found: ExplanationSet, some: Sequence[Hypothesis], count: int, grid: tuple[int, int] = PLACES
 ) -> Motion:
-    """The best so many readings, chosen one after another."""
+    """The best selection of this many readings, chosen one after another."""
     places, sides = _candidates(found, grid)
     mechanism = found.mechanism.of(asked(found, places, sides, count))
     said = [outcome(found, mechanism, one) for one in some]
     disputes = {k: _Dispute.between(said[0], said[k]) for k in range(1, len(some))}
     chosen: list[int] = []
     for _ in range(count):
-        # for the dispute that one more reading brings furthest, as long as any is open
+        # for the pair that one more reading advances most, as long as any is undecided
         still = [d for d in disputes.values() if d.expected < WORTH] or list(disputes.values())
         best = int(np.argmax(max(still, key=lambda d: float(d.gain.max())).gain))
         chosen.append(best)
@@ -59,7 +59,7 @@ def motion(
 
 
 def _candidates(found: ExplanationSet, grid: tuple[int, int]) -> tuple[Complex, Real]:
-    """(K,) places of the workspace and (K, 2) senses of approach there."""
+    """(K,) positions of the workspace and (K, 2) senses of approach there."""
     robot = found.mechanism.robot
     (x0, x1), (y0, y1) = robot.workspace_x, robot.workspace_y
     x = np.linspace(x0 + INSET_MM, x1 - INSET_MM, grid[0])
@@ -73,13 +73,13 @@ class _Dispute:
     """Two explanations over the candidates, given the stops chosen so far."""
 
     difference: Real
-    """(K,) of their predictions, less what the stops chosen leave no doubt about."""
+    """(K,) difference of their predictions, less the part that the chosen stops already determine."""
     root: Real
-    """(K, X) whose square is the covariance of what both do not know, without noise."""
+    """(K, X) root of the covariance of what both leave uncertain, without noise."""
     noise: Real
     """(K,) variance of a reading."""
     expected: float = 0.0
-    """Chi-square that the stops chosen promise between the two."""
+    """Chi-square between the two that is expected from the chosen stops."""
 
     @classmethod
     def between(cls, one: Outcome, other: Outcome) -> Self:
@@ -105,7 +105,7 @@ class _Dispute:
 
 
 def _nearest_first(places: Complex, chosen: list[int]) -> list[int]:
-    """A way that always goes to the nearest place left, its repeats one after another."""
+    """A path that always goes to the nearest remaining position; repeats follow each other."""
     left = sorted(chosen)
     way = [left.pop(0)]
     while left:

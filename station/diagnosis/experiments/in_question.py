@@ -11,7 +11,7 @@ from station.five_bar import FiveBar
 
 LEAST, MOST = 0.01, 8
 FLAT_SD_MM = 1e3
-"""Of a reading offset that nothing is known of."""
+"""Prior standard deviation of a reading offset about which nothing is known."""
 
 
 @dataclass(frozen=True)
@@ -22,7 +22,7 @@ class Hypothesis:
     probability: float
 
     def of(self, mechanism: FiveBar, learned: FiveBar) -> Hypothesis:
-        """The same for a mechanism with further parameters, of which the prior alone is known."""
+        """The same for a mechanism with further parameters, for which only the prior is known."""
         names = [p.name for p in learned.parameters]
         old, q = self.settled, len(self.settled.x) - self.settled.size
         mean = mechanism.start

@@ -1,4 +1,4 @@
-"""What an experiment would read under each explanation, and how often it would decide between them."""
+"""The readings that each explanation predicts for an experiment, and how often it decides between them."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ class Outcome:
     mean: Real
     """(N,)"""
     root: Real
-    """(N, X) whose square is the covariance of what the explanation leaves open."""
+    """(N, X) root of the covariance of what the explanation leaves uncertain."""
     noise: Real
     """(N,) variance of a reading."""
 
@@ -34,23 +34,24 @@ class Outcome:
 
     @classmethod
     def linear(cls, mean: Real, jacobian: Real, covariance: Real, noise_sd: Real | float) -> Outcome:
-        """From derivatives (N, X) by unknowns with this covariance (X, X)."""
+        """An outcome from derivatives (N, X) by unknowns with this covariance (X, X)."""
         noise = np.broadcast_to(np.asarray(noise_sd) ** 2, mean.shape)
         return cls(mean, jacobian @ root_of(covariance), noise)
 
     def beside(self, column: Real) -> Outcome:
-        """With one more unknown of unit variance, which adds this (N,)."""
+        """The same with one more unknown of unit variance, which adds this (N,)."""
         return replace(self, root=np.column_stack([self.root, column]))
 
     def take(self, rows: Sequence[int]) -> Outcome:
-        """Some of the readings; one taken twice has noise of its own each time."""
+        """A selection of the readings; one that is taken twice has separate noise each time."""
         return Outcome(self.mean[list(rows)], self.root[list(rows)], self.noise[list(rows)])
 
 
 def decides(outcomes: Sequence[Outcome], probability: Sequence[float], seed: int = 0) -> float:
-    """The probability that one explanation holds 0.95 afterwards.
+    """The probability that one explanation has a probability of 0.95 afterwards.
 
-    An explanation is drawn by its probability, then readings under it, then all are weighed anew.
+    An explanation is drawn by its probability, then readings under it; then all explanations are weighed
+    again.
     """
     rng = np.random.default_rng(seed)
     prior = np.array(probability) / np.sum(probability)

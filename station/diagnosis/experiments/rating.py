@@ -1,4 +1,4 @@
-"""Every experiment that the station or a person can do, by the probability that it will decide."""
+"""All experiments that the station or a person can do, rated by the probability that they decide."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Rated:
 
 
 def rated(found: ExplanationSet) -> tuple[Rated, ...]:
-    """Best first; none where there is nothing to decide."""
+    """Best first; empty if there is nothing to decide."""
     some = hypotheses(found)
     if len(some) < 2:
         return ()
@@ -50,7 +50,7 @@ def _motion(found: ExplanationSet, some: Sequence[Hypothesis]) -> list[Outcome]:
 
 
 def _reference(found: ExplanationSet, some: Sequence[Hypothesis], probability: Sequence[float]) -> Rated:
-    """Of the joint that decides better."""
+    """The experiment at the joint that decides better."""
     values = [decides(joint_reference(found, some, joint), probability) for joint in (1, 2)]
     best = int(np.argmax(values))
     return Rated("joint_reference", TEXTS["joint_reference"].format(joint=best + 1), values[best])

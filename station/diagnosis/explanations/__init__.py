@@ -1,7 +1,7 @@
 """Explanations with probabilities instead of one winner (method.md section 4, docs/decisions/0013).
 
-`explain` weighs the base model, every effect alone, natural pairs and sets of up to three effects, and errors
-without a name against each other; everything reported is that of the whole set.
+`explain` weighs the base model, every effect alone, natural pairs, sets of up to three effects, and unnamed
+errors against each other. Every reported figure is that of the whole set.
 """
 
 from __future__ import annotations

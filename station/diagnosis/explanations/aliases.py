@@ -1,4 +1,4 @@
-"""Which named errors these readings cannot tell from another: projected signatures alike to nine tenths."""
+"""Named errors that these readings cannot distinguish: their projected signatures agree to 0.9."""
 
 from __future__ import annotations
 
@@ -9,13 +9,13 @@ import numpy as np
 from station.diagnosis.explanations.evidence import Bank, Choice
 
 ALIKE = 0.9
-"""Cosine between the signature that was fitted and what another error can make of it."""
+"""Cosine between the fitted signature and the closest one that another error can produce."""
 
 
 def aliases(bank: Bank, choices: Sequence[Choice], index: int) -> tuple[int, ...]:
-    """Families alike to error `index` of a set, the others of the set taken as known."""
+    """Families that cannot be distinguished from error `index` of a set, with the others of the set known."""
     others = bank.known([c for k, c in enumerate(choices) if k != index])
-    # what the others take up is seen by the square root of what they leave
+    # a part that the others take up is scaled by the square root of the share that they leave
     shrink = 1.0 - np.sqrt(1.0 - others.share)
 
     def left(columns: np.ndarray) -> np.ndarray:

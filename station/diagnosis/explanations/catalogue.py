@@ -15,7 +15,7 @@ from station.diagnosis.explanations.structured_families import structured_famili
 
 
 def catalogue(s: Situation, lengths: Mapping[str, float], *, thermometer: bool) -> tuple[Family, ...]:
-    """For the readings of `s`, nominal lengths by name (mm), and whether a temperature was recorded."""
+    """Families for the readings of `s`, nominal lengths by name (mm), and whether it has temperatures."""
     return (
         *rough_families(s, lengths, thermometer=thermometer),
         *smooth_families(s),

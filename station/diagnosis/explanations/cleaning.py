@@ -1,4 +1,4 @@
-"""Glitches: single readings that no explanation can hold are left out by name, before and after weighing."""
+"""Glitches: readings that no explanation accounts for, excluded by id before and after weighing."""
 
 from __future__ import annotations
 
@@ -19,9 +19,9 @@ from station.records import Real
 
 LARGEST_SHARE = 0.1
 APPROACH_STEPS = 3
-"""Rounds of steps where the base model has no minimum to speak of."""
+"""Number of steps where the base model has no useful minimum."""
 FAR_OFF, WELL_PREDICTED = 5.5, 4.0
-"""Standard deviations from the best explanation: left out, and taken back."""
+"""Standard deviations from the best explanation: beyond the first excluded, within the second taken back."""
 Mask = NDArray[np.bool_]
 
 
@@ -31,9 +31,9 @@ def solved(mechanism: FiveBar, reference: Reference, row_sd: Real) -> Solution:
 
 
 def start(mechanism: FiveBar, reference: Reference) -> tuple[Real, Real]:
-    """(P,) base parameters near the minimum, and what they leave of each reading (K,), mm.
+    """(P,) base parameters near the minimum, and their residual for each reading (K,), mm.
 
-    Where an error is so large that no minimum is found, a few steps towards it serve as well.
+    Where an error is so large that no minimum is found, a few steps towards it are sufficient.
     """
     row_sd = mechanism.row_sd
     try:
@@ -48,7 +48,7 @@ def start(mechanism: FiveBar, reference: Reference) -> tuple[Real, Real]:
 
 
 def suspects(mechanism: FiveBar, reference: Reference) -> Mask:
-    """(K,) readings that disagree with the rest and with their own place, if they are few and single."""
+    """(K,) readings that disagree with the others and with their own position, if few and isolated."""
     m = mechanism.measurements
     none = np.zeros(len(m), dtype=bool)
     try:
@@ -62,9 +62,9 @@ def suspects(mechanism: FiveBar, reference: Reference) -> Mask:
 
 
 def judged(mechanism: FiveBar, reference: Reference, best: Settled, row_sd: Real) -> Real:
-    """(K,) how far all readings of `mechanism` are off the best explanation, in standard deviations.
+    """(K,) deviation of all readings of `mechanism` from the best explanation, in standard deviations.
 
-    The scatter of the majority is the yardstick.
+    The scatter of the majority is the reference.
     """
     p = best.x[: best.size]
     more = added(at_readings(mechanism, p, reference), best.present)

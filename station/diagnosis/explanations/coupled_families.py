@@ -1,6 +1,6 @@
 """Unnamed errors of a part that something else drives: another part, or time.
 
-A joint yields as the other arm turns; frame, links and mechanism move slowly, or slip.
+A joint deflects as the other arm turns; frame, links and mechanism move slowly, or slip.
 """
 
 from __future__ import annotations
@@ -17,11 +17,11 @@ from station.records import Real
 
 PARTS = ("L1", "L2", "l1", "l2", "e1x", "e1y", "e2x", "e2y")
 SLIPS_SELDOM = 0.02
-"""Prior weight of a part that moves once: a head or a drive does so far more often."""
+"""Prior weight of a part that moves once: this is far more frequent for a head or a drive."""
 
 
 def coupled_families(s: Situation) -> tuple[Family, ...]:
-    """For the readings of `s`."""
+    """Families for the readings of `s`."""
     course = _course(s)
     return (
         *(_by_other_joint(joint) for joint in (1, 2)),
@@ -33,7 +33,7 @@ def coupled_families(s: Situation) -> tuple[Family, ...]:
 
 
 def _by_other_joint(joint: int) -> Family:
-    """The angle of a joint, by that of the other."""
+    """The error of a joint as a function of the angle of the other."""
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
         return [Action(f"joint{joint}", wave(s.theta[:, 2 - joint], [h["per_turn"] for h in hidden]))]
@@ -43,7 +43,7 @@ def _by_other_joint(joint: int) -> Family:
 
 
 def _moving(targets: tuple[str, ...], kind: str, weight: float, course: Shapes) -> Family:
-    """A part moves steadily, or ever faster or slower."""
+    """A part moves steadily, or with increasing or decreasing speed."""
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
         return side_by_side(targets, [course(s)[None] for _ in targets])
@@ -52,7 +52,7 @@ def _moving(targets: tuple[str, ...], kind: str, weight: float, course: Shapes) 
 
 
 def _mounting(course: Shapes) -> Family:
-    """The same of the point where the mechanism hangs."""
+    """The same for the point where the mechanism is mounted."""
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
         return [of_mechanism(s, course(s))]
@@ -61,7 +61,7 @@ def _mounting(course: Shapes) -> Family:
 
 
 def _slipped(part: str, moments: tuple[Hidden, ...]) -> Family:
-    """A link in its clamp, or a bearing in its seat, moves once."""
+    """A link moves once in its clamp, or a bearing in its seat."""
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
         return [Action(part, stepped(s.t_s, hidden))]
@@ -70,7 +70,7 @@ def _slipped(part: str, moments: tuple[Hidden, ...]) -> Family:
 
 
 def _course(s: Situation) -> Shapes:
-    """The time of these readings as a part of one, and its square."""
+    """The time of these readings from 0 to 1, and its square."""
     low, span = float(s.t_s.min()), float(np.ptp(s.t_s)) or 1.0
 
     def shapes(s: Situation) -> Real:

@@ -1,9 +1,9 @@
 """Evidence of linear-Gaussian errors in closed form, for all members and sizes of all families at once.
 
 With whitened columns B (K, q) of an error and amplitudes ~ N(0, size^2), the evidence over that of the base
-model is |1 + size^2 B'B|^-1/2 exp(gain), gain = b' (size^-2 + B'B)^-1 b / 2, b = B'e.  What errors that are
-known
-already take up is projected out by an update of rank r.  The noise level is averaged (`noise_level`).
+model is |1 + size^2 B'B|^-1/2 exp(gain), gain = b' (size^-2 + B'B)^-1 b / 2, b = B'e.  The part taken up by
+errors that are known already is projected out by an update of rank r. The noise level is averaged
+(`noise_level`).
 """
 
 from __future__ import annotations
@@ -23,9 +23,9 @@ from station.records import Index, Real
 
 HOPELESS = 1e6
 WIDTHS = (1, 2, 4, 8, 16, 32)
-"""Families are kept by the number of their amplitudes, filled up with empty columns to these."""
+"""Families are grouped by their number of amplitudes, padded with empty columns to these widths."""
 SHARES = (0.5, 0.25, 0.12, 0.06, 0.03)
-"""Of the search step, by which continuous hidden parameters are refined."""
+"""Shares of the search step by which continuous hidden parameters are refined."""
 LOG2 = float(np.log(2.0))
 
 
@@ -39,14 +39,14 @@ class Choice(NamedTuple):
 
 @dataclass(frozen=True)
 class Known:
-    """What errors at fixed members and sizes take up."""
+    """The part that errors at fixed members and sizes take up."""
 
     directions: Real
     """(K, r) orthonormal."""
     share: Real
     """(r,) of each direction."""
     along: Real
-    """(r,) the observation along each."""
+    """(r,) projection of the observation on each direction."""
     gain: float
     log_det: float
     sign: float
@@ -54,10 +54,10 @@ class Known:
 
 
 class Scan(NamedTuple):
-    """Evidence of each family, given what is known: members and sizes averaged, and the best of them."""
+    """Evidence of each family, given the known errors: averaged over members and sizes, and the best."""
 
     total: Real
-    """(F,) log evidence over the base model's; -inf where not asked for."""
+    """(F,) log evidence over the base model's; -inf where not computed."""
     best: tuple[Choice | None, ...]
     at_best: Real
     """(F,) log evidence of the best choice."""
@@ -67,7 +67,7 @@ class Scan(NamedTuple):
 class _Group:
     families: tuple[int, ...]
     first: Index
-    """(families + 1) where each begins among the members."""
+    """(families + 1) index of each family's first member."""
     X: Real
     """(V, q, K) whitened columns."""
     gram: Real
@@ -134,7 +134,7 @@ class Bank:
         return np.asarray(group.X[group.first[k] : group.first[k + 1], : self.families[family].width])
 
     def known(self, choices: Sequence[Choice]) -> Known:
-        """What these errors take up together."""
+        """The part that these errors take up together."""
         K = len(self.frame.row_sd)
         if not choices:
             return Known(np.zeros((K, 0)), np.zeros(0), np.zeros(0), 0.0, 0.0, 0.0)
@@ -146,7 +146,7 @@ class Bank:
         return Known(U, share, along, gain, float(np.sum(np.log1p(D**2))), self._sign(choices, B))
 
     def _sign(self, choices: Sequence[Choice], B: Real) -> float:
-        """Of each signed amplitude: twice the posterior probability that it is not negative."""
+        """For each signed amplitude, twice the posterior probability that it is not negative."""
         if not any(self.families[c.family].signed for c in choices):
             return 0.0
         covariance = np.linalg.inv(np.eye(B.shape[1]) + B.T @ B)
@@ -159,7 +159,7 @@ class Bank:
         return out
 
     def log_evidence(self, k: Known) -> float:
-        """Of errors at fixed members and sizes, over the base model's."""
+        """Log evidence of errors at fixed members and sizes, over the base model's."""
         q = np.array(self.square - 2.0 * k.gain)
         return -0.5 * k.log_det + float(self.noise(q)) - self.base + k.sign
 
@@ -194,7 +194,7 @@ class Bank:
         return [Choice(family, member, int(node)) for member, node in enumerate(value.argmax(axis=1))]
 
     def refine(self, choice: Choice, known: Known) -> None:
-        """Move a member to where its continuous hidden parameters are best beside known errors."""
+        """Move a member to the best values of its continuous hidden parameters beside known errors."""
         family = self.families[choice.family]
         if family.neighbours is None:
             return
@@ -223,14 +223,14 @@ class Bank:
         self.families[choice.family] = replace(family, hidden=moved)
 
     def _of_group(self, group: _Group, rows: slice, known: Known) -> Real:
-        """(V, T) log evidence of members of a group over the base model's."""
+        """(V, T) log evidence of members of a group, over the base model's."""
         ready = group.gram[rows], group.along[rows]
         return self._values(group.X[rows], group.precision[rows], group.signed[rows], known, ready)
 
     def _values(
         self, X: Real, precision: Real, signed: Real, known: Known, ready: tuple[Real, Real] | None = None
     ) -> Real:
-        """(V, T) log evidence of whitened columns X (V, q, K) over the base model's."""
+        """(V, T) log evidence of whitened columns X (V, q, K), over the base model's."""
         gram, along = ready if ready is not None else (X @ X.transpose(0, 2, 1), X @ self.frame.white)
         shows = gram[:, 0, 0] > 0.0
         if len(known.share):

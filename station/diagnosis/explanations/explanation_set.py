@@ -1,4 +1,4 @@
-"""The explanations of one set of readings: what may be wrong, how probable, and what follows."""
+"""The explanations of one set of readings: possible errors, their probabilities, and the consequences."""
 
 from __future__ import annotations
 
@@ -26,9 +26,9 @@ from station.records import Complex, Measurements, Quantity, Real
 
 SHOWN = 0.01
 MOSTLY_BASE = 0.5
-"""Probability of the base model from which on it alone is validated."""
+"""Probability of the base model above which it alone is validated."""
 MOST_LATE = 0.05
-"""Share of readings that may be left out after weighing."""
+"""Maximum share of readings that may be excluded after weighing."""
 
 
 @dataclass(frozen=True)
@@ -39,12 +39,12 @@ class Held:
     parameters: tuple[Quantity, ...]
     kind: str
     depends_on: str | None
-    """Of an unnamed one."""
+    """The quantity that an unnamed error depends on."""
 
 
 @dataclass(frozen=True)
 class Explanation:
-    """A set of errors that would account for the readings; none of them: the base model."""
+    """A set of errors that would account for the readings; the empty set is the base model."""
 
     errors: tuple[Held, ...]
     probability: float
@@ -53,17 +53,17 @@ class Explanation:
 
 @dataclass(frozen=True)
 class ExplanationSet:
-    """Everything that follows from one set of readings and, where there are any, fresh ones."""
+    """All results from one set of readings and, where there are any, fresh ones."""
 
     mechanism: FiveBar
-    """With all readings that took part."""
+    """The mechanism with all readings that were used."""
     weighing: Weighing
     statements: Statements
     validation: Validation | None
     findings: tuple[Finding, ...]
     decision: Decision
     outliers: tuple[int | str, ...]
-    """Readings left out."""
+    """Excluded readings."""
 
     @cached_property
     def mixture(self) -> Mixture:
@@ -73,7 +73,7 @@ class ExplanationSet:
 
     @cached_property
     def explanations(self) -> tuple[Explanation, ...]:
-        """Every one with a probability of 0.01 or more, most probable first."""
+        """All explanations with a probability of 0.01 or more, most probable first."""
         return tuple(self._explanation(key, p) for key, p in self.statements.cores if p >= SHOWN)
 
     @cached_property
@@ -87,7 +87,7 @@ class ExplanationSet:
 
     @cached_property
     def position_error(self) -> tuple[PositionError, PositionError]:
-        """Over the workspace, of the mixture: with the base model's commands, and with its own."""
+        """Position error of the mixture over the workspace: with the base model's and its own commands."""
         return self.mixture.before_and_after(self.base)
 
     @property
@@ -96,20 +96,20 @@ class ExplanationSet:
         return self.weighing.by_key[()]
 
     def commands(self, place: Complex, approach: Real | None = None) -> Real:
-        """(G, 2) joint commands, rad, for places (G,), mm: best on average over the set."""
+        """(G, 2) joint commands, rad, for positions (G,), mm: best on average over the set."""
         return self.mixture.commands(place, None if approach is None else Around(approach))
 
     def probability(self, effect: str, joint: int | None, part: str | None = None) -> float:
-        """That an effect is there: the sum over all explanations that hold it."""
+        """Probability that an effect is present: the sum over all explanations that contain it."""
         return self.statements.probability((effect, joint, part))
 
     @property
     def loudness(self) -> float:
-        """Noise that the best explanation leaves, over the specification."""
+        """Noise under the best explanation, over the specification."""
         return loudness(self.weighing.best, self.weighing)
 
     def left_by(self, mechanism: FiveBar) -> tuple[Real, Real]:
-        """(K,) what the best explanation leaves of other readings, and their noise, mm."""
+        """(K,) residual of other readings under the best explanation, and their noise, mm."""
         best = self.weighing.best
         p = best.x[: best.size]
         more = added(at_readings(mechanism, p, self.weighing.reference), best.present)
@@ -118,7 +118,7 @@ class ExplanationSet:
 
     @cached_property
     def shown(self) -> Settled:
-        """The explanation that is reported: that of the findings, else the most probable with any error."""
+        """The reported explanation: that of the findings, otherwise the most probable one with any error."""
         return self.weighing.settle(reported(self.statements) or self.statements.cores[0][0])
 
     def held(self, settled: Settled, at: int) -> tuple[Held, ...]:
@@ -141,10 +141,10 @@ class ExplanationSet:
 
 
 def explain(mechanism: FiveBar, fresh: Measurements | None = None) -> ExplanationSet:
-    """Explain the readings of a mechanism; fresh ones first test, then take part.
+    """Explain the readings of a mechanism; fresh readings first serve as a test, then are included.
 
     :raises NotConvergedError: the base model cannot be fitted, even without glitches.
-    :raises InputRefused: fresh readings of a mount that the others do not have.
+    :raises InputRefused: fresh readings belong to a mount that the others do not have.
     """
     measurements = mechanism.measurements
     reference = reference_of(measurements)
@@ -164,10 +164,10 @@ def explain(mechanism: FiveBar, fresh: Measurements | None = None) -> Explanatio
 
 
 def _weighed(mechanism: FiveBar, reference: Reference) -> Weighing:
-    """Explanations of readings without glitches, which disagree with everything else or with the best of
-    them.
+    """Explanations of the readings without glitches, which disagree with all others or with the best
+    explanation.
 
-    What looked like a glitch and is predicted well by what was found is taken back.
+    A reading that looked like a glitch and is predicted well by the result is taken back.
     """
     measurements = mechanism.measurements
     out = suspects(mechanism, reference)
@@ -187,11 +187,10 @@ def _once(mechanism: FiveBar, reference: Reference) -> Weighing:
 def _validated(
     both: FiveBar, reference: Reference, earlier: int, weighing: Weighing, plain: bool
 ) -> Validation:
-    """The fresh readings, which come after so many `earlier` ones, against what those alone say.
+    """Compare the fresh readings, which follow `earlier` others, with the prediction of those others alone.
 
-    Where the base model is adequate (`plain`) it is fitted to them; it needs no search.  Anything else is
-    searched
-    for anew without the fresh readings, linearised about the best explanation of all.
+    Where the base model is adequate (`plain`) it is fitted to them without a search. Any other explanation is
+    searched for again without the fresh readings, linearised about the best explanation of all readings.
     """
     held = set(weighing.mechanism.measurements.ids)
     rows = np.array([i in held for i in both.measurements.ids])
@@ -213,7 +212,7 @@ def _validated(
 
 
 def specified_as(weighing: Weighing, mechanism: FiveBar) -> Real:
-    """(K,) specified noise of other readings, of the kind that those weighed have, mm."""
+    """(K,) specified noise of other readings of the same kind as those weighed, mm."""
     if np.array_equal(weighing.frame.row_sd, weighing.mechanism.row_sd):
         return mechanism.row_sd
     return np.asarray(SCALE_SD_MM / np.sqrt(mechanism.measurements.samples))

@@ -1,4 +1,4 @@
-"""A family: one error that may be in the machine; its members are searched, its sizes averaged."""
+"""A family: one possible error of the machine; its members are searched and its sizes averaged."""
 
 from __future__ import annotations
 
@@ -15,27 +15,27 @@ Hidden = Mapping[str, float]
 Quantities = Callable[[Hidden, Real, Real], tuple[Quantity, ...]]
 """Hidden parameters, amplitudes (q,) and their covariance (q, q) in the units of the catalogue."""
 Shapes = Callable[[Situation], Real]
-"""(K, q) how an error goes with the readings, for a unit of each of its amplitudes."""
+"""(K, q) course of an error over the readings, for a unit of each of its amplitudes."""
 NODES = 6
-"""Sizes of a family, evenly in the logarithm."""
+"""Number of sizes of a family, evenly spaced in the logarithm."""
 
 
 @dataclass(frozen=True)
 class Part:
-    """One effect of a family, where it acts, and which amplitudes are its own."""
+    """One effect of a family, its place of action, and its amplitudes."""
 
     effect: str
-    """Identifier of the catalogue, or "unnamed"."""
+    """Identifier in the catalogue, or "unnamed"."""
     joint: int | None
     part: str | None
-    """Where it acts on a part: "L1", "links", "scale", ...; None where the joint says it all."""
+    """The part that it acts on: "L1", "links", "scale", ...; None where the joint is sufficient."""
     own: tuple[int, ...]
     """Indices into the family's amplitudes."""
     quantities: Quantities
 
     @property
     def key(self) -> tuple[str, int | None, str | None]:
-        """What two explanations must share to hold the same effect."""
+        """Two explanations contain the same effect if this is equal."""
         return self.effect, self.joint, self.part
 
 
@@ -44,24 +44,24 @@ class Family:
     """An error with V members of q amplitudes, each ~ N(0, size^2), size averaged over `sizes`."""
 
     kind: str
-    """The mechanical cause in one word; unnamed families differ in it."""
+    """The mechanical cause in one word; it distinguishes unnamed families."""
     parts: tuple[Part, ...]
     weight: float
     """Share of the prior probability, relative to other families."""
     sizes: Real
-    """(T,) prior standard deviations of the amplitudes, mm or rad a unit of the basis."""
+    """(T,) prior standard deviations of the amplitudes, mm or rad per unit of the basis."""
     hidden: tuple[Hidden, ...]
-    """(V) what distinguishes the members."""
+    """(V) hidden parameters that distinguish the members."""
     actions: Callable[[Situation, Sequence[Hidden]], list[Action]]
-    """What members with these hidden parameters add, for a unit of every amplitude."""
+    """The actions of members with these hidden parameters, for a unit of every amplitude."""
     depends_on: str | None = None
-    """Of an unnamed error: "joint1", "joint2", "reading", "place", "time" or "approach"."""
+    """Dependence of an unnamed error: "joint1", "joint2", "reading", "place", "time" or "approach"."""
     signed: bool = False
     """Whether its only amplitude cannot be negative."""
     one_sided: bool = False
-    """Whether none of its amplitudes can be negative; several are looked at once they are fitted."""
+    """Whether none of its amplitudes can be negative; several amplitudes are checked after the fit."""
     neighbours: Callable[[Hidden, float], list[Hidden]] | None = None
-    """Where hidden parameters are continuous: those about given ones, at a share of the search step."""
+    """Neighbours of given continuous hidden parameters, at a share of the search step."""
     repeats: bool = False
     """Whether the machine can have it more than once, with other hidden parameters."""
 
@@ -81,11 +81,11 @@ class Family:
         return s.columns(self.actions(s, self._chosen(member)))
 
     def targets(self, s: Situation) -> frozenset[str]:
-        """What it adds to."""
+        """The targets that it acts on."""
         return frozenset(action.target for action in self.actions(s, self.hidden[:1]))
 
     def added(self, s: Situation, member: int, amplitudes: Real) -> Real:
-        """(K, 13) what one member with amplitudes (q,) adds to the targets."""
+        """(K, 13) contribution of one member with amplitudes (q,) to the targets."""
         out = np.zeros((len(s), len(TARGETS)))
         for target, basis in self.actions(s, self._chosen(member)):
             out[:, TARGETS.index(target)] += basis[0] @ amplitudes
@@ -97,7 +97,7 @@ class Family:
 
 @cache
 def sizes(low: float, high: float) -> Real:
-    """(T,) from `low` to `high`, evenly in the logarithm."""
+    """(T,) sizes from `low` to `high`, evenly spaced in the logarithm."""
     out = np.geomspace(low, high, NODES)
     out.setflags(write=False)
     return out
@@ -131,5 +131,5 @@ def scaled(name: str, factor: float, unit: str) -> Quantities:
 
 
 def nothing(hidden: Hidden, amplitudes: Real, covariance: Real) -> tuple[Quantity, ...]:
-    """An unnamed error has no parameters of its own; its size is its RMS in the readings."""
+    """An unnamed error has no parameters of its own; its size is its RMS over the readings."""
     return ()

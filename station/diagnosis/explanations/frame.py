@@ -1,7 +1,7 @@
-"""Readings as a linear problem about one point, whitened so that what geometry can take up costs nothing.
+"""Readings as a linear problem about one point, whitened so that the geometry's part costs nothing.
 
-About a point the readings are e = J (p - m) + B a + noise with the prior mean m of the base parameters.
-The covariance of J (p - m) + noise, in units of the noise, is 1 + J S J'; its inverse root turns e and every
+About a point the readings are e = J (p - m) + B a + noise with the prior mean m of the base parameters. The
+covariance of J (p - m) + noise, in units of the noise, is 1 + J S J'; its inverse root turns e and every
 column B into a problem with white noise in which the base parameters no longer appear.
 """
 
@@ -21,7 +21,7 @@ from station.mechanism import Reference
 from station.records import Real
 
 FLAT_SD = 1e4
-"""Prior standard deviation, mm, of what nothing is known of (the reading offset)."""
+"""Prior standard deviation, mm, of a parameter about which nothing is known (the reading offset)."""
 
 
 class Present(NamedTuple):
@@ -47,13 +47,13 @@ class Frame:
     prior_sd: Real
     """(P,)"""
     observed: Real
-    """(K,) e: measured less predicted at the prior mean, as the tangent says it, in row_sd."""
+    """(K,) e: measured less the tangent's prediction at the prior mean, in row_sd."""
     jacobian: Real
     """(K, P) in row_sd."""
 
     @cached_property
     def _taken(self) -> tuple[Real, Real]:
-        """Directions (K, P) that the base parameters move, and the share that whitening takes of each."""
+        """Directions (K, P) that the base parameters move, and the share that whitening removes from each."""
         U, D, _ = np.linalg.svd(self.jacobian * self.prior_sd, full_matrices=False)
         return U, 1.0 - 1.0 / np.sqrt(1.0 + D**2)
 
@@ -80,7 +80,7 @@ class Frame:
 
 
 def added(s: Situation, present: Sequence[Present]) -> Real | None:
-    """(K, 13) what errors add to the targets; None for none."""
+    """(K, 13) contribution of the errors to the targets; None without errors."""
     if not present:
         return None
     out = np.zeros((len(s), len(TARGETS)))

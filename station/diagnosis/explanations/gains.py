@@ -1,4 +1,4 @@
-"""Gain and determinant of linear-Gaussian errors, many at once."""
+"""Gain and determinant of many linear-Gaussian errors at once."""
 
 from __future__ import annotations
 

@@ -1,6 +1,6 @@
-"""A set of explanations from what a file keeps of it, for commands.
+"""A set of explanations restored from a file, for commands.
 
-The shapes of the errors are laid out over the readings that they were found on; these are kept with the set.
+The shapes of the errors depend on the readings that they were found with, so the file contains those too.
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from station.records import Real
 
 @dataclass(frozen=True)
 class KeptError:
-    """One error with everything about it settled."""
+    """One error with all its parameters fixed."""
 
     family: int
     kind: str
@@ -43,16 +43,16 @@ class KeptExplanation:
 
 
 class NotInCatalogue(LookupError):
-    """An error that this version of the station does not know."""
+    """The file contains an error that this version of the station does not have."""
 
 
 def restored(
     mechanism: FiveBar, start: Real, reference: Reference, kept: Sequence[KeptExplanation]
 ) -> Mixture:
-    """:raises NotInCatalogue: an error of another version of the catalogue.
+    """:raises NotInCatalogue: the set contains an error of another version of the catalogue.
 
     :param mechanism: with the readings that the set was weighed on
-    :param start: (P,) base parameters at which its catalogue was laid out
+    :param start: (P,) base parameters at which its catalogue was made
     """
     situation = at_readings(mechanism, start, reference)
     recorded = mechanism.measurements.temperature_c is not None

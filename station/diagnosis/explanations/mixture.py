@@ -1,4 +1,4 @@
-"""Numbers of the whole set: means over all explanations, variances that cover their differences."""
+"""Figures of the whole set: means over all explanations, variances that include their differences."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from station.five_bar import GRID, FiveBar, inverse
 from station.records import Complex, Real
 
 SHARE = 0.004
-"""Explanations with a smaller probability take no part in the numbers."""
+"""Explanations with a smaller probability are not used for the figures."""
 FORM = 1.3
-"""Uncertainty under an unnamed error over what its form leaves, which is only like the true one.
+"""Factor on the uncertainty under an unnamed error, whose form only approximates the true one.
 
-Set on half of 28 kinds of random machines without a name: their 95 % intervals held 91 % and hold 96 % with
-it; those of the other half, 91 % and 95 %.
+Set on half of 28 kinds of random machines with an unnamed error: their 95 % intervals contained 91 % without
+the factor and contain 96 % with it; those of the other half, 91 % and 95 %.
 """
 DRAWS = 400
 STEPS = 3
@@ -32,7 +32,7 @@ class PositionError:
     rms: float
     max: float
     bound_95: float
-    """95 % of the machines that the set describes have no larger error anywhere."""
+    """Bound that holds everywhere for 95 % of the machines that the set describes."""
 
 
 @dataclass(frozen=True)
@@ -41,7 +41,7 @@ class Mixture:
 
     mechanism: FiveBar
     situation: Situation
-    """Of the readings."""
+    """The situation of the readings."""
     settled: tuple[Settled, ...]
     weight: Real
     """(E,) sums to one."""
@@ -63,7 +63,7 @@ class Mixture:
         )
 
     def commands(self, place: Complex, around: Around | None = None) -> Real:
-        """(G, 2) joint commands, rad, that bring P to places (G,), mm, on average over the set."""
+        """(G, 2) joint commands, rad, that bring P to positions (G,), mm, on average over the set."""
         theta = inverse(self.mechanism.nominal, place)
         around = around or _plain(len(place))
         for _ in range(STEPS):
@@ -78,7 +78,7 @@ class Mixture:
         return np.asarray(theta)
 
     def positions(self, theta: Real, around: Around) -> Complex:
-        """(G,) where P stands on average over the set, mm, at joint commands theta (G, 2), rad."""
+        """(G,) position of P on average over the set, mm, at joint commands theta (G, 2), rad."""
         return np.asarray(
             sum(
                 w * self._arrived(s, theta, around)[0] for w, s in zip(self.weight, self.settled, strict=True)
@@ -86,7 +86,7 @@ class Mixture:
         )
 
     def position_error(self, theta: Real, place: Complex) -> PositionError:
-        """Of joint commands theta (G, 2) meant for places (G,), what the set expects."""
+        """Expected error of joint commands theta (G, 2) meant for positions (G,)."""
         expected, drawn = self.errors_at(theta, place)
         bound = float(np.quantile(drawn.max(axis=0), 0.95))
         return PositionError(float(np.sqrt(np.mean(expected**2))), float(expected.max()), bound)
@@ -108,7 +108,7 @@ class Mixture:
         return np.sqrt(square), np.concatenate(drawn, axis=1)
 
     def before_and_after(self, base: Settled) -> tuple[PositionError, PositionError]:
-        """Over the workspace: with the commands of the base model, and with those of the set."""
+        """Position error over the workspace: with the commands of the base model, and of the set."""
         place = self.mechanism.robot.workspace_grid(*GRID)
         after = self.position_error(self.commands(place), place)
         if len(self.settled) == 1 and self.settled[0] is base:
@@ -120,7 +120,7 @@ class Mixture:
         return Mixture(self.mechanism, self.situation, (settled,), np.ones(1))
 
     def _arrived(self, s: Settled, theta: Real, around: Around) -> tuple[Complex, Commanded]:
-        """(G,) where P stands under one explanation."""
+        """(G,) position of P under one explanation."""
         at = at_commands(self.mechanism, s.x[: s.size], self.situation, theta, around)
         r = at.r
         for family, member, amplitudes in s.present:
@@ -129,7 +129,7 @@ class Mixture:
         return r, at
 
     def _moved(self, s: Settled, at: Commanded) -> Real:
-        """(G, 2, P + q) derivative of the position by all unknowns of one explanation."""
+        """(G, 2, P + q) derivative of the position with respect to all unknowns of one explanation."""
         columns = [
             f.columns(at.situation, c.member)[0].reshape(len(at.r), 2, -1)
             for f, c in zip(s.families, s.choices, strict=True)
@@ -142,7 +142,7 @@ def _plain(count: int) -> Around:
 
 
 def mixture(mechanism: FiveBar, situation: Situation, settled: Sequence[tuple[Settled, float]]) -> Mixture:
-    """Of explanations with probabilities, those worth a number."""
+    """The mixture of explanations with probabilities, without negligible ones."""
     kept = [(s, w) for s, w in settled if w >= SHARE] or [settled[0]]
     weight = np.array([w for _, w in kept])
     return Mixture(mechanism, situation, tuple(_unsure_of_form(s) for s, _ in kept), weight / weight.sum())
@@ -166,7 +166,7 @@ def spread(means: Sequence[Real], covariances: Sequence[Real], weight: Real) -> 
 
 
 def root_of(covariance: Real) -> Real:
-    """(X, X) whose square is a covariance; variances may differ by many orders."""
+    """(X, X) root of a covariance; variances may differ by many orders of magnitude."""
     sd = np.sqrt(np.maximum(np.diag(covariance), 1e-300))
     values, vectors = np.linalg.eigh(covariance / np.outer(sd, sd))
     return np.asarray(sd[:, None] * vectors * np.sqrt(np.maximum(values, 0.0)))

@@ -1,4 +1,4 @@
-"""Unnamed errors by the motion before a reading or the attitude of the guide: often mistaken for a play."""
+"""Unnamed errors by the motion before a reading or the attitude of the guide: often mistaken for backlash."""
 
 from __future__ import annotations
 
@@ -14,12 +14,12 @@ from station.records import Real
 
 WAYS_DEG = (1.5, 4.0, 10.0, 25.0)
 SPEEDS = (2.0,)
-"""Of the faster joint, over the speed at which half of what sticks at rest is left."""
+"""Speed at which half of the static friction effect remains, over that of the faster joint."""
 TRAVEL_MM = 100.0
 
 
 def motion_families(s: Situation) -> tuple[Family, ...]:
-    """For the readings of `s`: of both joints, the reading and the guide."""
+    """Families for the readings of `s`: of both joints, the reading and the guide."""
     return (
         *(_by_way(i) for i in (1, 2)),
         *(_loose(i) for i in (1, 2)),
@@ -29,14 +29,14 @@ def motion_families(s: Situation) -> tuple[Family, ...]:
 
 
 def _by_way(joint: int) -> Family:
-    """A joint that comes to rest short of its place, by how far or how fast it came."""
+    """A joint that stops short of its target, as a function of the distance or speed of its motion."""
     hidden = tuple({"way_deg": w, "fades": f} for w in WAYS_DEG for f in (0.0, 1.0))
     hidden += tuple({"speed": s} for s in SPEEDS)
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
         way, sense = np.abs(s.way), s.approach[:, joint - 1]
         longest = way.max(axis=1)
-        # axes that arrive together move at speeds like their ways
+        # axes that arrive together move at speeds proportional to their distances
         speed = np.divide(way[:, joint - 1], longest, out=np.ones(len(way)), where=longest > 0.0)
 
         def lost(h: Hidden) -> Real:
@@ -51,7 +51,7 @@ def _by_way(joint: int) -> Family:
 
 
 def _loose(joint: int) -> Family:
-    """Play in the passive bearing of a chain, taken up by the sense of its own joint or of the other."""
+    """Clearance in the passive bearing of a chain, taken up by the sense of its own joint or of the other."""
     hidden = ({"of": 0.0}, {"of": 1.0})
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
@@ -63,7 +63,7 @@ def _loose(joint: int) -> Family:
 
 
 def _lagging() -> Family:
-    """A reading that follows late, or a base that still swings: by what was travelled just before."""
+    """A reading that lags, or a base that still oscillates: as a function of the motion just before."""
     hidden = tuple({"form": float(k)} for k in range(6))
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
@@ -75,7 +75,7 @@ def _lagging() -> Family:
 
 
 def _guide(s: Situation) -> Family:
-    """Slider and guide bend under their weight: by how they lie and how far they are drawn."""
+    """Slider and guide bend under their weight: as a function of their attitude and extension."""
     low, span = float(s.travel.min()), float(np.ptp(s.travel)) or 1.0
     hidden = tuple({"across": a, "drawn": d} for a in (1.0, 2.0, 4.0) for d in (0.0, 1.0, 2.0, 3.0))
 

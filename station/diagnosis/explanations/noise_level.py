@@ -1,4 +1,4 @@
-"""How noisy the readings are: the shape is specified, the level is not known exactly and averaged."""
+"""The noise level of the readings: its shape is specified; its level is not known exactly and is averaged."""
 
 from __future__ import annotations
 
@@ -13,7 +13,7 @@ from station.records import Real
 LEVELS = np.geomspace(0.6, 12.0, 48)
 """Noise over the specification."""
 USUAL_SD, POOR_SD = 0.07, 0.5
-"""Of the logarithm of the level: of most stations, and of those whose head is worse than specified."""
+"""Standard deviations of the logarithm of the level: most stations, and those with a poor head."""
 POOR_SHARE, POOR_LEVEL = 0.1, 1.2
 
 
@@ -27,14 +27,14 @@ def _log_prior() -> Real:
 
 LOG_PRIOR = _log_prior()
 LOUD = 1.6
-"""Repeats that scatter so many times more than the head show that feedback leaves something open."""
+"""Scatter of the repeats over that of the head, above which the feedback is not exact."""
 WANDERING = 1.5
-"""von Neumann's ratio of their deviations below which they wander instead."""
+"""von Neumann's ratio of their deviations below which they drift instead."""
 FEWEST = 8
 
 
 class NoiseLevel:
-    """Marginal likelihood of a quadratic form q of N whitened rows, of which `taken` went into parameters."""
+    """Marginal likelihood of a quadratic form q of N whitened rows; parameters used `taken` of them."""
 
     def __init__(self, rows: int, taken: float) -> None:
         self._dof = rows - taken
@@ -63,10 +63,10 @@ class NoiseLevel:
 
 
 def specified(mechanism: FiveBar, residual_mm: Real) -> Real:
-    """(K,) standard deviation of the readings, mm: of the head alone where servos rest on whole pulses.
+    """(K,) standard deviation of the readings, mm: of the head alone where servos stop on whole pulses.
 
-    The feedback of a servo that rests on a pulse is exact, of one that rests beside it half a pulse is
-    open; a robot file that says neither leaves it to the scatter of the repeats (residual_mm (K,)).
+    The feedback of a servo that stops on a pulse is exact; for one that stops between pulses, half a pulse is
+    unknown. If the robot file states neither, the scatter of the repeats decides (residual_mm (K,)).
     """
     m = mechanism.measurements
     head = SCALE_SD_MM / np.sqrt(m.samples)

@@ -1,4 +1,4 @@
-"""Named errors that follow direction, tooth, period or moment: hardly anything else looks like them."""
+"""Named errors that depend on direction, tooth, period or moment: hardly any other error resembles them."""
 
 from __future__ import annotations
 
@@ -28,16 +28,16 @@ SHORTEST_PERIOD_MM = 0.4
 OVERSAMPLING = 2.0
 """Search steps per independent frequency."""
 EDGE = 2
-"""Readings on either side of a step, at least."""
+"""Minimum number of readings on either side of a step."""
 LAST = (0, 2, 3)
-"""Columns of `Situation.slider` that the last motion may be."""
+"""Columns of `Situation.slider` that the last motion may be in."""
 MOST_DOUBTFUL = 30
 HEALING = (4, 8, 16, 32, 64)
-"""Lengths of a step that heals, in readings."""
+"""Lengths of a step that reverts, in readings."""
 
 
 def rough_families(s: Situation, lengths: Mapping[str, float], *, thermometer: bool) -> tuple[Family, ...]:
-    """For the readings of `s`, nominal lengths by name (mm), and whether a temperature was recorded."""
+    """Families for the readings of `s`, nominal lengths by name (mm), and whether it has temperatures."""
     return (
         *(_backlash(i) for i in (1, 2)),
         _both_backlash(),
@@ -110,14 +110,14 @@ def _ripple(s: Situation, joint: int) -> Family:
 
 
 def stepped(t_s: Real, hidden: Sequence[Hidden]) -> Real:
-    """(V, K, 1) one from a moment on, until another where there is one."""
+    """(V, K, 1) one from a moment on, until another where given."""
     begin = np.array([h["from_s"] for h in hidden])[:, None]
     end = np.array([h.get("until_s", np.inf) for h in hidden])[:, None]
     return ((t_s >= begin) & (t_s < end)).astype(float)[:, :, None]
 
 
 def beginnings(s: Situation) -> tuple[Hidden, ...]:
-    """Every moment at which something may have moved for good."""
+    """Every moment at which something may have moved permanently."""
     t = np.sort(s.t_s)
     return tuple({"from_s": float(v)} for v in t[EDGE : len(t) - EDGE + 1])
 
@@ -214,9 +214,9 @@ def _scale_cyclic(s: Situation) -> Family:
 def _hysteresis(s: Situation) -> Family:
     """The reading lags the slider, by last motion or by net travel where these differ.
 
-    Joints that are started one after the other arrive so: the last motion may be of either alone.  Where the
-    slider moved too little, or its way is unknown, it may hang anywhere between: those readings have an
-    amplitude of their own, as large as the width.
+    If one joint arrives last, the last motion may be that of either joint alone. Where the slider moved too
+    little, or its motion is unknown, it may stand anywhere in between: those readings have an amplitude of
+    their own, as large as the width.
     """
     moments = s.t_s[np.any(s.slider[:, LAST] == 0.0, axis=1)][:MOST_DOUBTFUL]
 

@@ -1,8 +1,8 @@
-"""Which sets of up to three errors account for the readings: searched over the set, not from one winner on.
+"""The sets of up to three errors that account for the readings, searched as sets, not from one winner on.
 
 Every family alone; beside each of the most probable ones every other; beside the most probable pairs every
-third.  Then what is best is revisited: each of its errors is exchanged for every other until nothing better
-is found.  The evidence of a set is that of its best members, times the price paid for each search.
+third. Then the best sets are revisited: each error is exchanged for every other until nothing better is
+found. The evidence of a set is that of its best members, times the price paid for each search.
 """
 
 from __future__ import annotations
@@ -18,30 +18,30 @@ from station.diagnosis.explanations.family import Family
 from station.records import Real
 
 BY_COUNT = (0.35, 0.45, 0.15, 0.05)
-"""Prior probability of so many errors; a natural pair is one."""
+"""Prior probability by number of errors; a natural pair counts as one."""
 FIRST, SECOND = 14, 6
-"""Most sets of one and of two errors beside which others are looked for."""
+"""Maximum number of sets of one and of two errors beside which others are searched."""
 WITHIN = 25.0
-"""Log of probability below the best beyond which a set is not looked beside,"""
+"""Log of probability below the best within which a set is searched beside,"""
 POLISHED_WITHIN = 5.0
 """and within which its evidence is settled."""
 REFINED_WITHIN = 6.0
 """Log of probability below the best of a scan within which continuous hidden parameters are refined."""
 REFINED = 4
-"""Of the first scan, so many are refined in any case."""
+"""This many of the first scan are refined in any case."""
 MOST_POLISHED = 12
 STRONG = 20.0
-"""Log of evidence by which a second error must help before it is refined, however far from the best it is."""
+"""Log of evidence by which a second error must help to be refined at any distance from the best."""
 NOTHING_FOUND = 6.0
-"""Log of odds by which the best single error must beat the base model before pairs are looked for."""
+"""Log of odds by which the best single error must exceed the base model before pairs are searched."""
 ALONE_WITHIN = 20.0
-"""Log of probability below a single error that leaves noise only, within which others are looked beside."""
+"""Log of probability below a single error that leaves only noise, within which others are searched beside."""
 NEARLY = 2.0
-"""Log of probability below a single error that leaves noise only, within which a pair may need a third."""
+"""Log of probability below a single error that leaves only noise, within which a pair may need a third."""
 NOISY = 1.25
-"""Noise over the specification that is no more than noise."""
+"""Noise over the specification that still counts as noise."""
 PAIRS = 3
-"""Pairs of waves of one joint that are settled,"""
+"""Number of pairs of waves of one joint that are settled,"""
 PROMISING = 0.3
 """where their evidence at the steps of the search is this share of the best single error's."""
 EXCHANGES = 4
@@ -61,7 +61,7 @@ class Candidate:
     """Averaged over members and sizes, over the base model's."""
     log_prior: float
     prices: tuple[float, ...] = ()
-    """Log of the price paid for the search of each error's member and size, where the set is settled."""
+    """Log of the price paid for searching each error's member and size, where the set is settled."""
 
     @cached_property
     def key(self) -> Key:
@@ -84,7 +84,7 @@ class Search:
         self.found: dict[Key, Candidate] = {(): Candidate((), 0.0, float(np.log(BY_COUNT[0])))}
         self._searched = [k for k, f in enumerate(bank.families) if f.neighbours is not None]
         self._looked: set[frozenset[Choice]] = set()
-        """Sets at these members and sizes: what is missing beside them depends on those."""
+        """Sets at these members and sizes: the missing errors beside them depend on those."""
         self._polished_keys: set[Key] = set()
 
     def first(self) -> Candidate:
@@ -93,7 +93,7 @@ class Search:
         return max(self.found.values(), key=lambda c: c.log_posterior)
 
     def run(self, seeds: Sequence[tuple[Choice, ...]] = ()) -> list[Candidate]:
-        """Most probable first; `seeds` are sets to look beside as well."""
+        """Most probable first; `seeds` are further sets to search beside."""
         self.first()
         singles = self._best(1, FIRST)
         alone = bool(singles) and self._leaves_noise(singles[0])
@@ -126,18 +126,18 @@ class Search:
         if not sets:
             return []
         top = max(c.log_posterior for c in self.found.values())
-        # a set far below may still be half of the best pair
+        # a set far below the best may still be half of the best pair
         limit = min(top, sets[0].log_posterior) - (WITHIN if count > 1 else np.inf)
         return [c for c in sets[:most] if c.log_posterior > limit]
 
     def log_prior(self, key: Key) -> float:
-        """Of a set of families in any order."""
+        """Log prior of a set of families in any order."""
         count = len(key)
         orders = float(np.log([1.0, 1.0, 2.0, 6.0][count]))
         return float(np.log(BY_COUNT[count]) + orders + sum(self._log_weight[k] for k in key))
 
     def _look(self, beside: Candidate) -> None:
-        """Every family beside a set."""
+        """Evaluate every family beside a set."""
         key, at = beside.key, frozenset(beside.choices)
         if at in self._looked or len(key) >= len(BY_COUNT) - 1:
             return
@@ -164,7 +164,7 @@ class Search:
         searched.sort(key=lambda k: -weighed[k])
         strong = STRONG + self.bank.log_evidence(known) + price
         for rank, family in enumerate(searched):
-            # with nothing else found, a wave between two steps of the search may be far better than it looks
+            # with nothing else found, a wave between two steps of the search may be far better than shown
             free = (not beside and rank < REFINED) or (
                 len(beside) == 1 and rank == 0 and scan.total[family] + price > strong
             )
@@ -191,7 +191,7 @@ class Search:
             self._polished_keys.discard(key)
 
     def _fits(self, key: Key, family: int) -> bool:
-        """The same effect twice only where the machine can have it more than once."""
+        """Whether a family may be added: the same effect twice only if the machine can have it twice."""
         added = self.families[family]
         if family in key:
             return added.repeats
@@ -231,7 +231,7 @@ class Search:
                 return
 
     def _without(self, settled: Candidate, left_out: int) -> Candidate:
-        """The other errors as they are beside the one that is left out."""
+        """The other errors unchanged, without the omitted one."""
         kept = [k for k in range(len(settled.choices)) if k != left_out]
         choices = tuple(settled.choices[k] for k in kept)
         prices = tuple(settled.prices[k] for k in kept)
@@ -287,5 +287,5 @@ class Search:
 
 
 def compete(a: Family, b: Family) -> bool:
-    """Whether two families hold the same effect, which is then one or the other."""
+    """Whether two families contain the same effect and therefore exclude each other."""
     return a is not b and a.named and b.named and bool(a.keys & b.keys)

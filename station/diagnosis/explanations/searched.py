@@ -1,4 +1,4 @@
-"""How well a searched parameter (cycles a turn, a period) is known, by what a small change would read."""
+"""Uncertainty of a searched parameter (cycles per turn, a period), from the effect of a small change."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ STEP = 1e-4
 def with_searched(
     at: Frame, settled: Settled, index: int, quantities: tuple[Quantity, ...]
 ) -> tuple[Quantity, ...]:
-    """The quantities of one error with a standard uncertainty for what was searched."""
+    """The quantities of one error with a standard uncertainty for the searched parameters."""
     family, member = settled.families[index], settled.choices[index].member
     hidden = family.hidden[member]
     if family.neighbours is None or not any(q.name in hidden for q in quantities):

@@ -1,10 +1,8 @@
 """One explanation settled by the nonlinear model: parameters, covariance and evidence.
 
-About the point that the search was linearised at, a large error (a link 5 mm too long, a ratio 1 % wrong)
-leaves
-tens of micrometres of curvature.  Each probable explanation is therefore fitted anew with Gauss-Newton
-steps and
-its evidence taken at its own minimum (Laplace).
+About the linearisation point of the search, a large error (a link 5 mm too long, a ratio 1 % wrong) leaves
+tens of micrometres of curvature. Each probable explanation is therefore fitted again with Gauss-Newton steps,
+and its evidence is taken at its own minimum (Laplace).
 """
 
 from __future__ import annotations
@@ -24,7 +22,7 @@ from station.records import Real
 
 STEPS = 5
 STRAIGHT = 0.2
-"""Largest difference between model and tangent, in standard deviations, that is left alone."""
+"""Largest difference between model and tangent, in standard deviations, that is accepted."""
 
 
 @dataclass(frozen=True)
@@ -39,11 +37,11 @@ class Settled:
     log_evidence: float
     """At these members and sizes, noise level averaged; absolute, up to a constant of the readings."""
     cost: float
-    """Squares of residual and prior at the minimum, in units of the specified noise."""
+    """Sum of squares of residual and prior at the minimum, in units of the specified noise."""
     level: float
     """Noise over the specification."""
     bend: float
-    """Largest difference between the model and the tangent it was searched with, in standard deviations."""
+    """Largest difference between the model and the tangent of the search, in standard deviations."""
     row_sd: Real
 
     @property
@@ -58,7 +56,7 @@ class Settled:
 
     @property
     def parts(self) -> tuple[slice, ...]:
-        """Where the amplitudes of each error stand in x."""
+        """Position of each error's amplitudes in x."""
         out, at = [], self.size
         for family in self.families:
             out.append(slice(at, at + family.width))
@@ -67,7 +65,7 @@ class Settled:
 
     @property
     def impossible(self) -> bool:
-        """Whether an error has a size that no machine has: a play is not negative."""
+        """Whether an error has a size that no machine has: backlash is not negative."""
         return any(
             f.one_sided and bool(np.any(a < 0.0)) for f, a in zip(self.families, self.amplitudes, strict=True)
         )

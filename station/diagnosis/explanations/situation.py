@@ -1,4 +1,4 @@
-"""Where an error can act on the five-bar, and what one unit of it does to a reading or to the position.
+"""Where an error can act on the five-bar, and the effect of one unit of it on a reading or on the position.
 
 An error adds something to a *target*: a joint angle (rad), a bearing centre, a link, the platform or the
 reading (mm).  A `Situation` holds, for the readings or for a grid of the workspace, the derivative of the
@@ -34,12 +34,12 @@ class Action(NamedTuple):
 
 @dataclass(frozen=True)
 class Situation:
-    """K readings (m = 1: mm along the scale) or K places of a grid (m = 2: x and y of P, mm)."""
+    """K readings (m = 1: mm along the scale) or K positions of a grid (m = 2: x and y of P, mm)."""
 
     by_parameter: Real
-    """(K, m, P) derivative by the base parameters."""
+    """(K, m, P) derivative with respect to the base parameters."""
     by_target: Real
-    """(K, m, 13) derivative by the targets."""
+    """(K, m, 13) derivative with respect to the targets."""
     t_s: Real
     theta: Real
     """(K, 2) rad, zero offsets included."""
@@ -48,12 +48,13 @@ class Situation:
     approach: Real
     """(K, 2) sign of each joint's last motion, 0 unknown."""
     travel: Real
-    """(K,) mm, what a perfect scale would read."""
+    """(K,) mm, reading of a perfect scale."""
     slider: Real
     """(K, 4) sign of the slider's last motion and of its net travel, 0 unknown, and of its last motion if
-    joint 1 or 2 alone arrives last."""
+    joint 1 or 2 alone arrives last.
+    """
     rise: Real | None
-    """(K,) K since the first reading; None where none was recorded or nothing changed."""
+    """(K,) temperature rise in K since the first reading; None if none was recorded or nothing changed."""
     payload_kg: Real | None
     mount: Real
     """(K,) number of the mechanism's mount."""
@@ -62,9 +63,9 @@ class Situation:
     phi: Real
     """(K, 2) angle of the distal links, rad."""
     way: Real
-    """(K, 2) rad, what each joint has turned since the reading before; 0 unknown."""
+    """(K, 2) rad, motion of each joint since the previous reading; 0 unknown."""
     drawn: Real
-    """(K,) mm, by what the slider has moved since the reading before; 0 unknown."""
+    """(K,) mm, motion of the slider since the previous reading; 0 unknown."""
     direction: Real
     """(K, 2) unit vector from O_1 to O_2."""
     force: Real
@@ -74,7 +75,7 @@ class Situation:
         return len(self.t_s)
 
     def take(self, rows: Index) -> Situation:
-        """Of these readings only."""
+        """The situation of these readings only."""
         taken = {
             f.name: value[rows]
             for f in fields(self)
@@ -83,7 +84,7 @@ class Situation:
         return replace(self, **taken)
 
     def columns(self, actions: Sequence[Action]) -> Real:
-        """(V, K * m, q) what one unit of every amplitude adds to the outcome, mm."""
+        """(V, K * m, q) contribution of one unit of every amplitude to the outcome, mm."""
         rows, width = self.by_target.shape[:2]
         out: Real | None = None
         for target, basis in actions:
@@ -97,9 +98,9 @@ class Situation:
 def at_readings(
     mechanism: FiveBar, p: Real, reference: Reference, added: Real | None = None, *, first: bool = True
 ) -> Situation:
-    """The readings of a mechanism at base parameters p (P,); `added` (K, 13) what errors add to the targets.
+    """The readings of a mechanism at base parameters p (P,); `added` (K, 13) is what errors add.
 
-    `first` is False for readings that follow those that the reference is of.
+    `first` is False for readings that follow those that contain the reference.
     """
     c = mechanism.conditions(p, reference, first=first)
     at, geometry = posed(mechanism, p, added)
@@ -145,14 +146,14 @@ class Commanded(NamedTuple):
 
 
 class Around(NamedTuple):
-    """Under what G commands are carried out."""
+    """The conditions under which G commands are carried out."""
 
     approach: Real
     """(G, 2) side from which each joint comes, 0 unknown."""
     rise: Real | None = None
-    """(G,) K since the first reading; None as at the last one."""
+    """(G,) temperature rise in K since the first reading; None: as at the last one."""
     payload_kg: Real | None = None
-    """(G,); None as at the last reading."""
+    """(G,); None: as at the last reading."""
 
 
 def at_commands(mechanism: FiveBar, p: Real, last: Situation, theta: Real, around: Around) -> Commanded:
@@ -195,7 +196,7 @@ def at_commands(mechanism: FiveBar, p: Real, last: Situation, theta: Real, aroun
 
 
 def _given(wanted: Real | None, learned: Real | None, now: int, count: int) -> Real | None:
-    """(G,) as wanted, else as at the last reading; None where nothing was learned of it."""
+    """(G,) values as given, otherwise as at the last reading; None where nothing was learned about it."""
     if learned is None:
         return None
     return np.full(count, learned[now]) if wanted is None else wanted

@@ -23,15 +23,15 @@ from station.effects import amplitude_and_phase
 from station.records import Quantity, Real
 
 EVEN, UNEVEN, SELDOM = (0, 1), (2, 3, 4, 5), 0.1
-"""Forms of a sag in proportion to the load and of others, and the prior weight of the latter."""
+"""Forms of sag in proportion to the load and of others, and the prior weight of the latter."""
 SAME, OWN = 1.0, 0.3
-"""Prior weight of a natural pair with one size for both sides, and with a size of its own for each."""
+"""Prior weight of a natural pair with one size for both sides, and with separate sizes."""
 Shape = Callable[[Situation, int, Sequence[Hidden]], Real]
 """Joint 1 or 2 -> (V, K, q)."""
 
 
 def smooth_families(s: Situation) -> tuple[Family, ...]:
-    """For the readings of `s`."""
+    """Families for the readings of `s`."""
     sag, uneven = (tuple({"of": float(form)} for form in forms) for forms in (EVEN, UNEVEN))
     turned = (0.002 * DEG, 0.4 * DEG)
     gain = scaled("ppm", 1e6, "ppm")
@@ -56,7 +56,7 @@ def smooth_families(s: Situation) -> tuple[Family, ...]:
 
 
 def eccentric(hidden: Hidden, amplitudes: Real, covariance: Real) -> tuple[Quantity, ...]:
-    """Amplitude and phase of an error once a turn."""
+    """Amplitude and phase of an error once per turn."""
     return amplitude_and_phase("amplitude_deg", "deg", 1.0 / DEG, amplitudes, covariance)
 
 
@@ -71,7 +71,7 @@ def _gain(s: Situation, joint: int, hidden: Sequence[Hidden]) -> Real:
 def _sag(s: Situation, joint: int, hidden: Sequence[Hidden]) -> Real:
     """Wind-up under the arm's own weight, or under the platform's, held through the distal links.
 
-    The last four are of a drive train that becomes stiffer or softer the more it is loaded.
+    The last four describe a drive train whose stiffness changes with the load.
     """
     i = joint - 1
     load = np.cos(s.theta[:, i])
@@ -94,7 +94,7 @@ def _at_joints(
     *,
     signed: bool = False,
 ) -> tuple[Family, ...]:
-    """The effect at joint 1, at joint 2, at both alike, and at both each with its own size."""
+    """The effect at joint 1, at joint 2, at both with one size, and at both with separate sizes."""
     width = len(own)
 
     def single(joint: int) -> Family:
@@ -175,7 +175,7 @@ def _reading(
 
 
 def _bow_centres(s: Situation) -> tuple[Hidden, ...]:
-    """Across the travel that was visited, and the head's own zero."""
+    """Centres across the visited travel, and the head's own zero."""
     low, high = float(s.travel.min()), float(s.travel.max())
     return ({"centre_mm": 0.0}, *({"centre_mm": float(v)} for v in np.linspace(low, high, 7)))
 

@@ -1,8 +1,7 @@
-"""Unnamed errors without structure: Gaussian processes over angle, travel, place, time, approach x place.
+"""Unstructured unnamed errors: Gaussian processes over angle, travel, position, time, approach x position.
 
 A process over x with length scale h is a weighted sum of shapes k(x, z) K^-1/2 at inducing points z
-(Nystrom):
-independent amplitudes of unit variance then have its covariance.
+(Nystrom): independent amplitudes of unit variance then have its covariance.
 """
 
 from __future__ import annotations
@@ -25,7 +24,7 @@ MOST_SHAPES = 16
 
 
 def processes(s: Situation) -> tuple[Family, ...]:
-    """For the readings of `s`."""
+    """Processes for the readings of `s`."""
     angle, mm = sizes(0.001 * DEG, 0.3 * DEG), sizes(0.001, 0.5)
     return (
         *(_stiff(s, joint) for joint in (1, 2)),
@@ -88,7 +87,7 @@ def _kernel(a: Real, b: Real) -> Real:
 
 
 def _line(low: float, high: float, h: float) -> Callable[[Real], Real]:
-    """Of one variable; the length scale is `h` half-ranges."""
+    """A process of one variable; the length scale is `h` half-ranges."""
     half = (high - low) / 2.0 or 1.0
     count = int(np.clip(np.ceil(3.0 / h) + 2, 4, 20))
     induced = _induced(np.linspace(low, high, count)[:, None], np.array([h * half]))
@@ -112,16 +111,16 @@ def _over_time(s: Situation, h: float) -> Shapes:
 
 
 def _wandering(s: Situation) -> Shapes:
-    """A random walk in time, by the largest waves of its expansion after Karhunen and Loeve."""
+    """A random walk in time, by the largest waves of its Karhunen-Loeve expansion."""
     low, span = float(s.t_s.min()), float(np.ptp(s.t_s)) or 1.0
     rate = (np.arange(MOST_SHAPES) + 0.5) * np.pi
     return lambda s: np.sqrt(2.0) * np.sin(rate * ((s.t_s - low) / span)[:, None]) / rate
 
 
 def wanderings(s: Situation) -> tuple[Family, ...]:
-    """A step of its own at every reading: where something wanders so fast that no smooth curve follows it.
+    """An independent step at every reading: for changes so fast that no smooth curve follows them.
 
-    As many amplitudes as readings; `weighing` asks for them only where everything else leaves more than
+    It has as many amplitudes as readings; `weighing` uses it only where everything else leaves more than
     noise.
     """
     moments = np.sort(s.t_s)[1:]
@@ -166,7 +165,7 @@ def _slider_by_travel(s: Situation) -> Shapes:
 
 
 def _stiff(s: Situation, joint: int) -> Family:
-    """Curves too stiff for any length scale: powers of the angle, winding-up that grows towards one end."""
+    """Curves too stiff for any length scale: powers of the angle, wind-up that grows towards one end."""
     theta = s.theta[:, joint - 1]
     middle, half = float(theta.max() + theta.min()) / 2.0, float(np.ptp(theta)) / 2.0 or 1.0
     hidden = (
@@ -193,7 +192,7 @@ def _stiff(s: Situation, joint: int) -> Family:
 
 
 def _patch(kind: str, depends_on: str, by: int | None, weight: float) -> Family:
-    """A spot of the workspace, by the sense of joint 1 (0), joint 2 (1), the slider (2) or none."""
+    """A patch of the workspace, by the sense of joint 1 (0), joint 2 (1), the slider (2) or none."""
     hidden = tuple(
         {"u": float(u), "v": float(v), "radius": radius}
         for radius in (0.12, 0.22)
@@ -223,7 +222,7 @@ def _patch(kind: str, depends_on: str, by: int | None, weight: float) -> Family:
 
 
 def _bump(s: Situation) -> Family:
-    """A short stretch of the travel."""
+    """A short section of the travel."""
     low, high = float(s.travel.min()), float(s.travel.max())
     hidden = tuple(
         {"at_mm": float(at), "width_mm": width}

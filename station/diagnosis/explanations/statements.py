@@ -1,7 +1,7 @@
-"""What may be said: probabilities of effects, summed over all explanations that hold them.
+"""Which effects can be stated: their probabilities, summed over all explanations that contain them.
 
-An explanation may hold an error that the readings do not ask for: as probable without it as with it.  For a
-statement such an error is not there.  What is left is the *core* of the explanation.
+An explanation may contain an error that the readings do not require: it is as probable without it as with it.
+Such an error is not stated. The remaining errors are the *core* of the explanation.
 """
 
 from __future__ import annotations
@@ -19,11 +19,12 @@ from station.diagnosis.explanations.search import Key
 from station.diagnosis.explanations.weighing import Weighing
 
 SUPPORTED = 3.0
-"""Log of the evidence that an error must add before it is spoken of."""
+"""Log of the evidence that an error must add before it is stated."""
 BESIDE_UNNAMED = 0.1
 """Trust in a named effect that is found beside an unnamed one.
 
-Of 385 on 59 kinds of random machines 15 were there; no kind has both, hence a little more than that.
+On 59 kinds of random machines, 15 of 385 such effects were real; no kind has both, hence a slightly higher
+value.
 """
 NEGLIGIBLE = 1e-5
 PartKey = tuple[str, int | None, str | None]
@@ -38,30 +39,30 @@ class Statements:
 
     @property
     def base(self) -> float:
-        """Probability that nothing is there that the readings ask for."""
+        """Probability of no error that the readings require."""
         return dict(self.cores).get((), 0.0)
 
     @cached_property
     def unnamed(self) -> float:
-        """Probability that something without a name takes part."""
+        """Probability that an unnamed error is involved."""
         return sum(p for key, p in self.cores if not self.named(key))
 
     def named(self, key: Key) -> bool:
         return all(self.weighing.families[k].named for k in key)
 
     def _trust(self, key: Key) -> float:
-        """How far the names of a core are believed.
+        """The trust in the names of a core.
 
-        Beside an error without a name a named one may only fill what the shape of the other does not hold.
+        Beside an unnamed error a named one may only fill what the other's shape does not describe.
         """
         return 1.0 if self.named(key) else BESIDE_UNNAMED
 
     def parts(self, key: Key) -> set[PartKey]:
-        """What a core holds."""
+        """The contents of a core."""
         return set().union(*(self.weighing.families[k].keys for k in key)) if key else set()
 
     def probability(self, part: PartKey, also: Iterable[int] = ()) -> float:
-        """That an effect, or one of the families of its alias set, is there."""
+        """Probability that an effect, or one of the families of its alias set, is present."""
         others = set(also)
         return sum(
             p * self._trust(key) for key, p in self.cores if part in self.parts(key) or others & set(key)
@@ -69,7 +70,7 @@ class Statements:
 
     @cached_property
     def marginals(self) -> dict[PartKey, float]:
-        """Of every named effect in any core."""
+        """The probability of every named effect in any core."""
         out: dict[PartKey, float] = {}
         for key, p in self.cores:
             for part in self.parts(key):
@@ -78,7 +79,7 @@ class Statements:
         return out
 
     def aliases(self, choices: tuple[Choice, ...], index: int) -> tuple[int, ...]:
-        """Named families that these readings cannot tell from one error of a set, and do not exclude."""
+        """Named families that these readings cannot distinguish from one error of a set, nor exclude."""
         held = {k for key, p in self.cores if p >= 0.01 for k in key}
         alike = aliases(self.weighing.bank, choices, index)
         return tuple(k for k in alike if k in held)
@@ -101,7 +102,7 @@ def statements(weighing: Weighing) -> Statements:
 
 
 def _core(key: Key, evidence: dict[Key, float]) -> Key:
-    """Leave out, one by one, what adds least, while it adds nothing to speak of."""
+    """Remove, one by one, the error that adds least, while it adds nothing relevant."""
     while key:
         smaller = [fewer for k in range(len(key)) if (fewer := key[:k] + key[k + 1 :]) in evidence]
         if not smaller:

@@ -1,6 +1,6 @@
 """The models on the way to one explanation: the base model, then its errors one by one, strongest first.
 
-They are fitted to the earlier readings alone, so that fresh ones are predicted with everything frozen.
+They are fitted to the earlier readings only, so that fresh readings are predicted with all parameters fixed.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from station.five_bar import FiveBar
 from station.records import Measurements, Real
 
 OPEN = 4.0
-"""Standard deviation of a prediction over the noise from which on it says nothing (a direction not known)."""
+"""Standard deviation of a prediction over the noise above which it is meaningless."""
 
 
 @dataclass(frozen=True)
@@ -31,14 +31,14 @@ class Step:
 
     settled: Settled
     errors: tuple[Held, ...]
-    """What it has beyond the step before; empty for the base model."""
+    """Its errors beyond those of the previous step; empty for the base model."""
     situation: Situation
     solution: Solution
-    """Residual and derivatives over the noise that the model leaves."""
+    """Residual and derivatives over the noise under this model."""
     row_sd: Real
     """(K,) that noise, mm."""
     fresh_mm: Real | None
-    """(F,) fresh readings less predicted; NaN where the model itself leaves open what they read."""
+    """(F,) fresh readings less predicted; NaN where the model does not determine the prediction."""
 
     @property
     def residual_mm(self) -> Real:
@@ -47,7 +47,7 @@ class Step:
 
 
 def steps(found: ExplanationSet, earlier: Measurements, fresh: Measurements | None) -> tuple[Step, ...]:
-    """From the base model to the explanation that is reported, by the readings that took part."""
+    """From the base model to the reported explanation, with the readings that were used."""
     mechanism = found.mechanism.of(earlier)
     later = None if fresh is None else found.mechanism.of(fresh)
     left = list(found.shown.choices) if found.decision.verdict != "adequate" else []
@@ -63,7 +63,7 @@ def steps(found: ExplanationSet, earlier: Measurements, fresh: Measurements | No
 
 
 def _held(found: ExplanationSet, choice: Choice) -> tuple[Held, ...]:
-    """What an error is called, with its sizes in the explanation that all readings support."""
+    """The name of an error, with its sizes in the explanation that all readings support."""
     at = found.shown.choices.index(choice)
     return found.held(found.shown, at)
 

@@ -1,7 +1,7 @@
-"""Unnamed errors with mechanical structure: low harmonics of turning parts, shifts by place or load.
+"""Unnamed errors with mechanical structure: low harmonics of turning parts, shifts by position or load.
 
-They have no entry in the catalogue, but the truth is often among them; general smooth curves alone do not
-hold it.
+They have no entry in the catalogue, but the true error is often among them; general smooth curves alone do
+not describe it.
 """
 
 from __future__ import annotations
@@ -16,10 +16,10 @@ from station.diagnosis.explanations.situation import Action, Situation
 from station.records import Real
 
 RARE = 0.5
-"""Prior weight of an error without a name, relative to one of the catalogue."""
+"""Prior weight of an unnamed error, relative to one of the catalogue."""
 TURNS = ({"per_turn": 1.0}, {"per_turn": 2.0}, {"per_turn": 3.0})
 NAMED = ((TURNS[0], 3), (TURNS[0], 4))
-"""Once a turn square to the arm is an eccentric encoder; on a circle with the arm it is another length."""
+"""Once per turn square to the arm is an eccentric encoder; on a circle with the arm it is another length."""
 PLACE_FACTORS = 6
 LOADS = 4
 STRETCH = sizes(0.004, 1.0)
@@ -27,7 +27,7 @@ Field = Callable[[Situation, Sequence[Hidden]], Real]
 
 
 def structured_families() -> tuple[Family, ...]:
-    """Of both joints, of their bearings, and of frame and platform."""
+    """Families of both joints, of their bearings, and of frame and platform."""
     angle = sizes(0.002 * DEG, 0.3 * DEG)
     centre, length = sizes(0.004, 1.0), sizes(0.004, 1.0)
     return (
@@ -62,7 +62,7 @@ def unnamed(
     hidden: tuple[Hidden, ...],
     actions: Callable[[Situation, Sequence[Hidden]], list[Action]],
 ) -> Family:
-    """A family without a name in the catalogue."""
+    """A family that has no name in the catalogue."""
     part = Part("unnamed", None, kind, (), nothing)
     return Family(kind, (part,), RARE * weight, range_, hidden, actions, depends_on=depends_on)
 
@@ -72,7 +72,7 @@ def _turns(hidden: Sequence[Hidden]) -> list[float]:
 
 
 def _harmonic(joint: int, range_: Real) -> Family:
-    """A joint's angle, two or three times a turn; once is the encoder's eccentricity."""
+    """The angle of a joint, two or three times per turn; once is the encoder's eccentricity."""
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
         return [Action(f"joint{joint}", wave(s.theta[:, joint - 1], _turns(hidden)))]
@@ -89,7 +89,7 @@ def _both_harmonics(range_: Real) -> Family:
 
 
 def _centre(joint: int, range_: Real) -> Family:
-    """The centre of an active joint wanders in x and y while it turns."""
+    """The centre of an active joint moves in x and y while the joint turns."""
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
         turning = wave(s.theta[:, joint - 1], _turns(hidden))
@@ -137,7 +137,7 @@ def _both_centres(range_: Real) -> Family:
 def _elbow(joint: int, range_: Real) -> Family:
     """The passive bearing between the links: along the distal link, by the angle between both.
 
-    Once a turn is another length of the arm and another zero.
+    Once per turn is another length of the arm and another zero.
     """
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
@@ -162,7 +162,7 @@ def _place_factor(s: Situation, hidden: Sequence[Hidden]) -> Real:
 
 
 def _load(s: Situation, hidden: Sequence[Hidden]) -> Real:
-    """Weight of both arms, their difference, and the same of the platform's pull on the links."""
+    """Weight of both arms, their difference, and the same for the platform's pull on the links."""
     own = np.cos(s.theta)
     pull = s.force
     return _chosen(
@@ -172,9 +172,9 @@ def _load(s: Situation, hidden: Sequence[Hidden]) -> Real:
 
 
 def _shift(kind: str, axis: str, field: Field, count: int, weight: float, *, moves: bool) -> Family:
-    """P moves with the shift, or only the point of the platform (or of the base) that the mechanism is at.
+    """P moves with the shift, or only the current point of the platform (or of the base).
 
-    No reading can tell which.
+    No reading can distinguish the two.
     """
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
@@ -188,12 +188,12 @@ def _shift(kind: str, axis: str, field: Field, count: int, weight: float, *, mov
 
 
 def of_mechanism(s: Situation, shapes: Real) -> Action:
-    """Shapes (K, q) of a shift in x, and the same in y, of the point where the mechanism hangs."""
+    """Shapes (K, q) of a shift in x, and the same in y, of the mounting point of the mechanism."""
     return Action("reading", np.hstack([shapes * s.direction[:, [k]] for k in (0, 1)])[None])
 
 
 def _tilt(*, moves: bool) -> Family:
-    """Sideways and down at once, each in proportion to x and y: frame or platform turn as they go."""
+    """Sideways and down at once, each in proportion to x and y: frame or platform turn during the motion."""
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
         if moves:
@@ -205,7 +205,7 @@ def _tilt(*, moves: bool) -> Family:
 
 
 def _bearing_forms(s: Situation, joint: int, axis: str, hidden: Sequence[Hidden]) -> Real:
-    """What presses on a centre: the arm's weight by its lever, and the platform through the links."""
+    """The loads on a centre: the arm's weight by its lever, and the platform through the links."""
     i = joint - 1
     along = np.cos(s.phi[:, i]) if axis == "x" else np.sin(s.phi[:, i])
     return _chosen((np.cos(s.theta[:, i]), s.force[:, i] * along, np.sin(s.theta[:, i])), hidden)
@@ -221,7 +221,7 @@ def _bearing_load(target: str, weight: float) -> Family:
 
 
 def _both_bearings(axis: str, sign: float) -> Family:
-    """Both centres yield alike, in the same or in opposite sense: a frame that flexes."""
+    """Both centres deflect alike, in the same or in opposite sense: a flexible frame."""
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
         first = _bearing_forms(s, 1, axis, hidden)
@@ -231,8 +231,9 @@ def _both_bearings(axis: str, sign: float) -> Family:
 
 
 def _stretch_forms(s: Situation, kind: str, i: int, hidden: Sequence[Hidden]) -> Real:
-    """By the pull of the platform and by the weight of the arm; a distal link also hangs through between its
-    ends, by the square of how flat it lies."""
+    """The platform's pull and the arm's weight; a distal link also sags between its ends, in proportion to
+    the square of the cosine of its inclination.
+    """
     flat = s.theta[:, i] if kind == "L" else s.phi[:, i]
     return _chosen((s.force[:, i], np.cos(s.theta[:, i]), np.cos(flat) ** 2), hidden)
 

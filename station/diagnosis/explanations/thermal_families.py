@@ -12,7 +12,7 @@ from station.records import Real
 
 
 def thermal_families(s: Situation, lengths: Mapping[str, float], *, thermometer: bool) -> tuple[Family, ...]:
-    """Links and scale grow when warm, by the expansion of a material; the mounting may move either way."""
+    """Links and scale grow with temperature by a material's expansion; the mounting may move either way."""
     if thermometer and s.rise is None:
         return ()
     if s.rise is None:
@@ -22,7 +22,7 @@ def thermal_families(s: Situation, lengths: Mapping[str, float], *, thermometer:
         hidden = ({},)
 
     def course(s: Situation, hidden: Sequence[Hidden]) -> Real:
-        """(V, K, 1) rise in temperature, K; unrecorded it is one of ten kelvin in the end."""
+        """(V, K, 1) temperature rise, K; if unrecorded, it is one of ten kelvin at the end."""
         out = [10.0 * (1.0 - np.exp(-s.t_s / h["tau_s"])) if "tau_s" in h else s.rise for h in hidden]
         return np.stack([np.zeros(len(s)) if v is None else v for v in out])[:, :, None]
 

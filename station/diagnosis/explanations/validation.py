@@ -21,25 +21,25 @@ from station.mechanism import Reference
 from station.records import Measurements, Real
 
 SAME_SHARE = 0.1
-"""Share of fresh readings equal to earlier ones from which on they are not fresh."""
+"""Share of fresh readings equal to earlier ones above which they are not fresh."""
 COVERAGE = 0.6
 """Share of the workspace's width and of its height that fresh readings must span."""
 FAR_OFF, FEW_OFF = 6.0, 0.05
-"""A few readings this many standard deviations off are glitches and take no part."""
+"""A few readings this many standard deviations off are glitches and are excluded."""
 SCATTER_DOF = 30
-"""Degrees of freedom that the noise level is taken to be known with."""
+"""Degrees of freedom that are assumed for the noise level."""
 
 
 @dataclass(frozen=True)
 class Validation:
-    """What fresh readings say."""
+    """The result of the comparison with fresh readings."""
 
     new: bool
-    """Not the earlier readings once more."""
+    """Whether they are not copies of the earlier readings."""
     coverage: tuple[float, float]
     """Share of the workspace's width and height that they span."""
     p_value: float
-    """Of the prediction, averaged over the explanations."""
+    """p-value of the prediction, averaged over the explanations."""
     rms_mm: float
     max_mm: float
     """Measured less predicted by the mean over the explanations."""
@@ -129,7 +129,7 @@ def _coverage(later: FiveBar) -> tuple[float, float]:
 def together(first: Measurements, fresh: Measurements) -> Measurements:
     """All readings as one sequence; fresh positions are positions of their own.
 
-    :raises InputRefused: fresh readings from a mount that was never learned.
+    :raises InputRefused: fresh readings belong to a mount that was never learned.
     """
     unknown = [name for name in fresh.mounts if name not in first.mounts]
     if unknown:
@@ -140,7 +140,7 @@ def together(first: Measurements, fresh: Measurements) -> Measurements:
     came_from = np.array(fresh.came_from)
     came_from[np.isnan(came_from).any(axis=1)] = [*first.theta[-1], first.distance[-1]]
 
-    # a clock that was set back runs on from the last reading
+    # a clock that was set back continues from the last reading
     back = (
         max(0.0, float(first.t_s.max() - fresh.t_s.min()) + 1.0)
         if fresh.t_s.min() <= first.t_s.max()

@@ -1,4 +1,4 @@
-"""The decision: the verdict, what is confirmed, and which effects are named (contract.md, second form)."""
+"""The decision: the verdict, whether it is confirmed, and the named effects (contract.md, second form)."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ from station.records import Quantity
 
 Verdict = Literal["adequate", "explained", "ambiguous", "partly_explained", "unexplained"]
 SURE = 0.95
-"""Probability that each named effect with its aliases needs,"""
+"""Minimum probability of each named effect including its aliases,"""
 UNNAMED = 0.03
-"""and that an error without a name must stay below."""
+"""and maximum probability of an unnamed error."""
 MISFIT_P = 1e-5
 LOUD = 2.0
-"""Noise over the specification from which on it is no noise."""
+"""Noise over the specification above which it no longer counts as noise."""
 MOSTLY = 0.5
 REPORTED = 0.01
-"""Probability below which an explanation is not spoken of."""
+"""Probability below which an explanation is not reported."""
 
 
 @dataclass(frozen=True)
@@ -39,23 +39,23 @@ class Finding:
     part: Part
     parameters: tuple[Quantity, ...]
     probability: float
-    """Over all explanations that hold it or one of its aliases."""
+    """Sum over all explanations that contain it or one of its aliases."""
     alias_set: tuple[PartKey, ...]
 
 
 @dataclass(frozen=True)
 class Decision:
-    """The verdict with what it rests on."""
+    """The verdict and its basis."""
 
     verdict: Verdict
     confirmed: bool | None
     """None without fresh readings."""
     accounted: bool
-    """Whether the best explanation leaves noise only."""
+    """Whether the best explanation leaves only noise."""
 
 
 def accounts(weighed: Settled, statements: Statements) -> bool:
-    """Whether an explanation leaves no more than the repeats scatter by, and that is noise."""
+    """Whether an explanation leaves no more than the scatter of the repeats, and that is noise."""
     weighing = statements.weighing
     frame, measurements = weighing.frame, weighing.mechanism.measurements
     if loudness(weighed, weighing) > LOUD:
@@ -63,7 +63,7 @@ def accounts(weighed: Settled, statements: Statements) -> bool:
     model = predicted(weighing.mechanism, weighed.x[: weighed.size], added(frame.situation, weighed.present))
     residual = (weighing.mechanism.measured - model) / frame.row_sd
     pure, dof = pure_error(measurements, residual)
-    # the prior is a part of the cost: amplitudes and parameters take as many readings as they are worth
+    # the prior is a part of the cost: amplitudes and parameters use up as many readings as they are worth
     lack_dof = len(residual) - dof - frame.parameters_taken
     if dof < FEWEST_REPEATS or pure == 0.0 or lack_dof < 1.0:
         return True
@@ -72,16 +72,16 @@ def accounts(weighed: Settled, statements: Statements) -> bool:
 
 
 def loudness(weighed: Settled, weighing: Weighing) -> float:
-    """Noise that an explanation leaves, over that of the head and of the feedback's half pulse.
+    """Noise under an explanation, over that of the head and of the feedback's half pulse.
 
-    What wanders is weighed by the noise of the head alone; it is loud only beyond both.
+    A random drift is weighed by the noise of the head alone; it counts as too large only beyond both.
     """
     specified = np.maximum(weighing.frame.row_sd, weighing.mechanism.row_sd)
     return weighed.level * float(np.sqrt(np.mean(weighing.frame.row_sd**2) / np.mean(specified**2)))
 
 
 def decide(statements: Statements, findings: tuple[Finding, ...], validation: Validation | None) -> Decision:
-    """Verdict by the probabilities; nothing is confirmed without fresh readings that are independent."""
+    """The verdict from the probabilities; nothing is confirmed without independent fresh readings."""
     best = statements.weighing.best
     accounted = accounts(best, statements)
     if accounted and statements.base >= max((p for key, p in statements.cores if key), default=0.0):
@@ -111,7 +111,7 @@ def decide(statements: Statements, findings: tuple[Finding, ...], validation: Va
 
 
 def reported(statements: Statements) -> Key | None:
-    """The core that is reported: the most probable that holds a named effect, else any error."""
+    """The reported core: the most probable one with a named effect, otherwise with any error."""
     families = statements.weighing.families
     cores = [key for key, _ in statements.cores if key]
     named = (key for key, p in statements.cores if p >= REPORTED and any(families[k].named for k in key))
@@ -119,7 +119,7 @@ def reported(statements: Statements) -> Key | None:
 
 
 def findings(statements: Statements) -> tuple[Finding, ...]:
-    """The named effects of the most probable core that holds any."""
+    """The named effects of the most probable core that contains any."""
     weighing = statements.weighing
     core = reported(statements)
     if core is None or statements.base >= MOSTLY or not any(weighing.families[k].named for k in core):
@@ -134,7 +134,7 @@ def findings(statements: Statements) -> tuple[Finding, ...]:
         alike = tuple(
             k
             for k in statements.aliases(settled.choices, index)
-            # one of a natural pair is no other name of both
+            # one half of a natural pair is not an alternative name of the pair
             if not _nested(family.keys, weighing.families[k].keys)
         )
         alias_keys = tuple(sorted(set().union(*(weighing.families[k].keys for k in alike)), key=str))

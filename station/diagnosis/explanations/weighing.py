@@ -1,4 +1,4 @@
-"""All explanations of one set of readings with their probabilities: search, settle, linearise anew."""
+"""All explanations of one set of readings with their probabilities: search, settle, linearise again."""
 
 from __future__ import annotations
 
@@ -24,9 +24,9 @@ MOST_SETTLED = 12
 SETTLED_WITHIN = 4.5
 """Log of probability below the best within which an explanation is settled."""
 ANEW = 1.0
-"""Standard deviations between model and tangent from which on all is linearised anew."""
+"""Standard deviations between model and tangent above which everything is linearised again."""
 RESTLESS = 1.5
-"""Noise over the specification, left by everything else, from which on wandering by steps is asked for."""
+"""Noise over the specification, under everything else, above which a random step per reading is tried."""
 ROUNDS = 3
 
 
@@ -41,19 +41,19 @@ class Weighed:
 
 @dataclass(frozen=True)
 class Weighing:
-    """What the readings say of all explanations."""
+    """The probabilities of all explanations, given the readings."""
 
     mechanism: FiveBar
     reference: Reference
     start: Real
-    """(P,) base parameters at which the families were laid out."""
+    """(P,) base parameters at which the families were made."""
     families: tuple[Family, ...]
     frame: Frame
     bank: Bank
     candidates: dict[Key, Candidate]
-    """Everything that was looked at."""
+    """All evaluated candidates."""
     log_posterior: dict[Key, float]
-    """Absolute, up to a constant of the readings; of settled explanations as settled."""
+    """Absolute, up to a constant of the readings; settled explanations have their settled value."""
     settled: tuple[Weighed, ...]
     """Most probable first; probabilities among themselves."""
     by_key: dict[Key, Settled]
@@ -64,11 +64,11 @@ class Weighing:
 
     @property
     def wanders(self) -> bool:
-        """Whether the best explanation moves at every reading; it is no member of the search."""
+        """Whether the best explanation has a random step at every reading; the search does not contain it."""
         return any(c.family >= len(self.bank.families) for c in self.best.choices)
 
     def settle(self, key: Key) -> Settled:
-        """One explanation by its families, settled now where it was not yet."""
+        """One explanation by its families, settled now if it was not yet."""
         if key not in self.by_key:
             choices = self.candidates[key].choices
             self.by_key[key] = settle(self.frame, self.families, choices, self.bank.noise, self.reference)
@@ -85,7 +85,7 @@ def weigh(
 ) -> Weighing:
     """Explanations of the readings of `mechanism`, linearised at base parameters p (P,) first.
 
-    With `present` errors the first tangent is taken there, at p as well.
+    With `present` errors the first tangent includes them, also at p.
     """
     at = frame(mechanism, p, reference, row_sd)
     if not families:
@@ -135,7 +135,7 @@ def _weighed(
     posterior = {c.key: c.log_posterior + level for c in found}
     settled: dict[Key, Settled] = {}
     candidates = {c.key: c for c in found}
-    # as settled: what the tangent promises of the first may be far from true, and a later one the best
+    # use settled values: the tangent's value of the first may be far from true, and a later one the best
     top = -np.inf
     for c in found[:MOST_SETTLED]:
         if c.log_posterior + level < top - SETTLED_WITHIN:
@@ -157,7 +157,7 @@ def _weighed(
             c, one = _wandering(at, families, index, noise, reference)
             candidates[c.key], settled[c.key] = c, one
             posterior[c.key] = c.log_posterior
-    # of those that were settled: the others stand on the tangent, which may promise far too much
+    # only settled ones: the others use the tangent, which may promise far too much
     total = float(logsumexp([posterior[key] for key in settled]))
     order = sorted(settled, key=lambda key: -posterior[key])
     return Weighing(
@@ -177,7 +177,7 @@ def _weighed(
 def _wandering(
     at: Frame, families: Sequence[Family], index: int, noise: NoiseLevel, reference: Reference
 ) -> tuple[Candidate, Settled]:
-    """One error that moves at every reading, its size averaged."""
+    """One error with a random step at every reading, its size averaged."""
     choices = [Choice(index, 0, node) for node in range(len(families[index].sizes))]
     tried = [settle(at, families, (choice,), noise, reference) for choice in choices]
     evidence = np.array([s.log_evidence for s in tried])
@@ -188,6 +188,6 @@ def _wandering(
 
 
 def settle_base(bank: Bank) -> float:
-    """Absolute log evidence of the base model as the frame's tangent has it."""
+    """Absolute log evidence of the base model by the frame's tangent."""
     D = np.linalg.svd(bank.frame.jacobian * bank.frame.prior_sd, compute_uv=False)
     return bank.base - 0.5 * float(np.sum(np.log1p(D**2)))

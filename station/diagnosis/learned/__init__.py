@@ -1,4 +1,4 @@
-"""What a diagnosis learned, kept and used: the model file, commands under it, its effects on another log."""
+"""The result of a diagnosis, stored and used: model file, commands, and its effects on another log."""
 
 from __future__ import annotations
 

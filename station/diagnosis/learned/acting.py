@@ -1,4 +1,4 @@
-"""What commands have to know of an effect: where it holds, and on what it depends."""
+"""The facts about an effect that commands need: where it is valid, and what it depends on."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ class Acting:
 
     label: str
     joints: tuple[int, ...] = ()
-    """Joints that must have been where they are commanded to."""
+    """Joints whose command must lie in the range they visited."""
     by_approach: tuple[int, ...] = ()
     """Joints whose side of approach has to be given."""
     by_payload: bool = False

@@ -1,4 +1,4 @@
-"""Joint commands for target positions under an identified model, every effect on the position included."""
+"""Joint commands for target positions under an identified model, including every effect on the position."""
 
 from __future__ import annotations
 
@@ -12,15 +12,16 @@ from station.model import NotInvertible, Situation
 from station.records import Real
 
 EDGE = 0.05
-"""Share of the learned joint range by which a command may lie outside it: the sequence was commanded before
-the zero offsets were known, and turns that far beside the workspace."""
+"""Share of the learned joint range by which a command may exceed it: the sequence was commanded before the
+zero offsets were known, so it differs from the workspace's joint range by that much.
+"""
 
 
 def solve_targets(model: LearnedModel, targets: Targets) -> Real:
     """(K, 2) joint commands, rad in the drives' nominal frame.
 
-    :raises InputRefused: a target out of reach or outside what the effects were learned on, or without
-        the approach, temperature or payload that an effect needs, with row and column.
+    :raises InputRefused: a target is out of reach or outside the range on which the effects were learned, or
+    lacks the approach, temperature or payload that an effect needs; the error gives row and column.
     """
     machine = model.machine
     for effect in model.acting:
@@ -42,7 +43,7 @@ def solve_targets(model: LearnedModel, targets: Targets) -> Real:
 
 
 def _check_given(effect: Acting, targets: Targets) -> None:
-    """An effect that depends on what the file does not say cannot be compensated."""
+    """Refuse an effect that depends on a quantity the file does not contain: it cannot be compensated."""
     if effect.by_payload and targets.payload_kg is None:
         what = f"is missing, but {effect.label} was learned with payloads; give kg."
         raise targets.refuse(0, "payload_kg", what)
@@ -54,7 +55,7 @@ def _check_given(effect: Acting, targets: Targets) -> None:
 
 
 def _check_range(model: LearnedModel, theta: Real, targets: Targets) -> None:
-    """Effects of a joint hold where they were learned, no further."""
+    """Refuse targets outside the range of a joint on which its effects were learned."""
     degrees = np.degrees(theta)
     for effect in model.acting:
         for joint in effect.joints:
@@ -72,7 +73,7 @@ def _check_range(model: LearnedModel, theta: Real, targets: Targets) -> None:
 
 
 def range_text(model: LearnedModel) -> str:
-    """What the model was learned on, in words."""
+    """The range on which the model was learned, in words."""
     first, second = model.joint_range_deg
     effects = ", ".join(effect.label for effect in model.acting) or "no effect"
     text = (

@@ -1,4 +1,4 @@
-"""A set of explanations as JSON (schema station.model/2): all that commands need of it, and back."""
+"""A set of explanations as JSON (schema station.model/2), with all that commands need, and its reader."""
 
 from __future__ import annotations
 
@@ -44,13 +44,13 @@ ON_JOINTS = {"joint1": 1, "joint2": 2}
 MOVES_NOTHING = "reading"
 BY_PAYLOAD = ("compliance", "uneven compliance")
 WORTH_A_LIMIT = 0.05
-"""Probability from which on the joints' range limits commands."""
+"""Probability from which the joints' range limits commands."""
 LIKELY = 0.5
-"""Probability from which on what an error needs (a side of approach) is asked for."""
+"""Probability from which the inputs of an error (a side of approach) are required."""
 
 
 def mixture_document(diagnosis: WeighedDiagnosis, *, stage: str) -> MixtureDocument:
-    """Everything that commands of the set rest on; mm and rad."""
+    """Everything that commands under the set need; mm and rad."""
     found = diagnosis.found
     m, mixture, weighing = found.weighing.mechanism.measurements, found.mixture, found.weighing
     sequence = diagnosis.measurements
@@ -104,7 +104,7 @@ def _error(family: Family, choice: Choice, amplitudes: Real, situation: Layout) 
         family=choice.family,
         kind=family.kind,
         labels=tuple(named(part.key, family.depends_on).label for part in family.parts),
-        # without a name the shape is known where it was seen only
+        # the shape of an unnamed error is known only where it was measured
         joints=(1, 2) if moving and not family.named else joints,
         by_approach=by_approach,
         hidden={name: float(value) for name, value in family.hidden[choice.member].items()},
@@ -132,7 +132,7 @@ def _readings(m: Measurements) -> LearnedReadings:
 
 @dataclass(frozen=True)
 class MixtureMachine:
-    """The machine as a set of explanations knows it."""
+    """The machine as described by a set of explanations."""
 
     robot: Robot
     mixture: Mixture
@@ -140,7 +140,7 @@ class MixtureMachine:
     def commands(self, place: Complex, situation: Situation) -> Real:
         """(K, 2) joint commands, rad, best on average over the set.
 
-        :raises Unreachable: a place out of reach; :raises NotInvertible: no command was found.
+        :raises Unreachable: a position is out of reach. :raises NotInvertible: no command was found.
         """
         theta = self.mixture.commands(place, _around(situation))
         if not np.isfinite(theta).all():
@@ -148,7 +148,7 @@ class MixtureMachine:
         return theta
 
     def positions(self, theta: Real, situation: Situation) -> Complex:
-        """(K,) where P stands on average over the set, mm."""
+        """(K,) position of P on average over the set, mm."""
         return self.mixture.positions(theta, _around(situation))
 
 
@@ -157,7 +157,7 @@ def _around(situation: Situation) -> Around:
 
 
 def mixture_machine(part: MixtureDocument, source: str) -> tuple[MixtureMachine, tuple[Acting, ...]]:
-    """A five-bar that can be commanded.  :raises InputRefused: values that do not belong together."""
+    """A five-bar that can be commanded.  :raises InputRefused: values do not match each other."""
     robot = robot_of(part.robot, source=f"{source}: [model.robot]")
     if not isinstance(robot, Robot):
         raise InputRefused(f"Model {source}: [model.robot] is not a five-bar.")
@@ -197,7 +197,7 @@ def mixture_machine(part: MixtureDocument, source: str) -> tuple[MixtureMachine,
 
 
 def _acting(part: MixtureDocument, *, payload: bool) -> tuple[Acting, ...]:
-    """Effects that are probable enough to matter."""
+    """Effects that are probable enough to be relevant."""
     share: dict[str, float] = defaultdict(float)
     errors: dict[str, ErrorOfModel] = {}
     for one in part.explanations:

@@ -1,4 +1,4 @@
-"""The identified model as JSON: all that `station solve` needs, and a reader that trusts nothing."""
+"""The identified model as JSON, with all that `station solve` needs, and a strict reader."""
 
 from __future__ import annotations
 
@@ -50,15 +50,15 @@ class LearnedModel:
     acting: tuple[Acting, ...]
     joint_range_deg: tuple[Span, ...]
     temperature_c: float | None
-    """Where temperatures are counted from; None when nothing warmed up."""
+    """Reference temperature; None when no temperature change was recorded."""
     confirmed: bool | None
-    """Whether it predicted fresh readings; None when it was not asked to."""
+    """Whether it predicted fresh readings; None without fresh readings."""
 
 
 def model_document(
     diagnosis: TracedDiagnosis, fit: Fit, sd_factor: float, *, stage: str, confirmed: bool | None
 ) -> ModelDocument:
-    """All that commands and a transfer need; mm and rad, base parameters, then each term's amplitudes."""
+    """Everything that commands and a transfer need; mm and rad, base parameters, then amplitudes."""
     m = diagnosis.measurements
     degrees = np.degrees(m.theta)
     covariance = (fit.solution.covariance * sd_factor**2).tolist() if len(fit.x) < MANY else None
@@ -94,17 +94,17 @@ def _span(values: Real) -> Span:
 
 
 def read_model(path: Path) -> LearnedModel:
-    """A five-bar's, from the file of `station diagnose --json`.
+    """The model of a five-bar, from the file of `station diagnose --json`.
 
-    :raises InputRefused: as `read_part`, or of another machine.
+    :raises InputRefused: as `read_part`, or the model is of another machine.
     """
     return learned_model(read_part(path), str(path))
 
 
 def read_part(path: Path) -> ModelDocument | MixtureDocument:
-    """The `model` of a diagnosis, of whatever machine.
+    """The `model` of a diagnosis, for any machine.
 
-    :raises InputRefused: missing, broken, of another schema, or a value out of place.
+    :raises InputRefused: the model is missing, broken, of another schema, or contains an invalid value.
     """
     try:
         content = json.loads(content_of(path, "Model"))
@@ -135,7 +135,7 @@ def part_of(content: Any, source: str) -> ModelDocument | MixtureDocument:
 
 
 def learned_model(part: ModelDocument | MixtureDocument, source: str) -> LearnedModel:
-    """A five-bar that can be commanded.  :raises InputRefused: values that do not belong together."""
+    """A five-bar that can be commanded.  :raises InputRefused: values do not match each other."""
     machine: IdentifiedMachine | MixtureMachine
     if isinstance(part, MixtureDocument):
         machine, acting = mixture_machine(part, source)
@@ -183,7 +183,7 @@ def _acting(term: Term) -> Acting:
 
 
 def terms_of(part: ModelDocument, effects: Sequence[Effect], source: str) -> tuple[Term, ...]:
-    """The effects of a model, found again in a catalogue.  :raises InputRefused: one that is not in it."""
+    """The effects of a model, looked up in a catalogue. :raises InputRefused: one is not in it."""
     return tuple(_term(term, effects, source) for term in part.terms)
 
 

@@ -1,9 +1,9 @@
-"""Effects learned on one log, applied unchanged to another: do they hold, or were they a story about one log?
+"""Effects learned on one log, applied unchanged to another: a test that they belong to the machine.
 
-Where the machine stands and how its tool is made may differ, so the parameters of the mechanism are fitted
-again, on three quarters of the new readings at a time; the effects stay as they were learned.  Everything is
-judged by the quarter left out, once without the effects and once with them.  Where a joint has not been, its
-curve is not applied.
+The position of the machine and its tool may differ, so the parameters of the mechanism are fitted again, on
+three quarters of the new readings at a time; the effects stay as learned. Everything is judged by the
+remaining quarter, once without the effects and once with them. A curve is not applied where its joint was not
+learned.
 """
 
 from __future__ import annotations
@@ -31,12 +31,12 @@ from station.records import Flags, Measurements, MixtureDocument, ModelDocument,
 
 FEWEST_AN_UNKNOWN = 4
 DETERMINED = 2.0
-"""Uncertainty of a pose over the residual's scatter, from which on other readings do not determine it."""
+"""Uncertainty of a pose over the residual's scatter, above which other readings do not determine it."""
 
 
 @dataclass(frozen=True, slots=True)
 class Errors:
-    """Of readings that took no part in the fit, mm."""
+    """Errors of readings that were not used in the fit, mm."""
 
     rms_mm: float
     median_mm: float
@@ -45,22 +45,22 @@ class Errors:
 
 @dataclass(frozen=True)
 class Transfer:
-    """What the effects of one log do for another."""
+    """The benefit of one log's effects for another."""
 
     readings: int
     outliers: tuple[Outlier, ...]
-    """Readings off by so much that no model of this machine predicts them; left out of everything below."""
+    """Readings so far off that no model of this machine predicts them; excluded from everything below."""
     inside: int
-    """How many stand where every joint with an effect has been when it was learned."""
+    """Number of readings within the learned range of every joint with an effect."""
     effects: tuple[str, ...]
     determined: int
-    """How many of them the other readings determine; the errors are over these."""
+    """Number of those that the other readings determine; the errors are over these."""
     alone: Errors
-    """The mechanism by itself, readings inside."""
+    """The mechanism alone, for the readings inside."""
     applied: Errors
     """With the effects, the same readings."""
     beyond: tuple[Errors, Errors] | None
-    """The same pair within the outer limits of the learned range, gaps included; None when there are none."""
+    """The same pair within the outer limits of the learned range, gaps included; None if empty."""
 
 
 def transfer(
@@ -68,7 +68,7 @@ def transfer(
 ) -> Transfer:
     """Apply the effects of a learned model to readings of the same machine.
 
-    :raises InputRefused: nothing to apply, or too few readings inside the learned range.
+    :raises InputRefused: there is nothing to apply, or there are too few readings inside the learned range.
     """
     if isinstance(part, MixtureDocument):
         raise InputRefused(
@@ -106,14 +106,14 @@ def transfer(
 
 
 def _turned_near(part: ModelDocument, readings: Measurements) -> Measurements:
-    """The same poses, each joint by whole turns as near as can be to the middle of where it was learned."""
+    """The same poses, each joint moved by whole turns to be nearest to the middle of its learned range."""
     middle = np.radians([(low + high) / 2.0 for low, high in part.ranges.joints_deg])
     turns = np.round((readings.theta - middle) / (2.0 * np.pi))
     return replace(readings, theta=readings.theta - 2.0 * np.pi * turns)
 
 
 def _been(part: ModelDocument, readings: Measurements, joint: int) -> Flags:
-    """(K,) whether a joint (index) stands where it was when the model was learned."""
+    """(K,) whether a joint (index) is within the range visited when the model was learned."""
     stretches = [(np.radians(a), np.radians(b)) for a, b in part.ranges.visited_deg[joint]]
     return inside_visited(readings.theta[:, [joint]], [stretches])
 
@@ -127,7 +127,7 @@ def _off(mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelDocument) 
 def _both(
     mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelDocument, chosen: Flags
 ) -> tuple[Errors, Errors, int]:
-    """Without and with the terms, over poses that both fits determine, and how many those are."""
+    """Errors without and with the terms, over poses that both fits determine, and the number of those."""
     some = mechanism.of(mechanism.measurements.take(chosen))
     (alone, sure), (applied, sure_too) = _held_out(some, (), part), _held_out(some, terms, part)
     both = sure & sure_too
@@ -144,9 +144,10 @@ def _errors(mm: Real) -> Errors:
 
 
 def _held_out(mechanism: AnyMechanism, terms: tuple[Term, ...], part: ModelDocument) -> tuple[Real, Flags]:
-    """(K,) mm, every fold predicted by the mechanism as fitted to the others, the terms frozen; and whether
+    """(K,) mm, each fold predicted by the mechanism fitted to the others, terms fixed; whether determined.
 
-    that fit determines the pose: a wrist turned as in no other reading shows where the tool was never seen.
+    A pose with a wrist orientation that no other reading has is not determined: it alone shows the position
+    of the tool in that direction.
     """
     m = mechanism.measurements
     fold = folds(m)
@@ -186,7 +187,7 @@ class _Frozen:
         ]
 
     def solved(self, sd: Real) -> Solution:
-        """The fit with rows that scatter by sd (R,).  :raises InputRefused: no convergence."""
+        """The fit with rows that scatter by sd (R,).  :raises InputRefused: the fit does not converge."""
         size = self.model.base_size
 
         def residuals(p: Real) -> tuple[Real, Real]:
@@ -201,7 +202,7 @@ class _Frozen:
             ) from error
 
     def unknown(self, learned: Solution) -> Real:
-        """(K,) mm, standard uncertainty of where the target is, of a mechanism learned on other readings."""
+        """(K,) mm, standard uncertainty of the target's position, for a mechanism from other readings."""
         at = self.model.observe(np.concatenate([learned.x, self.amplitudes]), self.bases)
         J = at.by_parameter[:, : self.model.base_size]
         return by_reading(

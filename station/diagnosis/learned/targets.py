@@ -1,4 +1,4 @@
-"""Target positions as a CSV file or as the rows of a request, and the joint commands that go back."""
+"""Target positions from a CSV file or the rows of a request, and the joint commands for them."""
 
 from __future__ import annotations
 
@@ -20,10 +20,10 @@ OPTIONAL = (*APPROACH, "temperature_c", "payload_kg")
 
 
 class Source(Protocol):
-    """Where targets come from, and can say so."""
+    """The origin of targets, for messages."""
 
     def refuse(self, row: int, column: str, what: str) -> InputRefused:
-        """A refusal that names the place."""
+        """A refusal that names the position in the source."""
 
 
 class Rows:
@@ -37,7 +37,7 @@ class Rows:
 
 @dataclass(frozen=True)
 class Targets:
-    """K places to bring P to."""
+    """K target positions of P."""
 
     source: Source
     place: Complex
@@ -51,14 +51,14 @@ class Targets:
         return len(self.place)
 
     def refuse(self, row: int, column: str, what: str) -> InputRefused:
-        """Says where it was given."""
+        """A refusal that names the position in the source."""
         return self.source.refuse(row, column, what)
 
 
 def targets_of(rows: Sequence[Mapping[str, float | None]]) -> Targets:
-    """The rows of a request, checked one by one already, with the columns of the file.
+    """The rows of a request, each validated already, with the columns of the file.
 
-    :raises InputRefused: a temperature or payload that only some of them have.
+    :raises InputRefused: only some of them have a temperature or payload.
     """
     source = Rows()
 
@@ -83,7 +83,7 @@ def targets_of(rows: Sequence[Mapping[str, float | None]]) -> Targets:
 
 
 def read_targets(path: Path) -> tuple[Table, Targets]:
-    """:raises InputRefused: anything malformed, with row and column."""
+    """:raises InputRefused: the file is malformed; the error gives row and column."""
     table = read_table(content_of(path), REQUIRED, OPTIONAL, path.name)
     targets = Targets(
         table,

@@ -1,10 +1,10 @@
 """Mistakes in a file or a robot file, each tried as an explanation of readings that do not agree.
 
-`find_mistake` is the one entry.  `mistake` says what a mistake is; `fitting` fits the base model under a
-hypothesis; `defects` are the explanations without a mistake that one has to beat; `corrections` undo one
-mistake each, and `gross` finds the one that helps, on all rows or on some in sequence; `entries` are wrong
-numbers in the robot file and steps in between; `duplicates`, `resolution` and `labels` look at the columns
-themselves; `fresh` compares fresh readings with the sequence; `glitches` are single readings far off.
+`find_mistake` is the only entry point. `mistake` defines a mistake; `fitting` fits the base model under a
+hypothesis; `defects` are the explanations without a mistake that a mistake has to exceed; `corrections` undo
+one mistake each, and `gross` finds the one that helps, on all rows or on a run of them; `entries` are wrong
+numbers in the robot file and steps in between; `duplicates`, `resolution` and `labels` check the columns
+themselves; `fresh` compares fresh readings with the sequence; `glitches` are isolated readings far off.
 """
 
 from __future__ import annotations

@@ -17,12 +17,12 @@ SCALE_UNITS = {
     "in_tenths_of_a_millimetre": 0.1, "in_thousandths_of_an_inch": 0.0254, "in_feet": 304.8,
     "in_nanometres": 1e-6,
 }  # fmt: skip
-"""By the code of their names."""
+"""Units by the code of their names."""
 SCALE_FACTORS = {
     "share_twice": 0.5, "share_half": 2.0, "share_four_times": 0.25, "share_quarter": 4.0,
     "share_five_times": 0.2, "share_fifth": 5.0,
 }  # fmt: skip
-"""How much too large the readings are (wrong interpolation or counting of edges), and the correction."""
+"""Factors of readings that are too large (wrong interpolation or edge counting), and the correction."""
 ANGLE_UNITS = {
     "in_radians": 180.0 / np.pi, "in_minutes_of_arc": 1.0 / 60.0, "in_seconds_of_arc": 1.0 / 3600.0,
     "in_milliradians": 0.18 / np.pi, "in_gon": 0.9, "in_turns": 360.0, "in_tenths_of_a_degree": 0.1,
@@ -35,7 +35,7 @@ AT_MOST_ONE: tuple[tuple[int, ...], ...] = ((), (0,), (1,))
 
 @dataclass(frozen=True)
 class Correction:
-    """One way to put a file right."""
+    """One way to correct a file."""
 
     kind: Kind
     what: Phrase
@@ -43,13 +43,13 @@ class Correction:
     action: Phrase
     """What to do, an imperative clause."""
     joints: tuple[int, ...]
-    """Whose angles it changes; none: the readings or the order of the rows."""
+    """The joints whose angles it changes; none: the readings or the order of the rows."""
     apply: Callable[[Measurements], tuple[Measurements, NDArray[np.bool_]]]
-    """The corrected file, and the rows that still have all they need."""
+    """The corrected file, and the rows that are still complete."""
 
 
 def corrections(robot: Robot) -> Iterator[Correction]:
-    """Every one that needs no number found first."""
+    """All corrections that need no searched number."""
     yield Correction("scale_sign", phrase("scale_backwards"), phrase("reverse_scale"), (), _scaled(-1.0))
     for unit, factor in SCALE_UNITS.items():
         yield Correction(
@@ -105,7 +105,7 @@ def scaled_angles(joints: tuple[int, ...], factor: float, about_deg: tuple[float
 
 
 def scaled_readings(factor: float) -> Correction:
-    """Readings that are wrong by a factor of no name."""
+    """Readings that are wrong by an arbitrary factor."""
     return Correction(
         "scale_factor", phrase("scale_by_factor", factor=factor), phrase("check_resolution"), (),
         _scaled(factor),
@@ -113,7 +113,7 @@ def scaled_readings(factor: float) -> Correction:
 
 
 def offset_angles(offsets_deg: tuple[float, float]) -> Correction:
-    """A zero_at_deg that is far off."""
+    """A zero_at_deg with a large error."""
     wrong = tuple(i for i in (0, 1) if offsets_deg[i])
     by = tuple(phrase("degrees", value=offsets_deg[i]) for i in wrong)
     return Correction(
@@ -187,7 +187,7 @@ def _with_angles(m: Measurements, theta: Real) -> Measurements:
 
 
 def on_rows(m: Measurements, corrected: Measurements, rows: NDArray[np.bool_]) -> Measurements:
-    """The file with the correction on some rows (K,) only."""
+    """The file with the correction applied to some rows (K,) only."""
     return replace(
         m,
         theta=np.where(rows[:, None], corrected.theta, m.theta),

@@ -1,7 +1,7 @@
-"""What a machine itself can have wrong: the accounts that a mistake has to beat.
+"""Defects of the machine itself: the explanations that a mistake has to exceed.
 
-Each is a few columns with the sizes that occur.  They are no diagnosis: they only say how well the readings
-can be had without any mistake.
+Each is a few columns with realistic sizes. They are no diagnosis: they only show how well the readings can be
+explained without any mistake.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ FAR_MM = 1.0
 LARGEST_LINK_MM = 10.0
 LARGEST_GAIN = 0.03
 LARGEST_SCALE = 0.02
-"""Beyond these a part could not be mounted, or is another one."""
+"""Beyond these a part could not be mounted, or is another part."""
 SLIP_RAD = float(np.radians(0.3))
 STEP_MM = 0.05
 BOW_MM = 0.1
@@ -46,12 +46,12 @@ def both_gains(robot: Robot, m: Measurements, sd: float = GAIN) -> Extra:
 
 
 def scale_gain(m: Measurements, sd: float = SCALE_GAIN) -> Extra:
-    """Of the readings, relative."""
+    """Scale factor of the readings, relative."""
     return Extra("scale", sd, by_reading=m.distance - np.median(m.distance))
 
 
 def smooth(robot: Robot, m: Measurements) -> tuple[Extra, ...]:
-    """Everything smooth at once: gains, eccentricities once and twice a turn, sag, bow."""
+    """All smooth defects at once: gains, eccentricities once and twice per turn, sag, bow."""
     out = [scale_gain(m)]
     for joint in (0, 1):
         out.append(gain(robot, m, joint))
@@ -67,7 +67,7 @@ def smooth(robot: Robot, m: Measurements) -> tuple[Extra, ...]:
 
 
 def plays(m: Measurements) -> tuple[Extra, ...]:
-    """Half widths of the joints' play."""
+    """Half widths of the joints' backlash."""
     return tuple(
         Extra(f"play{i + 1}", PLAY_RAD, by_angle=-_only(m.approach.astype(float), i))
         for i in (0, 1)
@@ -76,23 +76,23 @@ def plays(m: Measurements) -> tuple[Extra, ...]:
 
 
 def drift(m: Measurements) -> Extra:
-    """Of the reading over the file's time."""
+    """Drift of the reading over the file's time."""
     length = float(np.ptp(m.t_s)) or 1.0
     return Extra("drift", STEP_MM, by_reading=(m.t_s - m.t_s.mean()) / length)
 
 
 @dataclass(frozen=True)
 class WithoutAMistake:
-    """Minus twice the log evidence of the readings as they are, of the best account of each sort."""
+    """Minus twice the log evidence of the unchanged readings, under the best explanation of each sort."""
 
     simple: float
-    """Nothing, or one defect."""
+    """No defect, or one defect."""
     everything: float
-    """All smooth defects at once, which imitate much."""
+    """All smooth defects at once, which imitate many other errors."""
 
 
 def without_a_mistake(robot: Robot, m: Measurements, base: Fitted) -> WithoutAMistake:
-    """Every account of this module that converges and is of a size that occurs."""
+    """All explanations of this module that converge with a realistic size."""
     simple, everything = accounts(robot, m, base)
     return WithoutAMistake(
         min(one.deviance for one in simple), min((one.deviance for one in everything), default=np.inf)
@@ -100,9 +100,9 @@ def without_a_mistake(robot: Robot, m: Measurements, base: Fitted) -> WithoutAMi
 
 
 def accounts(robot: Robot, m: Measurements, base: Fitted) -> tuple[list[Fitted], list[Fitted]]:
-    """Simple ones, the base model first, and those of everything at once."""
+    """The simple explanations, the base model first, and those with all smooth defects."""
     if base.rms_mm > FAR_MM:
-        # of the defects of this module only a slip does as much
+        # among the defects of this module only a slip has as large an effect
         return [base, *(found for found in slips(robot, m, base) if found is not None)], []
     links = dict.fromkeys(("L1", "L2", "l1", "l2"), LINK_MM)
     some = plays(m)
@@ -127,7 +127,7 @@ def accounts(robot: Robot, m: Measurements, base: Fitted) -> tuple[list[Fitted],
 
 
 def _occurs(robot: Robot, m: Measurements, found: Fitted) -> bool:
-    """Whether its sizes occur in machines, rather than in files."""
+    """Whether its sizes occur in machines, rather than only in files."""
     names = [p.name for p in FiveBar(robot, m).parameters]
     links = max(abs(found.p[names.index(name)]) for name in ("L1", "L2", "l1", "l2"))
     ratios = max((abs(v) for n, v in found.extra.items() if n.startswith("gain")), default=0.0)
@@ -139,7 +139,7 @@ def _occurs(robot: Robot, m: Measurements, found: Fitted) -> bool:
 
 
 def slips(robot: Robot, m: Measurements, base: Fitted) -> list[Fitted | None]:
-    """A slip of one joint at the moment that suits best."""
+    """A slip of one joint at the moment that fits best."""
     found = []
     for joint in (0, 1):
         row = best_moment(robot, m, base, joint)
@@ -148,8 +148,9 @@ def slips(robot: Robot, m: Measurements, base: Fitted) -> list[Fitted | None]:
 
 
 def best_moment(robot: Robot, m: Measurements, base: Fitted, joint: int | None) -> int:
-    """Row from which a step of a joint's angle (None: of both, each its own) takes most of a fit's
-    residual."""
+    """Row from which a step of a joint's angle (None: of both, with separate sizes) reduces a fit's residual
+    most.
+    """
     mechanism = FiveBar(robot, m)
     at = mechanism.observe(base.p, m.theta)
     sd = base.row_sd * base.noise
@@ -175,14 +176,14 @@ def best_moment(robot: Robot, m: Measurements, base: Fitted, joint: int | None) 
 
 
 def slip(m: Measurements, joint: int, row: int, sd: float = SLIP_RAD) -> Extra:
-    """From a row on the joint stands beside its feedback."""
+    """The joint deviates from its feedback from a row on."""
     column = np.zeros_like(m.theta)
     column[row:, joint] = 1.0
     return Extra(f"slip{joint + 1}", sd, by_angle=column)
 
 
 def _only(columns: Real, joint: int) -> Real:
-    """(K, 2) with nothing of the other joint."""
+    """(K, 2) with zeros for the other joint."""
     out = np.zeros_like(columns)
     out[:, joint] = columns[:, joint]
     return out

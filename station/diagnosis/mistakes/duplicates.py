@@ -1,4 +1,4 @@
-"""Readings that are copies: fresh ones that are the old ones, a block pasted twice, a readout that stands."""
+"""Readings that are copies: fresh readings that are the old ones, a block pasted twice, a frozen readout."""
 
 from __future__ import annotations
 
@@ -10,17 +10,17 @@ from station.records import Measurements, Phrase, Real, phrase
 
 SAME_RAD, SAME_MM = 1e-9, 1e-9
 CHANCE = 1e-6
-"""Probability below which equal values are not taken for chance."""
+"""Probability below which equal values are not attributed to chance."""
 FEWEST_COPIES = 3
 FEWEST_STUCK = 3
 STUCK_MOVES_MM = 0.5
-"""What the head should have moved at the least while it stood."""
+"""Minimum motion of the head while the readout was frozen."""
 OFTEN = 5
-"""How often one reading may come at different places before the readout is held for stuck there."""
+"""How often one reading may occur at different positions before the readout counts as frozen there."""
 
 
 def same_readings(m: Measurements, fresh: Measurements) -> Mistake | None:
-    """Fresh readings that are readings of the sequence, whatever their ids and times."""
+    """Fresh readings that are copies of the sequence, whatever their ids and times."""
     old = {_row(m, k) for k in range(len(m))}
     copied = [k for k in range(len(fresh)) if _row(fresh, k) in old]
     if len(copied) < max(FEWEST_COPIES, len(fresh) // 10) or _rarely(m, fresh) ** len(copied) > CHANCE:
@@ -40,7 +40,7 @@ def _row(m: Measurements, k: int) -> tuple[float, ...]:
 
 
 def _rarely(m: Measurements, fresh: Measurements) -> float:
-    """Chance of an honest fresh reading to equal an old one: small where the readout is fine."""
+    """Probability that an honest fresh reading equals an old one: small where the resolution is fine."""
     values = np.concatenate([m.distance, fresh.distance])
     step = _step(values)
     return float(min(0.5, step / 2e-3 * 0.4)) if step else 1e-3
@@ -59,7 +59,7 @@ def _whole(rows: tuple[int | str, ...], count: int) -> Phrase:
 
 
 def pasted_block(robot: Robot, m: Measurements, file: str = "readings") -> Mistake | None:
-    """A run of distances, or of whole rows, that stands twice."""
+    """A run of distances, or of whole rows, that occurs twice."""
     equal = np.abs(m.distance[:, None] - m.distance[None, :]) < SAME_MM
     best: tuple[int, int, int] | None = None
     for lag in range(1, len(m)):
@@ -72,14 +72,14 @@ def pasted_block(robot: Robot, m: Measurements, file: str = "readings") -> Mista
     source, copy, length = best
     was, now = np.arange(source, source + length), np.arange(copy, copy + length)
     if np.ptp(m.distance[was]) < STUCK_MOVES_MM:
-        return None  # a readout that stands
+        return None  # a frozen readout
     apart = np.abs(m.theta[was] - m.theta[now]).max(axis=1)
     moved = _moves_mm(robot, m, was, now)
     whole = bool(np.all(apart < SAME_RAD))
     step = _step(m.distance)
     honest = min(0.5, max(step, 1e-6) / 4e-3)
     if whole:
-        # honest repeats on the same pulses agree now and then
+        # honest repeats on the same pulses agree occasionally
         if honest**length * len(m) ** 2 > CHANCE:
             return None
     elif np.median(moved) < 10 * max(step, 2e-3) and honest**length * len(m) ** 2 > CHANCE:
@@ -104,7 +104,7 @@ def _runs(same: np.ndarray) -> list[tuple[int, int]]:
 
 
 def _moves_mm(robot: Robot, m: Measurements, was: np.ndarray, now: np.ndarray) -> Real:
-    """By how much the distance should differ between two sets of rows."""
+    """Expected difference of the distance between two sets of rows."""
     rho = nominal_mm(robot, m)
     return np.asarray(np.abs(rho[was] - rho[now]))
 
@@ -122,7 +122,7 @@ def by_joint_mm(robot: Robot, m: Measurements) -> Real:
 
 
 def readout_stuck(robot: Robot, m: Measurements, file: str = "readings") -> Mistake | None:
-    """The same reading at places that are far apart: in a row, or again and again."""
+    """The same reading at positions that are far apart: consecutively, or repeatedly."""
     rho = nominal_mm(robot, m)
     stuck: set[int] = set()
     for first, length in _runs(np.abs(np.diff(m.distance)) < SAME_MM):
@@ -132,7 +132,7 @@ def readout_stuck(robot: Robot, m: Measurements, file: str = "readings") -> Mist
     values, where = np.unique(np.round(m.distance, 9), return_inverse=True)
     for v in np.flatnonzero(np.bincount(where, minlength=len(values)) >= OFTEN):
         rows = np.flatnonzero(where == v)
-        # clipped at an end of its range; several places, not repeats of one
+        # clipped at an end of its range; several positions, not repeats of one
         if _spread(rho[rows]) > 10 * STUCK_MOVES_MM:
             stuck.update(rows.tolist())
     if not stuck:
@@ -153,7 +153,7 @@ def _spread(values: Real) -> float:
 
 
 def copies(robot: Robot, m: Measurements, fresh: Measurements | None, context: Context) -> Mistake | None:
-    """The first of these mistakes."""
+    """The first of these mistakes that is found."""
     if fresh is not None and (found := same_readings(m, fresh)):
         return found
     for file, readings in (("readings", m), ("fresh", fresh)):

@@ -1,5 +1,6 @@
-"""Wrong entries that a fit finds the size of: robot file, mechanism, zeros, ratios, scale, steps in
-between."""
+"""Wrong entries whose size a fit determines: robot file, mechanism, zeros, ratios, scale, steps in
+between.
+"""
 
 from __future__ import annotations
 
@@ -28,9 +29,9 @@ WIDE_RAD = float(np.radians(60.0))
 WIDE_RATIO = 0.2
 WIDE_SLIP_RAD = float(np.radians(3.0))
 MECHANISM_SDS = 5.0
-"""Standard deviations of [mechanism] drm_sd_mm beyond which the mechanism is not as the file says."""
+"""Standard deviations of [mechanism] drm_sd_mm beyond which the mechanism is not as the file states."""
 SAME_AS_EFFECT_MM = LARGEST_LINK_MM
-"""Up to here a wrong length in the file and a wrong part cannot be distinguished."""
+"""Up to this size a wrong length in the file and a wrong part cannot be distinguished."""
 SAME_AS_CENTRE_MM = 3.0
 SAME_AS_EFFECT_RATIO = LARGEST_GAIN
 SAME_AS_EFFECT_SCALE = LARGEST_SCALE
@@ -40,9 +41,9 @@ CLEAR_STEP_DEG = 0.1
 SMALLEST_ZEROING_MM = 1.0
 SURE = 6.0
 CENTRES_PRICE = 16.0
-"""Of the deviance: joint centres are machined together, a mechanism is mounted by hand, and much of what
-the one
-does to the readings the other does too."""
+"""Price in deviance: joint centres are machined together, a mechanism is mounted by hand, and both have
+similar effects on the readings.
+"""
 
 
 @dataclass(frozen=True)
@@ -50,15 +51,15 @@ class Entry:
     """One hypothesis about an entry."""
 
     verdict: Callable[[Fitted], Mistake | None]
-    """What it says once it has won; None: too small to be a mistake."""
+    """The mistake to report if it wins; None: too small to be a mistake."""
     loosened: Mapping[str, float] = field(default_factory=dict)
     extras: tuple[Extra, ...] = ()
     price: float = 0.0
-    """Of the deviance, for what was searched."""
+    """Price of the search, in deviance."""
 
 
 def entries(robot: Robot, m: Measurements, base: Fitted) -> Iterator[Entry]:
-    """All of them."""
+    """All hypotheses about entries."""
     names = [p.name for p in FiveBar(robot, m).parameters]
     drm = {name: WIDE_MM for name in names if name.startswith(("rMx", "rMy"))}
     yield Entry(lambda f: mechanism(robot, names, f), drm)
@@ -78,7 +79,7 @@ def entries(robot: Robot, m: Measurements, base: Fitted) -> Iterator[Entry]:
 
 
 def mechanism(robot: Robot, names: list[str], f: Fitted) -> Mistake | None:
-    """dr_M, c or d is not as the robot file says."""
+    """dr_M, c or d is not as the robot file states."""
     off = [
         (name, f.p[names.index(name)] - robot.drm[axis], robot.drm_sd[axis], f.sd[names.index(name)])
         for axis, name in enumerate(("rMx", "rMy"))
@@ -207,7 +208,7 @@ def stepped(m: Measurements, row: int, f: Fitted) -> Mistake | None:
     now = before + np.array(steps)
     written = _are_zeros(before, np.array(steps), np.degrees(f.sd[:2]) + np.array(sds))
     clear = [abs(s) > max(SMALLEST_STEP_DEG, SURE * sd) for s, sd in zip(steps, sds, strict=True)]
-    # a joint whose zero offset is nothing does not step when zeros are written
+    # a joint with zero offset zero does not step when zeros are written
     if not all(clear) and not (written and any(clear) and max(map(abs, steps)) > CLEAR_STEP_DEG):
         return None
     rows = ids(m, range(row, len(m)))
@@ -233,7 +234,7 @@ def _are_zeros(before: np.ndarray, steps: np.ndarray, sd: np.ndarray) -> bool:
 
 
 def moved_between(m: Measurements, fresh: Measurements, sequence_fit: Fitted, f: Fitted) -> Mistake | None:
-    """One joint or both stand elsewhere in the fresh readings: homed or written in between."""
+    """One joint or both have an offset in the fresh readings: homed or written in between."""
     steps = np.degrees([f.extra.get(f"slip{i + 1}", 0.0) for i in (0, 1)])
     sds = np.degrees([f.extra_sd.get(f"slip{i + 1}", 0.0) for i in (0, 1)])
     moved = [i for i in (0, 1) if abs(steps[i]) > max(SMALLEST_STEP_DEG, SURE * sds[i])]

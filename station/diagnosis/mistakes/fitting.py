@@ -1,8 +1,8 @@
 """Fits of the base model under a hypothesis, and how probable they make the readings.
 
-`fit` is the exact one: all parameters with their priors, some loosened, some columns added, the noise as
-large as the readings want it.  `rough` is the quick one that nine
-wrong rows in twenty do not disturb: two zero offsets and the reading offset, gross rows weighed down.
+`fit` is the exact one: all parameters with their priors, some loosened, some columns added, the noise level
+estimated. `rough` is the fast one, which tolerates up to nine wrong rows in twenty: two zero offsets and the
+reading offset, gross rows down-weighted.
 """
 
 from __future__ import annotations
@@ -18,19 +18,20 @@ from station.five_bar import SCALE_SD_MM, FiveBar, Robot
 from station.records import Flags, Measurements, Real
 
 OFFSET_SD_MM = 1e4
-"""Prior of the reading offset: as wide as anything that is measured."""
+"""Prior of the reading offset: as wide as any measured distance."""
 LEAST_NOISE = 0.2
-"""Readings may be so much better than specified: servos that rest on whole pulses leave no half pulse
-open."""
+"""Noise over the specification may be this low: servos that stop on whole pulses leave no half pulse
+unknown.
+"""
 SOFT_MM = 0.05
-"""Residual from which on a row counts as disagreeing, in the rough fit."""
+"""Residual from which a row counts as disagreeing, in the rough fit."""
 ANNEALED_MM = (200.0, 100.0, 50.0, 25.0, 12.0, 6.0, 3.0, 1.5, 0.8, 0.4, 0.2, 0.1, 0.05, 0.05, 0.05)
 """Widths of the Cauchy weights, one after the other."""
 
 
 @dataclass(frozen=True)
 class Extra:
-    """One column more: an angle or a reading that goes with it."""
+    """One additional column: an angle or a reading that varies with it."""
 
     name: str
     sd: float
@@ -56,11 +57,11 @@ class Fitted:
     row_sd: Real
     """(K,) mm as specified."""
     used: Flags
-    """(K,) rows that took part."""
+    """(K,) rows that were used."""
     noise: float
     """Standard deviation of the readings over the specified one, at least `LEAST_NOISE`."""
     deviance: float
-    """Minus twice the log of the readings' evidence, up to a constant of the rows that took part."""
+    """Minus twice the log of the readings' evidence, up to a constant of the rows that were used."""
 
     @property
     def rms_mm(self) -> float:
@@ -68,7 +69,7 @@ class Fitted:
 
 
 def row_sd(robot: Robot, m: Measurements) -> Real:
-    """(K,) mm as specified; where the links do not meet, as in the middle of the others."""
+    """(K,) mm as specified; where the links do not meet, the median of the others."""
     with np.errstate(invalid="ignore"):
         sd = FiveBar(robot, m).row_sd
     good = np.isfinite(sd)
@@ -138,7 +139,7 @@ def _with_extras(mean: Real, root: Real, extras: tuple[Extra, ...]) -> Prior:
 
 @dataclass(frozen=True)
 class _Problem:
-    """Unknowns z (P + Q,): parameters of the base model, then one of each extra column."""
+    """Unknowns z (P + Q,): parameters of the base model, then one for each extra column."""
 
     mechanism: FiveBar
     extras: tuple[Extra, ...]
@@ -159,7 +160,7 @@ class _Problem:
         return np.stack([_or_zero(e.by_reading, (len(self.used),)) for e in self.extras], axis=1)
 
     def predict(self, z: Real) -> tuple[Real, Real]:
-        """(K,) mm, and by the unknowns (K, P + Q)."""
+        """(K,) prediction, mm, and its derivatives with respect to the unknowns (K, P + Q)."""
         theta = self.mechanism.measurements.theta
         if not self.extras:
             at = self.mechanism.observe(z, theta)
@@ -170,7 +171,7 @@ class _Problem:
         return at.value + self.by_reading @ q, np.hstack([at.by_parameter, by_extra])
 
     def set_offset(self, z: Real) -> None:
-        """Let the reading offsets of `z` take what most readings are off by, in place."""
+        """Set the reading offsets of `z` in place to the typical deviation of most readings."""
         m = self.mechanism.measurements
         with np.errstate(invalid="ignore"):
             offset = np.nanmedian(self.predict(z)[0] - m.distance) if self.used.any() else 0.0
@@ -178,7 +179,7 @@ class _Problem:
         z[size - len(m.mounts) : size] += offset if np.isfinite(offset) else 0.0
 
     def solved(self, begin: Real, noise: float) -> Solution | None:
-        """With readings that scatter by `noise` times their specification; None without convergence."""
+        """The fit with readings that scatter by `noise` times specified; None without convergence."""
         distance, used, sd = self.mechanism.measurements.distance, self.used, self.row_sd[self.used]
 
         def residuals(z: Real) -> tuple[Real, Real]:
@@ -192,7 +193,7 @@ class _Problem:
         return found if found.complete else None
 
     def fitted(self, solution: Solution, noise: float, square: float) -> Fitted:
-        """:param square: of the residuals by their specified standard deviation"""
+        """:param square: sum of squares of the residuals over their specified standard deviation"""
         J, held = solution.jacobian, self.prior
         normal = held.root.T @ held.root
         pulled = float(np.sum((held.root @ (solution.x - held.mean)) ** 2))
@@ -217,7 +218,7 @@ class _Problem:
 
 
 def posterior(robot: Robot, m: Measurements, found: Fitted) -> tuple[Real, Real]:
-    """Mean (P,) and root (P, P) of what a fit of the base model knows, for `fit` of other readings."""
+    """Mean (P,) and root (P, P) of a base-model fit's posterior, as prior for `fit` of other readings."""
     mechanism = FiveBar(robot, m)
     at = mechanism.observe(found.p, m.theta)
     J = (at.by_parameter / (found.row_sd * found.noise)[:, None])[found.used]
@@ -231,7 +232,7 @@ def _or_zero(column: Real | None, shape: tuple[int, ...]) -> Real:
 
 @dataclass(frozen=True)
 class Rough:
-    """Zero offsets and reading offset that most rows agree with."""
+    """Zero offsets and reading offset on which most rows agree."""
 
     p: Real
     """(P,) parameters of the base model."""
@@ -250,7 +251,7 @@ def mean_cost(residual_mm: Real) -> float:
 
 
 def costs(residual_mm: Real) -> Real:
-    """(K,) log(1 + (residual / 0.05 mm)^2); a row without a residual disagrees by a metre."""
+    """(K,) log(1 + (residual / 0.05 mm)^2); a row without a residual counts as off by a metre."""
     return np.log1p((np.where(np.isfinite(residual_mm), residual_mm, 1e3) / SOFT_MM) ** 2)
 
 
@@ -263,7 +264,7 @@ def rough(
 ) -> Rough:
     """Robust fit of zero offsets, the mechanism within its tolerance and reading offset.
 
-    :param weights: (K,) rows that decide; the residual is of all
+    :param weights: (K,) weights of the rows; the residual is computed for all
     """
     mechanism = FiveBar(robot, m)
     names = [p.name for p in mechanism.parameters]

@@ -1,4 +1,4 @@
-"""Fresh readings against what the measurement sequence knows: what was done in between, or to that file."""
+"""Fresh readings against the measurement sequence: what changed in between, or in the fresh file."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ from station.five_bar import FiveBar, Robot
 from station.records import Measurements, phrase
 
 FAR_BETTER = 60.0
-"""Of the deviance."""
+"""Minimum gain in deviance."""
 WORSE = 3.0
-"""Fresh readings are looked at where they scatter so many times more than those before."""
+"""Fresh readings are examined where they scatter this many times more than the earlier ones."""
 CURED = 3.0
-"""Times that a mistake's correction has to reduce their scatter."""
+"""Factor by which a mistake's correction has to reduce their scatter."""
 AGREEING = 0.85
 
 
@@ -99,7 +99,7 @@ def _moved(
     plain: Fitted | None,
     known: tuple[np.ndarray, np.ndarray],
 ) -> Mistake | None:
-    """Homed anew, zeros written, or the readout zeroed, with everything else as it was."""
+    """Homed again, zeros written, or the readout zeroed, with everything else unchanged."""
     shifts = {
         joints: tuple(slip(fresh, i, 0, WIDE_SLIP_RAD) for i in joints) for joints in ((0,), (1,), (0, 1))
     }
@@ -130,7 +130,7 @@ def _moved(
 def _cures(
     robot: Robot, fresh: Measurements, sequence_fit: Fitted, found: Fitted, without: list[float]
 ) -> bool:
-    """Whether it is far more probable than anything without, and leaves no more than the sequence does."""
+    """Whether it is far more probable than any other explanation, and leaves no more than the sequence."""
     frozen = float(
         np.sqrt(
             np.nanmean(

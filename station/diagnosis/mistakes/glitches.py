@@ -13,13 +13,13 @@ from station.records import Index, Measurements, phrase
 LARGEST_SHARE = 0.12
 FAR_SDS = 8.0
 CURED = 5.0
-"""Times that leaving them out has to reduce the scatter of the rest."""
+"""Factor by which excluding them has to reduce the scatter of the others."""
 ALIKE = 2.0
-"""Readings in a row that are off to one side and agree within this factor show that something happened."""
+"""Consecutive readings that are off to one side and agree within this factor indicate an event."""
 
 
 def glitches(robot: Robot, m: Measurements, base: Fitted | None, agreed: Rough, file: str) -> Mistake | None:
-    """Few readings, scattered over the file, without which the base model fits."""
+    """A few readings, scattered over the file, without which the base model fits."""
     far = np.abs(agreed.residual_mm) > 1.0
     far |= ~np.isfinite(agreed.residual_mm)
     size = np.abs(agreed.residual_mm)
@@ -42,7 +42,7 @@ def glitches(robot: Robot, m: Measurements, base: Fitted | None, agreed: Rough, 
     if base is not None and base.rms_mm < CURED * found.rms_mm and far.sum() > 1:
         return None
     if found.noise > 2.0:
-        return None  # a machine with something else wrong: its diagnosis decides
+        return None  # a machine with another defect: its diagnosis decides
     if _one_place(m, far) or _happened(m, far, found.residual_mm):
         return None
     rows = ids(m, np.flatnonzero(far))
@@ -62,7 +62,7 @@ def glitches(robot: Robot, m: Measurements, base: Fitted | None, agreed: Rough, 
 
 
 def _one_place(m: Measurements, far: np.ndarray) -> bool:
-    """Whether every reading of the places of those is off alike: then it is the place, not the readings."""
+    """Whether every reading of the affected positions is off: then the position is at fault."""
     theta = np.degrees(m.theta)
     companions = bad = 0
     for k in np.flatnonzero(far):
@@ -74,7 +74,7 @@ def _one_place(m: Measurements, far: np.ndarray) -> bool:
 
 
 def _happened(m: Measurements, far: np.ndarray, residual_mm: np.ndarray) -> bool:
-    """Whether most of them stand in runs of like deviations: a slip or a step, before it or after."""
+    """Whether most of them form runs of similar deviations: a slip or a step, before or after."""
 
     def alike(row: Index) -> bool:
         size, sides = np.abs(residual_mm[row]), np.sign(residual_mm[row])

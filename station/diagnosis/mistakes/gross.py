@@ -1,7 +1,7 @@
 """Readings that disagree by millimetres: which correction, on which rows, makes most of them agree.
 
-Every correction is judged by a rough fit.  A mistake of some rows only is found with the parameters that
-the other rows agree on: the best run of rows on which the corrected file agrees and the file does not.
+Every correction is judged by a rough fit.  A mistake in some rows only is found with the parameters on which
+the other rows agree: the best run of rows on which the corrected file agrees and the file does not.
 """
 
 from __future__ import annotations
@@ -26,28 +26,28 @@ from station.records import Flags, Measurements, Real
 
 NO_REACH_MM = 1e3
 FACTORS = np.geomspace(0.04, 25.0, 260)
-"""Of a ratio or a scale."""
+"""Factors of a ratio or a scale."""
 KNOWN_FACTORS = (0.5, 2.0, 0.25, 4.0, 0.1, 10.0, 0.2, 5.0, 0.8, 1.25, 0.75, 4.0 / 3.0, 2.0 / 3.0, 1.5)
 OFFSETS_DEG = np.arange(-180.0, 180.0, 10.0)
 EVERY_SO_MANY = 40
-"""Rows that the first look at zeros and factors takes."""
+"""Row stride of the first search for zeros and factors."""
 MOST_ZEROINGS = 3
 AGREES_MM = 0.3
 SHORTEST = 3
-"""Rows of a run that is called one."""
+"""Minimum number of rows of a run."""
 PART = 0.9
-"""A correction of fewer rows than this share is one of a part."""
+"""A correction of a smaller share of the rows counts as a partial one."""
 
 
 @dataclass(frozen=True)
 class Found:
-    """A correction of some rows and how well the file agrees then."""
+    """A correction of some rows, and how well the file then agrees."""
 
     correction: Correction
     rows: Flags
     """(K,) corrected rows."""
     used: Flags
-    """(K,) rows that still have all they need."""
+    """(K,) rows that are still complete."""
     corrected: Measurements
     start: Real
     cost: float
@@ -55,7 +55,7 @@ class Found:
 
 @dataclass(frozen=True)
 class Zeroings:
-    """Steps of the reading alone."""
+    """Steps of the reading only."""
 
     rows: tuple[NDArray[np.intp], ...]
     steps_mm: tuple[float, ...]
@@ -64,7 +64,7 @@ class Zeroings:
 
 
 def majority(robot: Robot, m: Measurements) -> Rough:
-    """The rough fit that most rows agree with, of all rows or a part of the file."""
+    """The rough fit on which most rows agree, using all rows or a part of the file."""
     n = len(m)
     parts = [np.ones(n, dtype=bool)]
     for pieces in (2, 3):
@@ -147,7 +147,7 @@ def zeroings(robot: Robot, m: Measurements, agreed: Rough) -> Zeroings | None:
     level = np.zeros(len(m))
     for chosen, step in zip(rows, steps, strict=True):
         level[chosen] = step
-    # any part may be the wrong one; what came later is named
+    # any part may be the wrong one; the later one is reported
     start = agreed.p.copy()
     start[len(start) - len(m.mounts) :] -= level[0]
     level -= level[0]
@@ -160,7 +160,7 @@ def zeroings(robot: Robot, m: Measurements, agreed: Rough) -> Zeroings | None:
 
 
 def _levels(residual: Real, taken: Flags) -> list[float]:
-    """Values that some rows in a row share."""
+    """Values that several consecutive rows share."""
     out: list[float] = []
     for k in range(len(residual) - SHORTEST + 1):
         window = residual[k : k + SHORTEST]
@@ -211,12 +211,12 @@ def _possible(robot: Robot, m: Measurements) -> bool:
 
 
 def _searched(robot: Robot, m: Measurements) -> Iterator[Correction]:
-    """Zeros, ratios and scale factors that come nearest by the nominal geometry."""
+    """Zeros, ratios and scale factors with the best agreement under the nominal geometry."""
     few = slice(None, None, max(1, len(m) // EVERY_SO_MANY))
     theta, distance = m.theta[few], m.distance[few]
 
     def apart(angles: Real, readings: Real) -> Real:
-        """(C,) mm of C candidates: angles (C, K, 2), readings (C, K)."""
+        """(C,) deviation, mm, of C candidates: angles (C, K, 2), readings (C, K)."""
         with np.errstate(invalid="ignore"):
             r = readings - pose(robot.geometry, angles.reshape(-1, 2)).rho.reshape(readings.shape)
         closed = np.isfinite(r)

@@ -1,4 +1,4 @@
-"""Columns that only name or order readings: position, time, approach."""
+"""Columns that only label or order readings: position, time, approach."""
 
 from __future__ import annotations
 
@@ -13,26 +13,26 @@ from station.five_bar import Robot
 from station.records import Measurements, Phrase, Real, phrase, with_guesses
 
 APART_DEG = 0.3
-"""Readings of one position stand no further from each other; servos rest within hundredths."""
+"""Largest deviation between readings of one position; servos stop within hundredths of a degree."""
 LEAST_DT_S = 0.1
-"""No arm moves, settles and is read faster."""
+"""No arm moves, settles and is read in less time."""
 LONGEST_DT_S = 600.0
 SLOWEST_DEG_PER_S = 0.2
 SAME_WAY = 1e-6
-"""Share of a way below which all are the same."""
+"""Share of a motion below which all motions count as equal."""
 ALIKE, LESS = 0.95, 0.2
-"""Correlation of the time between readings with the way between them, that says they belong together; and
-how much less
-it is for the rows as they stand where a column is out of place."""
+"""Correlation of the time between readings with the motion between them that shows they match; and how much
+lower it is for the unchanged rows where a column is shifted.
+"""
 WAY_DEG = 0.05
 FEWEST = 20
 AGREE = 0.95
 FAR_BETTER = 40.0
-"""Of the deviance: e^20 times more probable."""
+"""Minimum gain in deviance: e^20 times more probable."""
 
 
 def position_labels(m: Measurements, context: Context) -> Mistake | None:
-    """Readings of one position that stand far from each other."""
+    """Readings of one position that are far from each other."""
     if not context.position_recorded:
         return None
     theta = np.degrees(m.theta)
@@ -55,7 +55,7 @@ def position_labels(m: Measurements, context: Context) -> Mistake | None:
 
 
 def time_column(m: Measurements) -> Mistake | None:
-    """A time that no arm can keep, or that belongs to other rows."""
+    """A time that no arm can achieve, or that belongs to other rows."""
     gaps = np.diff(m.t_s)
     backwards = np.flatnonzero(gaps < 0)
     if backwards.size:
@@ -99,7 +99,7 @@ def _correlation(a: Real, b: Real) -> float:
 
 
 def approach_columns(robot: Robot, m: Measurements) -> Mistake | None:
-    """Approach columns that contradict the order of the rows: reversed, exchanged, a row off."""
+    """Approach columns that contradict the order of the rows: reversed, exchanged, or shifted by a row."""
     if not m.approach.any():
         return None
     moved = np.where(
@@ -150,7 +150,7 @@ def _agreement(recorded: Real, moved: Real) -> float | None:
 
 
 def _positive_play(robot: Robot, m: Measurements, joints: list[int]) -> bool:
-    """Whether a play as recorded is there: then the columns are right and the order of the rows is not."""
+    """Whether backlash with the recorded sign is present: then the order of the rows is wrong."""
     found = fit(robot, m, extras=plays(m))
     if found is None:
         return False
@@ -164,7 +164,7 @@ def _approach(what: Phrase, m: Measurements) -> Mistake:
 
 
 def approach_missing(robot: Robot, m: Measurements, base: Fitted, context: Context) -> Mistake | None:
-    """No approach is recorded, and with the one guessed from the order of the rows a play shows."""
+    """No approach is recorded, and with the approach inferred from the order of the rows backlash appears."""
     if context.approach_recorded:
         return None
     guessed = with_guesses(replace(m, approach=np.zeros_like(m.approach)))

@@ -1,4 +1,4 @@
-"""What a data-entry mistake is: the contract's `mistake`, with what follows from it."""
+"""A data-entry mistake: the contract's `mistake`, with its consequences."""
 
 from __future__ import annotations
 
@@ -18,25 +18,26 @@ Kind = Literal[
     "same_readings", "rehomed", "zeros_written", "glitches",
 ]  # fmt: skip
 Severity = Literal["refused", "label", "as_effect"]
-"""Refused: readings, angles or the robot file are wrong.  Label: the diagnosis goes on without that column
-or those readings, and confirms nothing.  As effect: an entry or a defect of the same size, for the
-diagnosis to report as the effect with both remedies; not a `mistake` of the document."""
+"""Refused: readings, angles or the robot file are wrong. Label: the diagnosis continues without that column
+or those readings, and confirms nothing. As effect: an entry or a defect of the same size, which the diagnosis
+reports as the effect with both remedies; not a `mistake` of the document.
+"""
 FEW = 3
-"""Ids that are written out at each end of a longer list."""
+"""Number of ids that are written out at each end of a longer list."""
 
 
 @dataclass(frozen=True)
 class Mistake:
-    """One mistake and all that is said about it."""
+    """One mistake and everything that is reported about it."""
 
     kind: Kind
     said: Phrase
-    """One sentence or two: what is wrong, where, what to do."""
+    """One sentence or two: what is wrong, where, and what to do."""
     rows: tuple[int | str, ...]
-    """Ids of the readings at fault; empty where the robot file or a whole file is."""
+    """Ids of the readings at fault; empty where the robot file or a whole file is at fault."""
     severity: Severity
     file: Literal["readings", "fresh", "both", "robot"] = "readings"
-    """Where it has to be put right."""
+    """The file to correct."""
 
     @property
     def text(self) -> str:
@@ -49,7 +50,7 @@ class Mistake:
 
 
 class MistakeRefused(InputRefused):
-    """Files that cannot be diagnosed before the mistake in them is put right."""
+    """The files cannot be diagnosed before a mistake in them is corrected."""
 
     def __init__(self, mistake: Mistake) -> None:
         super().__init__(mistake.text)
@@ -58,12 +59,12 @@ class MistakeRefused(InputRefused):
 
 @dataclass(frozen=True)
 class Context:
-    """What the file itself said, beside the numbers."""
+    """Facts about the file beside the numbers."""
 
     approach_recorded: bool = True
     """Whether the file had approach columns with something in them."""
     position_recorded: bool = True
-    """Whether it had position labels; else a place is one reading."""
+    """Whether it had position labels; otherwise each reading is its own position."""
     name: str = "the file"
 
     @classmethod
@@ -94,15 +95,15 @@ def named(rows: Sequence[int | str]) -> Phrase:
 
 
 def rows_named(by: int) -> Phrase:
-    """So many rows, either way."""
+    """A number of rows, singular or plural."""
     return phrase("row") if abs(by) == 1 else phrase("rows", count=abs(by))
 
 
 def angle_columns(joints: Sequence[int]) -> tuple[str, ...]:
-    """Their names in the file."""
+    """The names of the angle columns in the file."""
     return tuple(f"theta{i + 1}_deg" for i in joints)
 
 
 def joints_named(joints: Sequence[int]) -> tuple[Phrase, ...]:
-    """By index from 0, in words."""
+    """Joints by index from 0, in words."""
     return tuple(phrase("joint", number=i + 1) for i in joints)

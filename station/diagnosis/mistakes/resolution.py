@@ -1,4 +1,4 @@
-"""Angles that are not the drives' feedback to the last pulse: rounded, or commanded."""
+"""Angles that are not the drives' feedback at full resolution: rounded, or commanded."""
 
 from __future__ import annotations
 
@@ -16,22 +16,22 @@ STEPS_DEG = tuple(m * 10.0**-k for k in range(5) for m in (5, 2, 1))
 STEPS_RAD = tuple(m * 10.0**-k for k in range(2, 6) for m in (5, 2, 1))
 ON_STEP = 1e-6
 COSTLY = 2.0
-"""A resolution is named where it costs so many times the head's noise."""
+"""A resolution is reported if its effect is this many times the head's noise."""
 SEEN = 0.4
-"""and the readings scatter by at least this share of what it should cost."""
+"""and the readings scatter by at least this share of its expected effect."""
 SAME_PLACE_DEG = 0.03
 FEWEST_PAIRS = 6
 IDENTICAL = 0.97
 SCATTER = 2.5
-"""Repeats with identical angles that scatter by so many times the head's noise."""
+"""Scatter of repeats with identical angles over the head's noise."""
 WANDERS = 0.5
-"""Correlation of neighbours in time from which on the scatter is a wandering."""
+"""Correlation of neighbours in time above which the scatter is a drift."""
 OFF_GRID = 0.1
-"""Distance from the pulse grid, in pulses, of what is not on it."""
+"""Distance from the pulse grid, in pulses, above which an angle is not on it."""
 
 
 def coarse_angles(robot: Robot, m: Measurements, base: Fitted | None, file: str) -> Mistake | None:
-    """All angles of a column are multiples of a step that costs more than the noise."""
+    """All angles of a column are multiples of a step with a larger effect than the noise."""
     by_joint = by_joint_mm(robot, m)
     steps = [_step_deg(np.degrees(m.theta[:, i]), m.theta[:, i]) for i in (0, 1)]
     coarse = [i for i in (0, 1) if steps[i] > 1.5 * robot.pulse_deg]
@@ -58,13 +58,13 @@ def coarse_angles(robot: Robot, m: Measurements, base: Fitted | None, file: str)
 
 
 def is_coarse(robot: Robot, m: Measurements) -> bool:
-    """Whether a column's angles are multiples of a step coarser than the pulse, whatever that costs."""
+    """Whether a column's angles are multiples of a step coarser than the pulse, whatever its effect."""
     steps = (_step_deg(np.degrees(m.theta[:, i]), m.theta[:, i]) for i in (0, 1))
     return any(step > 1.5 * robot.pulse_deg for step in steps)
 
 
 def _step_deg(degrees: Real, rad: Real) -> float:
-    """The coarsest step that all values are multiples of, in deg; 0 if there is none worth naming."""
+    """The coarsest step that all values are multiples of, in deg; 0 if there is no relevant one."""
     found = 0.0
     for values, steps, unit in ((degrees, STEPS_DEG, 1.0), (rad, STEPS_RAD, 180.0 / np.pi)):
         for step in steps:
@@ -75,7 +75,7 @@ def _step_deg(degrees: Real, rad: Real) -> float:
 
 
 def commanded_angles(robot: Robot, m: Measurements, base: Fitted | None, file: str) -> Mistake | None:
-    """Visits of one place with identical angles, whose readings scatter as servos do."""
+    """Visits of one position with identical angles, whose readings scatter as servos do."""
     firsts, seconds = _visits(m)
     if len(firsts) < FEWEST_PAIRS or base is None:
         return None
@@ -112,7 +112,7 @@ def commanded_angles(robot: Robot, m: Measurements, base: Fitted | None, file: s
 
 
 def _visits(m: Measurements) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """Pairs of visits of one place, each with the one before, another place between them."""
+    """Pairs of visits of one position, each with the previous one, another position between them."""
     cells = np.round(np.degrees(m.theta) / SAME_PLACE_DEG).astype(int)
     firsts, seconds = [], []
     seen: dict[tuple[int, ...], list[int]] = {}
@@ -132,13 +132,13 @@ def _visits(m: Measurements) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
 
 
 def _wanders(m: Measurements, base: Fitted, firsts: NDArray[np.intp], seconds: NDArray[np.intp]) -> bool:
-    """Whether the residual of neighbours in time is alike: a wandering, not servos."""
+    """Whether the residual of neighbours in time is similar: a drift, not the servos."""
     r = base.residual_mm - np.median(base.residual_mm)
     return bool(np.corrcoef(r[:-1], r[1:])[0, 1] > WANDERS)
 
 
 def off_grid(robot: Robot, m: Measurements) -> bool:
-    """Whether a joint's angles are plainly not whole pulses."""
+    """Whether a joint's angles are clearly not whole pulses."""
     return any(not _on_grid(robot, m, i) for i in (0, 1))
 
 

@@ -1,4 +1,4 @@
-"""Every kind of mistake as an explanation; the one that makes the readings agree, if it is beyond chance."""
+"""Every kind of mistake as an explanation; the one that makes the readings agree beyond chance."""
 
 from __future__ import annotations
 
@@ -27,22 +27,22 @@ from station.five_bar import FiveBar, Robot
 from station.records import Measurements, phrase
 
 FAR_BETTER = 60.0
-"""Of the deviance: what a mistake must win over any account without one (e^30 times more probable)."""
+"""Gain in deviance that a mistake needs over any explanation without one (e^30 times more probable)."""
 MECHANISM_BETTER, CLEARLY = 40.0, 12.0
 AS_GOOD = 20.0
 BEYOND_OTHERS = 6.0
 QUIET = 1.25
-"""Noise over specification up to which a file is not searched any further."""
+"""Noise over the specification up to which a file is not searched further."""
 GROSS_MM = 0.15
-"""Residual from which on rows, units and columns are tried."""
+"""Residual from which rows, units and columns are tried."""
 HOPELESS = 5.5
-"""Rough cost, of rows nearly a millimetre off, from which on no exact fit is tried."""
+"""Rough cost, of rows nearly a millimetre off, from which no exact fit is tried."""
 FAR_MM = 1.0
-"""and from which on they are tried first: wrong numbers in the robot file seldom do as much."""
+"""and from which they are tried first: wrong numbers in the robot file seldom have as large an effect."""
 SETTLED, SETTLED_MM = 1.0, 4e-3
-"""Residual over the specified noise, or mm, at which nothing else is tried."""
+"""Residual over the specified noise, or in mm, at which nothing else is tried."""
 TRIES = 2.0 * float(np.log(100.0))
-"""Price of the search over corrections, of the deviance; that over runs of rows comes on top."""
+"""Price of the search over corrections, in deviance; the price over runs of rows is added."""
 FEWEST = 8
 
 
@@ -63,12 +63,11 @@ def find_mistake(
 ) -> Mistake | None:
     """The mistake in these files that makes them agree, or none.
 
-    :param measurements: a file read without `Mechanism.check`, which refuses what is to be named here
-    :param fresh: fresh readings, read alike
-    :param context: what the file recorded; without it what the numbers show
+    :param measurements: a file read without `Mechanism.check`, which refuses what is reported here
+    :param fresh: fresh readings, read in the same way
+    :param context: what the file recorded; if omitted, it is inferred from the numbers
     :param explained: the diagnosis accounts for the readings already, so that small wrong entries need no
-    search;
-        saves a quarter of a second on a machine with a defect
+    search; this saves a quarter of a second on a machine with a defect
     """
     m = measurements
     if len(m) < FEWEST or m.joints != 2:
@@ -106,7 +105,7 @@ def _labels_of_fresh(robot: Robot, fresh: Measurements) -> Mistake | None:
 
 
 def _angles(robot: Robot, m: Measurements, fresh: Measurements | None, base: Fitted | None) -> Mistake | None:
-    """Angles that are rounded or commanded, in either file."""
+    """Angles in either file that are rounded or commanded."""
     found = coarse_angles(robot, m, base, "readings") or commanded_angles(robot, m, base, "readings")
     if found or fresh is None or len(fresh) < FEWEST or base is None:
         return found
@@ -131,7 +130,7 @@ def _angles(robot: Robot, m: Measurements, fresh: Measurements | None, base: Fit
 def _in_readings(
     robot: Robot, m: Measurements, base: Fitted | None, explained: bool
 ) -> tuple[Mistake | None, Fitted | None]:
-    """The mistake in the sequence, and a fit that fresh readings can be held against."""
+    """The mistake in the sequence, and a fit to compare fresh readings with."""
     if base is not None:
         beyond = zero_at(robot, m, base)
         quiet = base.rms_mm < QUIET * _repeats_mm(m, base)
@@ -175,7 +174,7 @@ def _in_readings(
 
 
 def _any_settles(candidates: list[_Candidate], base: Fitted | None) -> bool:
-    """Whether one brings the readings to their noise, where the base model was far off."""
+    """Whether a correction brings the readings to their noise, where the base model was far off."""
     if base is not None and base.rms_mm < GROSS_MM:
         return False
     limit = SETTLED_MM if base is None else SETTLED * float(np.median(base.row_sd))
@@ -183,15 +182,15 @@ def _any_settles(candidates: list[_Candidate], base: Fitted | None) -> bool:
 
 
 def _far_better(best: _Candidate, base: Fitted, without: WithoutAMistake) -> bool:
-    """Whether chance and the machine's own defects are beaten.
+    """Whether chance and the machine's own defects are excluded.
 
-    All smooth defects together imitate much of what a wrong length or a mechanism elsewhere does, with
-    many sizes
-    where the mistake has one or two: those it has to beat clearly, the plain model and single defects by far.
+    All smooth defects together imitate many effects of a wrong length or a displaced mechanism, with many
+    sizes where the mistake has one or two: a mistake has to exceed those clearly, the plain model and single
+    defects by far.
     """
     everything = without.everything - best.deviance
     if best.mistake is not None and best.mistake.severity == "as_effect":
-        # an entry of a defect's size is reported where it is as probable as any account without
+        # an entry of a defect's size is reported if it is as probable as any other explanation
         return (
             base.deviance - best.deviance > FAR_BETTER
             and min(without.simple - best.deviance, everything) > -AS_GOOD
@@ -202,14 +201,14 @@ def _far_better(best: _Candidate, base: Fitted, without: WithoutAMistake) -> boo
 
 
 def _repeats_mm(m: Measurements, base: Fitted) -> float:
-    """What repeats scatter by, mm; at most, and without enough of them, what the specification says."""
+    """Scatter of the repeats, mm; at most, and without enough repeats, the specification."""
     square, dof = pure_error(m, base.residual_mm)
     specified = float(np.median(base.row_sd))
     return min(float(np.sqrt(square / dof)), specified) if dof >= MINIMUM_DOF else specified
 
 
 def _strained(robot: Robot, m: Measurements, base: Fitted) -> bool:
-    """Whether a fit within the noise has drawn a parameter far from where it was known to be."""
+    """Whether a fit within the noise has moved a parameter far from its known value."""
     known = FiveBar(robot, m).parameters
     return any(
         abs(value - p.prior_mean) > 4.0 * p.prior_sd for value, p in zip(base.p[2:], known[2:], strict=True)
@@ -257,7 +256,7 @@ def _gross(robot: Robot, m: Measurements, agreed: Rough) -> list[_Candidate]:
 
 
 def _promising(found: list[gross.Found], cost: float) -> list[gross.Found]:
-    """Those that make rows agree, and not far worse than the best does."""
+    """Candidates that make rows agree, and are not far worse than the best one."""
     return [one for one in found[:5] if one.cost < min(cost - 0.1, found[0].cost + 1.0, HOPELESS)]
 
 
@@ -278,7 +277,7 @@ def _exact(robot: Robot, found: gross.Found) -> Fitted | None:
 
 
 def _lost_rows(found: gross.Found, exact: Fitted) -> float:
-    """What the rows left out would have cost at the fit's own noise."""
+    """The cost of the excluded rows at the fit's own noise."""
     out = int((~found.used).sum())
     return out * (1.0 + 2.0 * float(np.log(exact.noise * np.median(exact.row_sd))))
 

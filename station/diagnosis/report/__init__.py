@@ -1,4 +1,4 @@
-"""What is reported of a diagnosis: its document, its page and the figures in both."""
+"""The report of a diagnosis: its document, its page and the figures in both."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What these readings could not have shown: the smallest visible size of every effect not found."""
+"""The detection limits of these readings: the smallest detectable size of every effect not found."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ POWER = 0.8
 
 
 def detectable(fit: Fit, effects: Sequence[Effect]) -> tuple[SmallestVisible, ...]:
-    """For every effect of the catalogue that is not in the fit."""
+    """The limit of every effect of the catalogue that is not in the fit."""
     present = {term.effect.label for term in fit.model.terms}
     scan = Scan(fit)
     return tuple(_one(scan, effect, len(effects)) for effect in effects if effect.label not in present)
@@ -35,7 +35,7 @@ def _one(scan: Scan, effect: Effect, tests: int) -> SmallestVisible:
         text = "invisible in these readings: geometry and zero offsets take up its signature"
         return _visible(effect, None, text)
     size = variants.basis.shape[2]
-    # variants compared differ in the values of their hidden parameters only, not in what they act on
+    # compared variants differ only in the values of their hidden parameters, not in the place of action
     kind = variants.hidden[int(np.argmax(visible))].keys()
     alike = [k for k, hidden in enumerate(variants.hidden) if visible[k] and hidden.keys() == kind]
     typical = sorted(alike, key=lambda k: information[k])[len(alike) // 2]
@@ -47,7 +47,7 @@ def _one(scan: Scan, effect: Effect, tests: int) -> SmallestVisible:
 
 
 def _of_many(scan: Scan, effect: Effect, variants: Variants, tests: int) -> SmallestVisible:
-    """Of many amplitudes together: the shape that shows best."""
+    """The limit for many amplitudes together: of the shape that is detected best."""
     values, vectors = np.linalg.eigh(scan.information(variants)[0])
     amplitudes = vectors[:, -1] * np.sqrt(_noncentrality(scan, variants, 1, tests) / values[-1])
     size = len(amplitudes)
@@ -57,7 +57,7 @@ def _of_many(scan: Scan, effect: Effect, variants: Variants, tests: int) -> Smal
 
 
 def _noncentrality(scan: Scan, variants: Variants, size: int, tests: int) -> float:
-    """Of the F test at which it is passed with `POWER`, look-elsewhere and Holm included."""
+    """Noncentrality of the F test at which it is passed with `POWER`, look-elsewhere and Holm included."""
     dof = max(scan.fit.dof - size, 1)
     level = SIGNIFICANT / (tests * variants.trials)
     critical = float(fdtri(size, dof, 1.0 - level))

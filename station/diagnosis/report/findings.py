@@ -1,4 +1,4 @@
-"""What is said of one diagnosis, however it came about: the figures that documents, pages and tables show."""
+"""The results of one diagnosis, whichever search made it: the figures of documents, pages and tables."""
 
 from __future__ import annotations
 
@@ -41,24 +41,24 @@ from station.records import (
 
 @dataclass(frozen=True)
 class FoundEffect:
-    """One effect as it is reported."""
+    """One effect as reported."""
 
     name: EffectName
     label: str
     physics: str
     parameters: tuple[Quantity, ...]
     share: float
-    """Of the base residual's square that this effect took."""
+    """Share of the base residual's sum of squares that this effect took."""
     p_value: float
     probability: float | None
-    """That it or one of its aliases is there; None where the search weighs no alternatives."""
+    """Probability that it or one of its aliases is present; None where the search weighs no alternatives."""
     aliases: tuple[EffectName, ...]
-    """What these readings cannot distinguish from it,"""
+    """Effects that these readings cannot distinguish from it,"""
     alias_labels: tuple[str, ...]
-    """and how that is called."""
+    """and their labels."""
     remedy: str
     experiment: str
-    """What separates it from its aliases."""
+    """The experiment that distinguishes it from its aliases."""
     entry: Phrase | None = None
     """A wrong entry of the robot file that may be the cause instead."""
 
@@ -70,7 +70,7 @@ class FoundEffect:
         return report_text("between_sentences", language).join([remedy, self.entry.text(language)])
 
     def record(self) -> Finding:
-        """As the document shows it."""
+        """The effect as the document contains it."""
         return Finding(
             effect=self.name.effect,
             joint=self.name.joint,
@@ -88,16 +88,16 @@ class FoundEffect:
 
 @dataclass(frozen=True)
 class ResidualView:
-    """The residual of every reading that was learned on, beside all that it may be ordered by."""
+    """The residual of every reading that was learned on, with all quantities it may be ordered by."""
 
     before_mm: Real
     """(K,) under the base model."""
     by_effect_mm: tuple[Real, ...]
-    """(K,) what each effect accounts for, in the order in which they were added."""
+    """(K,) contribution of each effect, in the order in which they were added."""
     after_mm: Real
     """(K,)"""
     limit_mm: Real
-    """(K,) what noise alone hardly exceeds."""
+    """(K,) limit that noise alone hardly exceeds."""
     theta: Real
     """(K, n) rad, zero offsets included."""
     approach: Real
@@ -109,44 +109,45 @@ class ResidualView:
 
 
 class Findings(ABC):
-    """Everything that is said of one diagnosis, each figure computed once."""
+    """All results of one diagnosis, each figure computed once."""
 
     schema: DiagnosisSchema
-    """Of the document."""
+    """Schema of the document."""
     robot: AnyRobot
     measurements: Measurements
-    """The readings that took part, without fresh ones."""
+    """The readings that were used, without fresh ones."""
     outliers: tuple[Outlier, ...]
     fresh_outliers: tuple[int | str, ...]
 
     @property
     @abstractmethod
     def decision(self) -> Decision:
-        """Verdict, confirmation, and what follows."""
+        """Verdict, confirmation, and consequences."""
 
     @property
     def zeros_only_bound_mm(self) -> float | None:
-        """No position error is larger, with 95 % probability, if the drives get the zero offsets and nothing
-        else is compensated; None where that is not known."""
+        """Bound on the position error with 95 % probability, if the drives get the zero offsets and nothing
+        else is compensated; None where unknown.
+        """
         return None
 
     @property
     def fresh(self) -> tuple[FreshReading, ...]:
-        """Readings that took no part in the fit; empty where none are shown on a map."""
+        """Readings that were not used in the fit; empty where none are shown on a map."""
         return ()
 
     def error_fields(self, places: Complex) -> ErrorFields | None:
-        """Position errors at places (G,), mm, with the zero offsets in the drives and nothing else
-        compensated; None where that is not known.
+        """Position errors at positions (G,), mm, with the zero offsets in the drives and nothing else
+        compensated; None where unknown.
 
-        :raises Unreachable: naming the first place out of reach.
+        :raises Unreachable: naming the first position out of reach.
         """
         return None
 
     @property
     @abstractmethod
     def noise(self) -> Noise:
-        """What the readings were judged by."""
+        """The noise with which the readings were judged."""
 
     @property
     @abstractmethod
@@ -156,12 +157,12 @@ class Findings(ABC):
     @property
     @abstractmethod
     def origin(self) -> str | None:
-        """The stage that the parameters are of; None where they are the mean over all explanations."""
+        """The stage that the parameters belong to; None where they are the mean over all explanations."""
 
     @property
     @abstractmethod
     def weak_direction(self) -> WeakDirection:
-        """What the readings determine least."""
+        """The direction that the readings determine least."""
 
     @property
     @abstractmethod
@@ -171,17 +172,17 @@ class Findings(ABC):
     @property
     @abstractmethod
     def added(self) -> tuple[str, ...]:
-        """Labels of what was added to the base model, stage by stage."""
+        """Labels of the additions to the base model, stage by stage."""
 
     @property
     @abstractmethod
     def stages(self) -> tuple[StageErrors, ...]:
-        """Paper, base, then one per addition."""
+        """Paper, base, then one stage per addition."""
 
     @property
     @abstractmethod
     def position_errors(self) -> tuple[PositionError, PositionError]:
-        """Predicted, mm, with commands of the base model and of what was found."""
+        """Predicted, mm, with the commands of the base model and of the result."""
 
     @property
     @abstractmethod
@@ -191,22 +192,22 @@ class Findings(ABC):
     @property
     @abstractmethod
     def hints(self) -> tuple[Hint, ...]:
-        """On what an unexplained residual depends."""
+        """The quantities that an unexplained residual depends on."""
 
     @property
     @abstractmethod
     def invisible(self) -> tuple[SmallestVisible, ...]:
-        """Smallest visible size of everything that was not found."""
+        """Smallest detectable size of every effect that was not found."""
 
     @property
     @abstractmethod
     def curves(self) -> tuple[Curve, ...]:
-        """Of every joint that has one in the model."""
+        """Learned curve of each joint that has one in the model."""
 
     @property
     @abstractmethod
     def residual(self) -> ResidualView:
-        """Of every reading."""
+        """The residual of every reading."""
 
     @property
     @abstractmethod
@@ -220,21 +221,21 @@ class Findings(ABC):
 
     @property
     def experiments(self) -> tuple[ExperimentRecord, ...]:
-        """What could distinguish the explanations, best first."""
+        """Experiments that could distinguish the explanations, best first."""
         return ()
 
     @property
     def mistake(self) -> MistakeRecord | None:
-        """What is wrong with the file, though not so wrong that it was refused."""
+        """A mistake in the file that did not lead to a refusal."""
         return None
 
     @property
     @abstractmethod
     def model(self) -> AnyModelDocument:
-        """What commands are computed from."""
+        """The model that commands are computed from."""
 
     def document(self, data: DataSource) -> DiagnosisDocument:
-        """The contract's document; `data` says what it was made from."""
+        """The contract's document; `data` states what it was made from."""
         before, after = self.position_errors
         true_before, true_after = self.true_position_errors or (None, None)
         return DiagnosisDocument(
@@ -269,15 +270,15 @@ class Findings(ABC):
 
     @property
     def extent(self) -> Literal["workspace", "measured poses"]:
-        """Over what position errors are predicted."""
+        """The region over which position errors are predicted."""
         return kind_of(self.robot).extent
 
 
 def _dependences(found: Sequence[Hint]) -> tuple[Dependence, ...]:
-    """As the document shows them."""
+    """The dependences as the document contains them."""
     return tuple(Dependence(depends_on=h.depends_on, strength=h.strength, text=h.text) for h in found)
 
 
 def _accuracy(stage: StageErrors, predicted: PositionError, true: PositionError | None) -> StageAccuracy:
-    """A stage with the position error that goes with it."""
+    """A stage with its position error."""
     return StageAccuracy(**dict(stage), predicted_position_error_mm=predicted, true_position_error_mm=true)

@@ -1,4 +1,4 @@
-"""The learned curve of each joint as it can be drawn: with its uncertainty and what was measured of it."""
+"""The learned curve of each joint for a chart: with its uncertainty and the measurements of it."""
 
 from __future__ import annotations
 
@@ -13,12 +13,12 @@ from station.records import JointCurve, Real, visited_ranges
 STEP_DEG = 0.5
 BIN_DEG = 2.0
 FEWEST = 4
-"""Readings in a bin from which their mean is drawn."""
+"""Minimum number of readings in a bin for which their mean is drawn."""
 
 
 @dataclass(frozen=True)
 class Curve:
-    """Error of a joint over the angles it has been at; slower than four cycles a turn is left to geometry."""
+    """Error of a joint over the angles visited; fewer than four cycles per turn belong to the geometry."""
 
     label: str
     joint: int
@@ -31,10 +31,10 @@ class Curve:
     binned_angle_deg: Real
     """(B,) bins of the joint's angle"""
     binned_deg: Real
-    """(B,) mean of what the readings in each say of the curve when everything else in the model is right."""
+    """(B,) mean curve value from the readings in each bin, with everything else in the model correct."""
 
     def record(self) -> JointCurve:
-        """As the document shows it."""
+        """The curve as the document contains it."""
         return JointCurve(
             joint=self.joint,
             angle_deg=tuple(np.round(self.angle_deg, 3).tolist()),
@@ -44,7 +44,7 @@ class Curve:
 
 
 def curves(fit: Fit, sd_factor: float = 1.0) -> tuple[Curve, ...]:
-    """Of every joint that has one in the model."""
+    """The curve of each joint that has one in the model."""
     return tuple(
         _curve(fit, k, term.effect, sd_factor)
         for k, term in enumerate(fit.model.terms)
@@ -65,7 +65,7 @@ def _curve(fit: Fit, k: int, effect: GearCurve, sd_factor: float) -> Curve:
     basis = fast_basis(angle, size)
     sd = sd_factor * np.sqrt(np.einsum("ki,ki->k", basis @ covariance, basis))
     slow = (curve_basis(angle, size) - basis) @ amplitudes
-    # what is left of each reading, seen as an error of this joint alone, beside the curve itself
+    # the remaining residual of each reading, seen as an error of this joint alone, added to the curve
     J = fit.at.by_joint[:, i]
     reading = fit.model.mechanism.reading_of_row
     weight = np.bincount(reading, J**2)

@@ -10,7 +10,7 @@ from station.diagnosis.weighed_loop import WeighedDiagnosis
 
 
 def findings_of(diagnosis: AnyDiagnosis) -> Findings:
-    """Everything that is said of it."""
+    """All results of the diagnosis."""
     if isinstance(diagnosis, WeighedDiagnosis):
         return WeighedFindings(diagnosis)
     return TracedFindings(diagnosis)

@@ -11,7 +11,7 @@ from station.records import PositionError
 
 
 def position_errors(base: Fit, last: Fit, sd_factor: float) -> tuple[PositionError, PositionError]:
-    """With the commands of the base model and of the last one, the last taken as the truth, mm."""
+    """With the commands of the base model and of the last one, the last taken as true, mm."""
     machine, commander = identified(last, sd_factor), identified(base)
     if machine is not None and commander is not None:
         return machine.position_error(commander), machine.position_error()
@@ -19,7 +19,7 @@ def position_errors(base: Fit, last: Fit, sd_factor: float) -> tuple[PositionErr
 
 
 def _of_arm(base: Fit, last: Fit, sd_factor: float) -> tuple[PositionError, PositionError]:
-    """At the measured poses; what the last model does not explain there is known from blocks left out."""
+    """At the measured poses; the part that the last model does not explain is known from excluded blocks."""
     readings, unknowns = len(last.model.mechanism.measurements), len(last.x)
     difference = (base.residual_mm - last.residual_mm).reshape(readings, -1)
     jacobian = (last.solution.jacobian * last.row_sd[:, None]).reshape(readings, -1, unknowns)

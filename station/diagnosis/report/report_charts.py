@@ -1,4 +1,4 @@
-"""The charts of the report: curves that were learned, and the residual before and after."""
+"""The charts of the report: learned curves, and the residual before and after."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ def _milli(angle: Real, value: Real, low: Real | None = None, high: Real | None 
 
 
 def residual_charts(m: Measurements, view: ResidualView, added: bool, wording: Wording) -> Iterator[Chart]:
-    """Pairs against order, time, angles, travel, approach and place; single ones where nothing was added."""
+    """Pairs against order, time, angles, travel, approach and position; single if nothing was added."""
     say, words = wording.say, wording.of_charts
     was, left = view.before_mm * MICROMETRES, view.after_mm * MICROMETRES
     for name, along in _by_number(m, view, wording):
@@ -101,7 +101,7 @@ def _pair(
     wording: Wording,
     x_names: Sequence[str] | None = None,
 ) -> Iterator[Chart]:
-    """Before, and after where there is one."""
+    """The chart before, and the chart after where there is one."""
     say, words = wording.say, wording.of_charts
     measured = [_points(say("less_base"), along, was)]
     if added:
@@ -115,6 +115,6 @@ def _pair(
 
 
 def _points(label: str, x: Real, y: Real) -> Series:
-    """Of thousands of points only so many as can be told apart on the page, evenly spread over the log."""
+    """At most as many points as are distinguishable on the page, evenly spread over the log."""
     every = -(-len(x) // MOST_POINTS)
     return Series(label, x[::every].tolist(), y[::every].tolist())

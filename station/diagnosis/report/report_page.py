@@ -14,9 +14,9 @@ from station.report import Chart, Page, Section, Table
 
 
 def page(findings: Findings, source: str, language: Language = "en") -> Page:
-    """Verdict, stages, causes, residual before and after, what could not have been seen.
+    """Verdict, stages, causes, residual before and after, detection limits.
 
-    :param source: what was diagnosed, in the same language
+    :param source: the source of the readings, in the same language
     """
     wording = Wording(language)
     sections = [_errors(findings, wording)]
@@ -43,7 +43,7 @@ def page(findings: Findings, source: str, language: Language = "en") -> Page:
 
 
 def run_source(run: int, uid: str, robot: str, language: Language) -> str:
-    """A run of this station as the title of its report names it."""
+    """A run of this station as written in the title of its report."""
     return report_text("run", language, run=run, uid=uid, robot=robot)
 
 
@@ -116,7 +116,7 @@ def _percent(share: float) -> str:
 
 
 def _probabilities(findings: Findings, w: Wording) -> Section:
-    """The set of explanations, and what would decide between them."""
+    """The set of explanations, and the experiments that would decide between them."""
     rows = [
         (
             w.labels([effect.label for effect in one.effects]) if one.effects else w.say("no_effect"),
@@ -140,7 +140,7 @@ def _probabilities(findings: Findings, w: Wording) -> Section:
 
 
 def _curves(drawn: Sequence[Curve], w: Wording) -> Section:
-    """Each joint's curve with twice its sd, and what the readings say of it."""
+    """Each joint's curve with twice its sd, and the readings' means of it."""
     charts = tuple(Chart(curve_chart(curve, w), w.labels([curve.label])) for curve in drawn)
     return Section(w.say("curves"), (w.say("curves_text"),), (), charts)
 

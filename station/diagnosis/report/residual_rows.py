@@ -1,4 +1,4 @@
-"""The residual of every reading, model by model, beside all that it may be ordered by: data of charts."""
+"""The residual of every reading, model by model, with all quantities it may be ordered by: data of charts."""
 
 from __future__ import annotations
 
@@ -12,12 +12,12 @@ from station.diagnosis.report.findings import Findings
 
 @dataclass(frozen=True, slots=True)
 class ResidualRow:
-    """One reading that took part."""
+    """One reading that was used."""
 
     reading: int | str
     position: str
     x_mm: float
-    """Where P stood by the base model."""
+    """Position of P by the base model."""
     y_mm: float
     t_s: float
     theta1_deg: float
@@ -30,16 +30,16 @@ class ResidualRow:
     before_mm: float
     """Measured less base model."""
     by_effect_mm: tuple[float, ...]
-    """What each effect accounts for, in the order in which they were added."""
+    """Contribution of each effect, in the order in which they were added."""
     after_mm: float
-    """What the last model leaves."""
+    """Residual of the last model."""
     limit_mm: float
-    """What noise alone hardly exceeds."""
+    """Limit that noise alone hardly exceeds."""
 
 
 @dataclass(frozen=True, slots=True)
 class Residuals:
-    """Of the readings learned on."""
+    """The residuals of the readings learned on."""
 
     effects: tuple[str, ...]
     """Labels, in the order in which they were added."""
@@ -47,7 +47,7 @@ class Residuals:
 
 
 def residuals(findings: Findings, positions: Mapping[int | str, str]) -> Residuals:
-    """Row by row; `positions` names the place of each reading."""
+    """Row by row; `positions` gives the position label of each reading."""
     m, view = findings.measurements, findings.residual
     theta, rise = np.degrees(view.theta), view.temperature_rise_k
     return Residuals(

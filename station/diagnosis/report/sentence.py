@@ -1,4 +1,4 @@
-"""The verdict of a diagnosis in one sentence: the only place that words it."""
+"""The verdict of a diagnosis in one sentence: the only place where it is formulated."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from station.records import Reason, because
 
 
 def verdict_reason(diagnosis: TracedDiagnosis, labels: Sequence[str]) -> Reason:
-    """Why the verdict is what it is; `labels` of the effects found, strongest first."""
+    """The reason for the verdict; `labels` of the effects found, strongest first."""
     d = diagnosis
     causes = " and ".join(labels)
     share = 100.0 * d.explained_share

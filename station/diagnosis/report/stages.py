@@ -1,4 +1,4 @@
-"""Errors of every model on the way: the paper's, the base model, then one per effect added."""
+"""Errors of every model in the sequence: the paper's, the base model, then one per effect added."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def _with_unnamed(diagnosis: TracedDiagnosis, unnamed: UnnamedError, last: Stage
 
 
 def kept_fresh(diagnosis: TracedDiagnosis) -> Flags:
-    """(K,) fresh readings that took part in the confirmation of the last model."""
+    """(K,) fresh readings that were used to confirm the last model."""
     if diagnosis.fresh is None:
         return np.zeros(0, dtype=bool)
     left_out = diagnosis.confirmations[-1].left_out
@@ -85,7 +85,7 @@ def errors_of(
     mechanism: Mechanism,
     fresh_mm: Real | None,
 ) -> StageErrors:
-    """Of one model fitted; fresh_mm (F,) are fresh readings less predicted."""
+    """Errors of one fitted model; fresh_mm (F,) are fresh readings less predicted."""
     fit_mm = by_reading(mechanism, solution.residual * row_sd)
     out_mm = by_reading(mechanism, predicted_by_others(solution, mechanism) * row_sd)
     return StageErrors(
@@ -100,7 +100,7 @@ def errors_of(
 
 
 def simplest(mechanism: Mechanism, row_sd: Real, start: Real, later: Measurements | None) -> StageErrors:
-    """The simplest model of the machine: the rest of it stays nominal, nothing is known before.
+    """The simplest model of the machine: its other parameters stay nominal, and there is no prior.
 
     :param start: (P,) parameters to start from
     :param later: fresh readings

@@ -1,4 +1,4 @@
-"""Everything that is said of a search effect by effect, and its document (schema station.diagnosis/1)."""
+"""All results of a search effect by effect, and its document (schema station.diagnosis/1)."""
 
 from __future__ import annotations
 
@@ -38,7 +38,7 @@ from station.records import (
 
 
 class TracedFindings(Findings):
-    """Of the last model of a search."""
+    """Results of the last model of a search."""
 
     schema = "station.diagnosis/1"
 
@@ -51,7 +51,7 @@ class TracedFindings(Findings):
 
     @property
     def hints(self) -> tuple[Hint, ...]:
-        """On what an unexplained residual depends."""
+        """The quantities that an unexplained residual depends on."""
         return self.diagnosis.hints
 
     @property
@@ -66,12 +66,12 @@ class TracedFindings(Findings):
 
     @property
     def fit(self) -> Fit:
-        """Of the trusted stage."""
+        """Fit of the trusted stage."""
         return self.diagnosis.trace.stages[self.decision.trusted].fit
 
     @cached_property
     def noise(self) -> Noise:
-        """Of the last stage."""
+        """Noise of the last stage."""
         last = self.diagnosis.trace.stages[-1]
         specified = last.fit.model.mechanism.row_sd
         source: Literal["repeats", "specification"] = "repeats"
@@ -111,7 +111,7 @@ class TracedFindings(Findings):
                     probability=None,
                     aliases=tuple(_name(t) for t in finding.aliases),
                     alias_labels=tuple(t.effect.label for t in finding.aliases),
-                    # nobody is sent to repair what fresh readings speak against
+                    # no repair is recommended for an effect that fresh readings contradict
                     remedy="" if self.decision.confirmed is False else term.effect.remedy,
                     experiment=term.effect.experiment,
                 )
@@ -133,7 +133,7 @@ class TracedFindings(Findings):
     def position_errors(self) -> tuple[PositionError, PositionError]:
         """Predicted over the workspace, mm, with commands of the base model and of the last one.
 
-        Both against the last model as the best that is known of the machine.
+        Both are relative to the last model, the best available description of the machine.
         """
         return position_errors(self.diagnosis.base, self.diagnosis.last, self._last_sd_factor)
 
@@ -145,12 +145,12 @@ class TracedFindings(Findings):
 
     @cached_property
     def invisible(self) -> tuple[SmallestVisible, ...]:
-        """Smallest visible size of everything that was not found."""
+        """Smallest detectable size of every effect that was not found."""
         return detectable(self.diagnosis.last, effects_of(self.diagnosis.last.model.mechanism))
 
     @cached_property
     def weak_direction(self) -> WeakDirection:
-        """As of an identification, with the effects in the model."""
+        """As in an identification, with the effects in the model."""
         mechanism = self.fit.model.mechanism
         return kind_of(mechanism).weak_direction(
             mechanism, self.fit.solution, self.noise.row_sd, self.decision.sd_factor
@@ -163,7 +163,7 @@ class TracedFindings(Findings):
 
     @cached_property
     def curves(self) -> tuple[Curve, ...]:
-        """Of every joint that has one in the model."""
+        """Learned curve of each joint that has one in the model."""
         return curves(self.diagnosis.last, self._last_sd_factor)
 
     @cached_property
@@ -173,7 +173,7 @@ class TracedFindings(Findings):
 
     @cached_property
     def residual(self) -> ResidualView:
-        """Of every reading; of several coordinates the length."""
+        """The residual of every reading; of several coordinates, its length."""
         d = self.diagnosis
         base, mechanism = d.base, d.base.model.mechanism
         left = [_by_reading(stage.fit) for stage in d.trace.stages]
@@ -209,7 +209,7 @@ def _name(term: Term) -> EffectName:
 
 
 def _by_reading(fit: Fit) -> Real:
-    """(K,) mm: the residual of each reading, of several coordinates its length."""
+    """(K,) mm, residual of each reading; of several coordinates, its length."""
     return _each_reading(fit, fit.residual_mm)
 
 

@@ -14,9 +14,9 @@ from station.records import Measurements, PositionError
 def true_position_errors(
     base: Fit, last: Fit, sequence: Measurements, fresh: Measurements | None
 ) -> tuple[PositionError, PositionError] | None:
-    """Where the models say that P stood, against the tracker, before and after; None without one.
+    """The position of P by the models against the tracker, before and after; None without a tracker.
 
-    Of the fresh readings, or without tracked ones of the sequence.  The tracker takes part in no fit; its
+    Fresh readings are used, or without tracked ones the sequence. The tracker is not used in any fit; its
     frame is the robot's.
     """
     tracked = next((m for m in (fresh, sequence) if m is not None and m.tracker is not None), None)

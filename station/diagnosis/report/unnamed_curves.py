@@ -1,4 +1,4 @@
-"""The error of a joint that has no name, as it can be drawn: over the angles that were visited."""
+"""The unnamed error of a joint for a chart: over the angles visited."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from station.diagnosis.report.joint_curves import Curve
 from station.records import Real
 
 SHOWN = 0.05
-"""Least probability of an unnamed error of a joint that is drawn."""
+"""Minimum probability for which an unnamed error of a joint is drawn."""
 SAME_ANGLE_DEG = 0.5
-"""Readings within it are one point of the curve."""
+"""Readings within this angle are one point of the curve."""
 JOINTS = (1, 2)
 
 
 def unnamed_curves(found: ExplanationSet) -> tuple[Curve, ...]:
-    """Of each joint that errs without a name, as the explanations with such an error have it together."""
+    """Curve of each joint with an unnamed error, averaged over the explanations that contain one."""
     return tuple(curve for joint in JOINTS if (curve := _curve(found, joint)) is not None)
 
 
@@ -34,7 +34,7 @@ def _curve(found: ExplanationSet, joint: int) -> Curve | None:
     variance = sum(w * (var + (value - mean) ** 2) for w, value, var in held) / share
     s = mixture.situation
     angle = np.degrees(s.theta[:, joint - 1])
-    # what is left of each reading, seen as an error of this joint alone, beside the curve itself
+    # the remaining residual of each reading, seen as an error of this joint alone, added to the curve
     by_joint = s.by_target[:, 0, joint - 1]
     residual_mm, _ = found.left_by(mixture.mechanism)
     cell = np.floor(angle / SAME_ANGLE_DEG).astype(int)

@@ -1,4 +1,4 @@
-"""Everything that is said of a set of explanations, and its document (schema station.diagnosis/2)."""
+"""All results of a set of explanations, and its document (schema station.diagnosis/2)."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ from station.records import (
 
 
 class WeighedFindings(Findings):
-    """Of all explanations together; stages lead to the one that is reported."""
+    """Results of all explanations together; the stages lead to the reported one."""
 
     schema = "station.diagnosis/2"
 
@@ -76,19 +76,19 @@ class WeighedFindings(Findings):
 
     @property
     def origin(self) -> None:
-        """Of the whole set."""
+        """The whole set."""
         return None
 
     @cached_property
     def zeros_only_bound_mm(self) -> float | None:
-        """Of the whole set."""
+        """Bound under the whole set."""
         mixture = self.found.mixture
         place = mixture.mechanism.robot.workspace_grid(*GRID)
         theta = inverse(mixture.mechanism.nominal, place) - mixture.mean[:2]
         return mixture.position_error(theta, place).bound_95
 
     def error_fields(self, places: Complex) -> ErrorFields:
-        """Of the whole set."""
+        """Errors under the whole set."""
         mixture = self.found.mixture
         theta = inverse(mixture.mechanism.nominal, places)
         before, _ = mixture.errors_at(theta, places)
@@ -97,7 +97,7 @@ class WeighedFindings(Findings):
 
     @cached_property
     def fresh(self) -> tuple[FreshReading, ...]:
-        """Under the explanation that is reported, where that determines what they read."""
+        """Under the reported explanation, where that determines the predictions."""
         fresh, residual_mm = self.diagnosis.fresh, self.steps[-1].fresh_mm
         if fresh is None or residual_mm is None:
             return ()
@@ -110,12 +110,12 @@ class WeighedFindings(Findings):
 
     @cached_property
     def curves(self) -> tuple[Curve, ...]:
-        """Of each joint that errs without a name."""
+        """Curve of each joint with an unnamed error."""
         return unnamed_curves(self.found)
 
     @property
     def mistake(self) -> MistakeRecord | None:
-        """A wrong label, or glitches, that were left out."""
+        """A wrong label, or glitches, that were excluded."""
         mistake = self.diagnosis.mistake
         return None if mistake is None else mistake.record()
 
@@ -131,7 +131,7 @@ class WeighedFindings(Findings):
 
     @cached_property
     def noise(self) -> Noise:
-        """What the repeats scatter by, else what the readings do."""
+        """Scatter of the repeats, otherwise of the readings."""
         last = self.steps[-1]
         square, dof = pure_error(self.measurements, last.solution.residual)
         source: Literal["repeats", "specification"] = "repeats" if dof >= MINIMUM_DOF else "specification"
@@ -146,13 +146,13 @@ class WeighedFindings(Findings):
 
     @cached_property
     def shares(self) -> tuple[float, ...]:
-        """Of the base residual's square, what each step took."""
+        """Share of the base residual's sum of squares that each step took."""
         squares = [float(np.sum(step.residual_mm**2)) for step in self.steps]
         return tuple((a - b) / squares[0] for a, b in pairwise(squares))
 
     @cached_property
     def effects(self) -> tuple[FoundEffect, ...]:
-        """Named effects of the explanation that is reported, strongest first."""
+        """Named effects of the reported explanation, strongest first."""
         if self.decision.verdict == "adequate":
             return ()
         out = []
@@ -228,7 +228,7 @@ class WeighedFindings(Findings):
 
     @cached_property
     def invisible(self) -> tuple[SmallestVisible, ...]:
-        """Smallest visible size of every effect that was not found."""
+        """Smallest detectable size of every effect that was not found."""
         if self.base_fit is None:
             return ()
         found = {effect.label for effect in self.effects}
@@ -236,14 +236,14 @@ class WeighedFindings(Findings):
 
     @cached_property
     def hints(self) -> tuple[Hint, ...]:
-        """On what the base model's residual depends, where it is not explained."""
+        """The quantities that the base model's residual depends on, where it is not explained."""
         if self.decision.verdict in ("adequate", "explained") or self.base_fit is None:
             return ()
         return hints(whitened_residual(self.base_fit))
 
     @cached_property
     def weak_direction(self) -> WeakDirection:
-        """As of an identification, of the mixture."""
+        """As in an identification, for the mixture."""
         nothing = np.zeros(0)
         mixture = self.found.mixture
         solution = Solution(
@@ -254,7 +254,7 @@ class WeighedFindings(Findings):
 
     @cached_property
     def explanations(self) -> tuple[ExplanationRecord, ...]:
-        """Every one with a probability of 0.01 or more."""
+        """All explanations with a probability of 0.01 or more."""
         return tuple(
             ExplanationRecord(
                 effects=tuple(_explained(held) for held in one.errors),
@@ -266,7 +266,7 @@ class WeighedFindings(Findings):
 
     @cached_property
     def experiments(self) -> tuple[ExperimentRecord, ...]:
-        """What could distinguish the explanations, best first."""
+        """Experiments that could distinguish the explanations, best first."""
         if self.decision.verdict != "ambiguous":
             return ()
         return tuple(
@@ -275,7 +275,7 @@ class WeighedFindings(Findings):
 
     @cached_property
     def residual(self) -> ResidualView:
-        """Of every reading that was learned on."""
+        """The residual of every reading that was learned on."""
         first, last = self.steps[0], self.steps[-1]
         left = [step.residual_mm for step in self.steps]
         s = first.situation

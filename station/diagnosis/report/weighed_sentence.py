@@ -14,7 +14,7 @@ from station.records import ExperimentRecord, Reason, because
 WORTH_SAYING = 0.02
 MOST_OTHERS = 3
 LOUD = 2.0
-"""Noise over the specification from which on the readings scatter."""
+"""Noise over the specification above which the readings count as scattered."""
 
 
 def weighed_reason(
@@ -24,7 +24,7 @@ def weighed_reason(
     hints: Sequence[Hint],
     experiments: Sequence[ExperimentRecord],
 ) -> Reason:
-    """Why the verdict is what it is; `labels` of the named effects found, strongest first."""
+    """The reason for the verdict; `labels` of the named effects found, strongest first."""
     d = diagnosis
     mistake = d.mistake or d.entry
     causes = " and ".join(labels)

@@ -1,6 +1,6 @@
-"""How the report says things in a language: its own words, and what the diagnosis names or says in English.
+"""The texts of the report in a language: its own words, and the English names and sentences of the diagnosis.
 
-In English, effects and parameters stand as they are called in documents and at the terminal.
+In English, effects and parameters have the same names as in documents and at the terminal.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ ADDED = "+ "
 
 @dataclass(frozen=True)
 class Wording:
-    """In one language."""
+    """The texts in one language."""
 
     language: Language
 
@@ -38,11 +38,11 @@ class Wording:
         return report_text(key, self.language, **values)
 
     def sentence(self, english: str) -> str:
-        """Of the diagnosis; begins as it does in English, small or capital."""
+        """A sentence of the diagnosis; its first letter has the same case as in English."""
         return in_words(english, self.language)
 
     def number(self, text: str) -> str:
-        """One that is a text already."""
+        """A number that is already formatted."""
         return number_in_words(text, self.language)
 
     def labels(self, labels: Sequence[str]) -> str:
@@ -50,11 +50,11 @@ class Wording:
         return labels_in_words(" and ".join(labels), self.language)
 
     def listed(self, labels: Sequence[str]) -> str:
-        """Effects, one after another."""
+        """Effects, as a list."""
         return self.say("between").join(self.labels([label]) for label in labels)
 
     def parameter(self, name: str) -> str:
-        """Also of a further mount, `rMx@2`."""
+        """The name of a parameter; also of a further mount, `rMx@2`."""
         if self.language == "en":
             return name
         bare, _, mount = name.partition("@")
@@ -62,7 +62,7 @@ class Wording:
         return self.say("mounted", name=shown, mount=mount) if mount else shown
 
     def depends_on(self, name: str) -> str:
-        """What a residual depends on."""
+        """The quantity that a residual depends on."""
         return name if self.language == "en" else dependence_name(name, self.language)
 
     def stage(self, model: str) -> str:
@@ -72,7 +72,7 @@ class Wording:
         return ADDED + self.labels([model.removeprefix(ADDED)])
 
     def unit(self, unit: str) -> str:
-        """As people write it."""
+        """The unit in its usual form."""
         return unit if self.language == "en" else unit_name(unit)
 
     def quantity(self, q: Quantity) -> str:
@@ -81,7 +81,7 @@ class Wording:
 
     @property
     def of_charts(self) -> Words:
-        """What a chart and the page say themselves."""
+        """The texts of a chart and of the page around it."""
         texts = {key: self.say(key, y="{y}", x="{x}", size="{size}") for key in OF_CHARTS}
         return Words(self.language, self.number("."), **texts)
 

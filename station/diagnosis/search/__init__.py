@@ -1,4 +1,4 @@
-"""The search for causes: scan of the catalogue, the loop that adds effects, what a residual depends on."""
+"""The search for causes: scan of the catalogue, the loop that adds effects, and dependences of a residual."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """From residual to cause: add the effect that explains most, fit everything again, until it fits.
 
-Winner and aliases are distinguished by refitting the full nonlinear model with each of them: an
-alias is whatever explains the readings as well, no more and no less (docs/decisions/0005).
+Winner and aliases are distinguished by refitting the full nonlinear model with each of them: an alias
+explains the readings as well as the winner (docs/decisions/0005).
 """
 
 from __future__ import annotations
@@ -21,35 +21,35 @@ from station.records import Real
 
 MOST_EFFECTS = 3
 WORTH = 0.03
-"""Of the rest's square, what an effect must take to be worth a place in the model."""
+"""Share of the residual's sum of squares that an effect must take to be added to the model."""
 SIGNIFICANT = 0.01
 """Family-wise over the catalogue (Holm: the smallest p is held against the whole count)."""
 ALTERNATIVES = 40.0
-"""A candidate this much worse (chi-square) in the linear scan is not worth a nonlinear fit."""
+"""A candidate that is this much worse (chi-square) in the linear scan is not fitted nonlinearly."""
 HOPEFUL = 0.02
-"""Unless it takes all but this share: a large effect is not quite linear."""
+"""Unless it leaves only this share: a large effect is not quite linear."""
 MOST_ALTERNATIVES = 6
 MOST_POLISHING = 8
 TRIED_TOGETHER = 2 * MOST_ALTERNATIVES
-"""Candidates of an effect to be added: so many are compared, and where none helps so many behind them."""
+"""Number of candidates compared for an effect to be added; if none helps, the same number after them."""
 HELPFUL = 0.995
-"""Left-out error over that without the effect: below this, readings that it has not seen support it."""
+"""Error of excluded readings over that without the effect: below this they support it."""
 PLAINLY_HELPFUL = 0.97
-"""The same for what is tried behind the best: the more is tried, the more helps by chance."""
+"""The same for candidates after the best ones: more candidates help by chance."""
 ODD_SHARE = 0.03
 END_SHARE = 0.12
-"""Share of the sequence in which readings that deviate to one side look like a step, not like slips."""
+"""Share of the sequence in which readings that deviate to one side indicate a step, not slips."""
 ALIAS = 11.0
-"""Chi-square by which an alias may be worse and still be the cause (true cause kept in 99.9 %)."""
+"""Chi-square by which an alias may be worse and still be the cause (the true cause is included in 99.9 %)."""
 
 
 Refitted = Callable[[Scan, Candidate], Fit]
-"""What the scanned fit becomes with a candidate in it."""
+"""The scanned fit with a candidate added."""
 
 
 @dataclass(frozen=True)
 class Finding:
-    """One effect added, and what could not be told apart from it."""
+    """One effect added, and those that cannot be distinguished from it."""
 
     term: Term
     p_value: float
@@ -59,7 +59,7 @@ class Finding:
 
 @dataclass(frozen=True)
 class Stage:
-    """One model on the way, with its fit and judgement."""
+    """One model in the sequence, with its fit and judgement."""
 
     fit: Fit
     adequacy: Adequacy
@@ -67,15 +67,15 @@ class Stage:
 
 @dataclass(frozen=True)
 class Trace:
-    """The way from the base model to the last one."""
+    """The sequence from the base model to the last one."""
 
     stages: tuple[Stage, ...]
-    """Base first, then one per effect added."""
+    """Base first, then one stage per effect added."""
     findings: tuple[Finding, ...]
     outliers: tuple[Outlier, ...]
-    """Few single readings off the last model: the trace ends there, to be begun again without them."""
+    """A few single readings off the last model: the trace ends there, and begins again without them."""
     left_out: tuple[Outlier, ...] = ()
-    """Of a long log: readings that were off the model and are in no fit any more."""
+    """In a long log: readings off the model, which are excluded from all fits."""
 
     @property
     def adequate(self) -> bool:
@@ -92,7 +92,7 @@ def trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[Effec
     findings: list[Finding] = []
     odd = odd_readings(stages[0].fit)
     while not odd and not stages[-1].adequacy.settled and len(findings) < MOST_EFFECTS:
-        # where only the repeats are worse than specified, a cause must be plainer
+        # where only the repeats are worse than specified, a cause must be clearer
         level = ALPHA if stages[-1].adequacy.passed else SIGNIFICANT
         chosen = next_effect(stages[-1].fit, refitted, effects, level, HOPEFUL)
         if chosen is None:
@@ -110,7 +110,7 @@ def trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[Effec
 def next_effect(
     found: Fit, refitted: Refitted, effects: Sequence[Effect], level: float, hopeful: float
 ) -> tuple[Finding, Fit] | None:
-    """The effect that explains most of what a fit leaves, and the fit with it; None if it is not worth it.
+    """The effect that explains most of a fit's residual, and the fit with it; None if it is not worth adding.
 
     effects: the catalogue; level: of the test over all of it; hopeful: see `HOPEFUL`.
     """
@@ -126,7 +126,7 @@ def next_effect(
         return None
     if (added := _add(scan, refitted, candidates[:TRIED_TOGETHER], hopeful)) is not None:
         return added
-    # the best may be narrow waves that readings left out do not support, and a curve behind them real
+    # the best may be narrow waves that excluded readings do not support, and a curve behind them real
     behind = [c for c in candidates[TRIED_TOGETHER:] if worthy(c)][:TRIED_TOGETHER]
     return _add(scan, refitted, behind, hopeful, PLAINLY_HELPFUL)
 
@@ -139,21 +139,21 @@ def _possible(found: Fit) -> bool:
 
 
 def significant(p_value: float, tests: int, level: float) -> bool:
-    """The smallest of so many p-values, family-wise (Holm)."""
+    """Whether the smallest of this many p-values is significant, family-wise (Holm)."""
     return p_value * tests < level
 
 
 def _with_candidate(scan: Scan, candidate: Candidate, prior: Prior) -> Fit:
     current = scan.fit
     model = replace(current.model, terms=(*current.model.terms, candidate.term()))
-    # not from the current fit: without the effect the base parameters may have gone far astray
+    # not from the current fit: without the effect the base parameters may be far off
     return fit(model, prior, current.row_sd)
 
 
 def _reconsidered(
     findings: list[Finding], full: Fit, prior: Prior, effects: Sequence[Effect]
 ) -> list[Finding]:
-    """Each earlier finding once more, beside all the others: it was chosen while they disturbed it."""
+    """Each earlier finding chosen again, beside all the others: they disturbed the first choice."""
     refitted = partial(_with_candidate, prior=prior)
     best = full
     findings = list(findings)
@@ -189,7 +189,7 @@ def _polished(findings: list[Finding], found: Fit, prior: Prior) -> list[Finding
 
 
 def _stepped(found: Fit) -> Model:
-    """The model with its searched parameters where one linear step puts them."""
+    """The model with its searched parameters after one linear step."""
     searched = list(by_searched(found.model, found.x, found.conditions))
     if not searched:
         return found.model
@@ -206,14 +206,14 @@ def _stepped(found: Fit) -> Model:
 def _staged(
     base: Model, findings: list[Finding], prior: Prior, specified_sd: Real, first: Stage
 ) -> list[Stage]:
-    """The way anew: the base model, then one more of the findings each."""
+    """The sequence again: the base model, then one more of the findings each."""
     terms = [f.term for f in findings]
     models = [replace(base, terms=tuple(terms[: k + 1])) for k in range(len(terms))]
     return [first, *(_settled(model, prior, specified_sd, None) for model in models)]
 
 
 def with_alias(found: Trace, at: int, alias: Term, prior: Prior, specified_sd: Real) -> Trace:
-    """The same way with an alias in the place of finding number `at`."""
+    """The same sequence with an alias in place of finding number `at`."""
     old = found.findings[at]
     others = (old.term, *(t for t in old.aliases if t is not alias))
     findings = list(found.findings)
@@ -224,9 +224,9 @@ def with_alias(found: Trace, at: int, alias: Term, prior: Prior, specified_sd: R
 
 
 def odd_readings(found: Fit) -> tuple[Outlier, ...]:
-    """Single readings off the model: first those of which an effect in it can say nothing.
+    """Single readings off the model: first those for which an effect in it cannot make a prediction.
 
-    Many others, or a few together at an end, are an effect.
+    If there are many, or a few together at an end, they are an effect.
     """
     measurements = found.model.mechanism.measurements
     odd = outliers_of_fit(found.model.mechanism, found.solution, found.row_sd)
@@ -247,7 +247,7 @@ def odd_readings(found: Fit) -> tuple[Outlier, ...]:
 
 
 def _settled(model: Model, prior: Prior, specified_sd: Real, better: Fit | None) -> Stage:
-    """Fit with the noise that the repeats of this very model show, if they are better than specified."""
+    """Fit with the noise that the repeats of this model show, if they are better than specified."""
     found = fit(model, prior, specified_sd) if better is None else better
     for _ in range(2):
         adequacy = judge(found, specified_sd)
@@ -263,7 +263,7 @@ def _settled(model: Model, prior: Prior, specified_sd: Real, better: Fit | None)
 def _add(
     scan: Scan, refitted: Refitted, candidates: list[Candidate], hopeful: float, helpful: float = HELPFUL
 ) -> tuple[Finding, Fit] | None:
-    """Refit with the best candidates, keep the best, name those that do as well."""
+    """Refit with the best candidates, select the best, and list those that are as good."""
     current = scan.fit
     refined = [scan.refine(c) for c in candidates[:TRIED_TOGETHER] if c.visible]
     if not refined:
@@ -281,7 +281,7 @@ def _add(
         fits.append((_score(refit, c), c, refit))
     if not fits:
         return None
-    # readings that a fit has not seen must be predicted better, block by block
+    # readings that a fit has not used must be predicted better, block by block
     most_mm = helpful * left_out_rms(current)
     fits = [item for item in fits if _possible(item[2]) and left_out_rms(item[2]) < most_mm]
     if not fits:

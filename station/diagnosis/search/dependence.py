@@ -1,9 +1,9 @@
-"""What an unexplained residual depends on, found without the catalogue.
+"""Dependences of an unexplained residual, found without the catalogue.
 
-Each test's null hypothesis is that the residual does not depend on the thing named; Holm's procedure
-keeps the chance of any false hint at `LEVEL`.  Smooth dependences are those of `departures`; along
-each angle and the travel a periodogram looks for shorter ones (Lomb, Astrophysics and Space Science
-39, 1976), its false-alarm probability being that of the whole search.
+Each test's null hypothesis is that the residual does not depend on the named quantity; Holm's procedure keeps
+the probability of any false hint at `LEVEL`. Smooth dependences are those of `departures`; along each angle
+and the travel a periodogram searches for shorter ones (Lomb, Astrophysics and Space Science 39, 1976), with
+the false-alarm probability of the whole search.
 """
 
 from __future__ import annotations
@@ -31,27 +31,27 @@ from station.records import Real
 
 LEVEL = 0.01
 LOCAL_SHARE = 0.15
-"""Of what the sense of approach does, the part that differs from place to place where it counts."""
+"""Share of the effect of the sense of approach above which its variation over positions is relevant."""
 NEAR_MM = 40.0
 MOST_PER_TURN = 80.0
 SHORTEST_MM = 0.4
 SHARPER = 0.05
-"""Share of the residual's square by which a period must beat a smooth course to be named."""
+"""Share of the residual's sum of squares by which a period must exceed a smooth course to be reported."""
 
 
 @dataclass(frozen=True)
 class Hint:
-    """One thing the residual depends on."""
+    """One quantity that the residual depends on."""
 
     depends_on: str
     strength: float
-    """Share of the residual's square that goes with it, 0 to 1."""
+    """Share of the residual's sum of squares that it accounts for, 0 to 1."""
     p_value: float
     text: str
 
 
 def hints(residual: WhitenedResidual) -> tuple[Hint, ...]:
-    """Significant dependences of what a model leaves, strongest first."""
+    """Significant dependences of a model's residual, strongest first."""
     found = sorted(_tests(residual), key=lambda h: h.p_value)
     kept = []
     for k, hint in enumerate(found):
@@ -98,7 +98,7 @@ def _either(smooth: Departure, wave: Departure, text: str, period: str) -> Hint:
 
 
 def _by_approach(residual: WhitenedResidual, found: Departure) -> Hint:
-    """Does the sense of approach matter everywhere alike, or differently from place to place?"""
+    """Whether the sense of approach has the same effect everywhere, or one that varies with position."""
     alike = senses(residual)
     local = added(
         residual, found.on, by_approach_and_place(residual), np.column_stack([alike, in_doubt(residual)])
@@ -114,7 +114,7 @@ def _by_approach(residual: WhitenedResidual, found: Departure) -> Hint:
 
 
 def _worst_place(residual: WhitenedResidual) -> Real:
-    """(d,) mm, where the mean of the neighbourhood stands out most from noise."""
+    """(d,) mm, the position where the mean of the neighbourhood exceeds the noise most."""
     apart = np.linalg.norm(residual.at[:, None] - residual.at[None, :], axis=2)
     near = np.exp(-0.5 * (apart / NEAR_MM) ** 2)
     left = np.zeros((len(residual.at), int(residual.axis.max()) + 1))
@@ -124,7 +124,7 @@ def _worst_place(residual: WhitenedResidual) -> Real:
 
 
 def _periodic(residual: WhitenedResidual, along: Real, highest: float) -> tuple[float, Departure]:
-    """The period along something that takes most, up to `highest` periods per unit, and what it takes."""
+    """The period along a quantity that takes most, up to `highest` periods per unit, and its share."""
     span = float(np.ptp(along))
     lowest, step = 2.0 / (span or 1.0), 1.0 / (span or 1.0) / OVERSAMPLING
     count = int((highest - lowest) / step)
@@ -132,7 +132,7 @@ def _periodic(residual: WhitenedResidual, along: Real, highest: float) -> tuple[
         return np.inf, Departure("period", 0.0, 1.0)
     turns = waves(along, 2.0 * np.pi * lowest, 2.0 * np.pi * step, count)
     flat = perpendicular(residual.spread(turns.transpose(1, 0, 2).reshape(len(along), -1)), residual.taken)
-    # coordinate by coordinate: each has amplitudes of its own
+    # coordinate by coordinate: each has separate amplitudes
     won = np.zeros(count)
     for own in np.split(flat, flat.shape[1] // (2 * count), axis=1):
         pairs = own.reshape(len(own), count, 2).transpose(1, 0, 2)

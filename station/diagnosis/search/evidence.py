@@ -1,9 +1,9 @@
-"""How large the amplitudes of a curve are: learned from the readings themselves.
+"""The size of the amplitudes of a curve, learned from the readings themselves.
 
-A curve of a hundred amplitudes needs a prior, and its width decides between bending too little and following
-the noise.  The width that makes the readings most probable is found by the fixed-point steps of MacKay
-(Bayesian interpolation, Neural Computation 4, 1992): each band of alike amplitudes scatters by the square of
-its posterior means, over the number of them that the readings determine.
+A curve of a hundred amplitudes needs a prior, and its width decides between underfitting and following the
+noise. The width that makes the readings most probable is found by the fixed-point steps of MacKay (Bayesian
+interpolation, Neural Computation 4, 1992): the variance of each band of similar amplitudes is the square sum
+of its posterior means, over the number of them that the readings determine.
 """
 
 from __future__ import annotations
@@ -24,16 +24,16 @@ MOST_ROUNDS = 8
 SETTLED = 0.05
 """Relative change of every spread at which the search ends."""
 SMALLEST_RAD = 1e-7
-"""A band whose amplitudes scatter by less is as good as absent."""
+"""A band whose amplitudes scatter by less counts as absent."""
 NONE = -1
 """Band of an unknown whose prior is not learned."""
 
 
 def learned_spread(information: Real, gradient: Real, spread: Real, bands: Index) -> tuple[Real, Real]:
-    """(Q,) spreads of Q unknowns, from `spread` (Q,) on, and their posterior mean (Q,).
+    """(Q,) spreads of Q unknowns, starting from `spread` (Q,), and their posterior mean (Q,).
 
-    Those in no band keep their spread (inf for none).  information (Q, Q) and gradient (Q,) are what the
-    readings, and priors beside the spreads, say.
+    Unknowns in no band retain their spread (inf for none). information (Q, Q) and gradient (Q,) come from the
+    readings, and from priors beside the spreads.
     """
     spread = spread.copy()
     learned = bands != NONE
@@ -58,11 +58,11 @@ def learned_spread(information: Real, gradient: Real, spread: Real, bands: Index
 def relearned(
     fit: Fit, added: Sequence[tuple[Term, Real]], noise: float
 ) -> tuple[tuple[Term, ...], Real, float]:
-    """The terms of a fit and those added, every spread as the readings want it; all unknowns (X,); the noise.
+    """The terms of a fit and added ones, with every spread set by the readings; all unknowns (X,); the noise.
 
-    The fit is taken as linear where it stands; with each term goes its signature (R, q), mm per unit of
-    amplitude; noise, first as guessed, is the square of what a row scatters by, over that of row_sd, but no
-    less than specified.  It and the spreads depend on each other and are settled together.
+    The fit is linear about its solution; each term has its signature (R, q), mm per unit of amplitude; noise,
+    initially as guessed, is the variance of a row over that of row_sd, but no less than specified. Noise and
+    spreads depend on each other and are determined together.
     """
     terms = (*fit.model.terms, *(term for term, _ in added))
     model = replace(fit.model, terms=terms)
@@ -96,7 +96,7 @@ def relearned(
 
 
 def _bands(terms: tuple[Term, ...], size: int) -> Index:
-    """(size + amplitudes,) a number a band, one for all effects of a kind: reducers of one arm are alike."""
+    """(size + amplitudes,) band number, shared by all effects of a kind: reducers of one arm are similar."""
     parts, first = [np.full(size, NONE, dtype=np.intp)], 0
     kinds: dict[type[Effect], int] = {}
     for term in terms:

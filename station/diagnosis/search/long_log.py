@@ -1,7 +1,7 @@
-"""The steps of the loop that thousands of readings and hundreds of amplitudes need done with care for time.
+"""The steps of the loop that need care for time with thousands of readings and hundreds of amplitudes.
 
-An effect is added from the linear answer on, spreads and all, so that one nonlinear fit settles it; readings
-left out are taken out of a fit instead of fitting all others anew.
+An effect is added starting from the linear solution, spreads included, so that one nonlinear fit settles it;
+excluded readings are taken out of a fit instead of fitting all others again.
 """
 
 from __future__ import annotations
@@ -18,18 +18,18 @@ from station.records import Flags, Real
 
 
 def with_candidate(scan: Scan, candidate: Candidate, prior: Prior) -> Fit:
-    """The scanned fit with one effect more; rows scatter by what is left, or as specified if that is more.
+    """The scanned fit with one more effect; rows scatter by the residual, or as specified if that is more.
 
-    :raises NotConvergedError: no convergence.
+    :raises NotConvergedError: the fit does not converge.
     """
     left = (scan.fit.cost - candidate.reduction) / max(scan.fit.dof, 1)
     return _learned(scan.fit, [(candidate.term(), scan.signature(candidate))], left, prior)
 
 
 def settled(found: Fit, prior: Prior) -> Fit:
-    """A fit once more, with noise and spreads as its readings want them.
+    """The fit again, with noise and spreads set by its readings.
 
-    :raises NotConvergedError: no convergence.
+    :raises NotConvergedError: the fit does not converge.
     """
     return _learned(found, [], found.cost / max(found.dof, 1), prior)
 
@@ -72,7 +72,7 @@ def less(found: Fit, k: int, prior: Prior) -> Fit:
 def _moved(
     found: Fit, model: Model, prior: Prior, x: Real, covariance: Real, residual: Real, J: Real, row_sd: Real
 ) -> Fit:
-    """Another fit by a linear step from one found; singular values are left as they were."""
+    """A fit one linear step from another; its singular values are unchanged."""
     pull = prior.root @ (x - prior.mean)
     solution = replace(
         found.solution,

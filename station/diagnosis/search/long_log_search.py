@@ -1,8 +1,8 @@
-"""From residual to cause in a log of thousands of rows: as `trace`, with gross readings taken out on the way.
+"""From residual to cause in a log of thousands of rows: as `trace`, with gross readings excluded in between.
 
-Thousands of rows tell effects apart that few leave open, and carry curves of a hundred amplitudes; what a
-gross reading does to either is small, but not to an effect of few readings.  So readings are left out as soon
-as no effect helps, and everything found is looked at again beside everything else.
+Thousands of rows distinguish effects that a few leave undecided, and support curves of a hundred amplitudes;
+a gross reading has little influence on either, but much on an effect of few readings. Readings are therefore
+excluded as soon as no effect helps, and every finding is checked again beside all others.
 """
 
 from __future__ import annotations
@@ -32,15 +32,15 @@ from station.model import Fit, Model, fit
 from station.records import Flags, Real
 
 EFFECTS_A_JOINT = 2
-"""No more than these, however much readings left out support."""
+"""Maximum number, however much excluded readings support more."""
 OUTLIER_ROUNDS = 4
 WORST = 0.5
-"""Readings that are off by less than this share of the worst one are looked at again without it."""
+"""Readings that are off by less than this share of the worst one are checked again without it."""
 ROUNDS = 4
 
 
 def long_trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[Effect]) -> Trace:
-    """Fit, scan, add, until nothing helps; leave gross readings out, drop what they suggested, again.
+    """Fit, scan and add until nothing helps; exclude gross readings, drop the effects they suggested, repeat.
 
     :raises NotConvergedError: the base model does not converge.
     """
@@ -53,7 +53,7 @@ def long_trace(base: Model, prior: Prior, specified_sd: Real, effects: Sequence[
         off = _take_out(fits, prior)
         left_out = (*left_out, *off)
         dropped = _drop(fits, findings, prior, len(effects))
-        # not to be found and dropped for ever
+        # otherwise found and dropped forever
         effects = [e for e in effects if e not in dropped]
         if not off and not dropped:
             break
@@ -74,9 +74,9 @@ def _grow(fits: list[Fit], findings: list[Finding], prior: Prior, effects: Seque
 
 
 def _take_out(fits: list[Fit], prior: Prior) -> tuple[Outlier, ...]:
-    """Take the readings that are off the last model out of every fit, in place.
+    """Exclude the readings that are off the last model from every fit, in place.
 
-    The worst go first: what they had done to noise and curves made others look worse than they are.
+    The worst go first: their influence on noise and curves made others look worse than they are.
     """
     off: tuple[Outlier, ...] = ()
     for _ in range(OUTLIER_ROUNDS):
@@ -100,13 +100,13 @@ def _kept(found: Fit, off: tuple[Outlier, ...]) -> Flags:
 
 
 def _settle(fits: list[Fit], prior: Prior) -> None:
-    """Noise, spreads and unknowns of the last model anew; by the linear step where that does not converge."""
+    """Noise, spreads and unknowns of the last model again; by the linear step if that fails."""
     with suppress(NotConvergedError):
         fits[-1] = long_log.settled(fits[-1], prior)
 
 
 def _drop(fits: list[Fit], findings: list[Finding], prior: Prior, tests: int) -> list[Effect]:
-    """Take effects that the last fit could do without out of every fit, the least needed first, in place."""
+    """Remove effects that the last fit does not need from every fit, the least needed first, in place."""
     dropped = []
     while findings:
         last = fits[-1]
@@ -123,7 +123,7 @@ def _drop(fits: list[Fit], findings: list[Finding], prior: Prior, tests: int) ->
 
 
 def _needed(found: Fit, k: int) -> tuple[float, float]:
-    """By how much the cost would rise without term k, and the p-value of its F test."""
+    """The increase of the cost without term k, and the p-value of its F test."""
     a, C = found.amplitudes(k)
     spread = found.model.terms[k].spread
     freedom = float(len(a)) if spread is None else max(float(np.sum(1.0 - np.diag(C) / spread**2)), 1.0)

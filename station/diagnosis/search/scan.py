@@ -1,7 +1,7 @@
 """The catalogue against one residual: every effect projected, tested, priced.
 
-Whatever the base parameters could have taken up is projected out of each signature first
-(Frisch-Waugh-Lovell); tolerance priors take part in that as readings of their own.
+The part of each signature that the base parameters could take up is projected out first
+(Frisch-Waugh-Lovell); tolerance priors are included as additional readings.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from station.model import Fit, Term
 from station.records import Index, Real
 
 INVISIBLE_SHARE = 0.01
-"""A signature of which less than this is left (RMS) cannot be seen in these readings."""
+"""A signature of which a smaller share than this remains (RMS) is not detectable in these readings."""
 
 
 @dataclass(frozen=True)
@@ -32,13 +32,13 @@ class Candidate:
     hidden: Mapping[str, float]
     variants: Variants
     reduction: float
-    """Of the cost."""
+    """Reduction of the cost."""
     size: int
     """Number of amplitudes."""
     freedom: float
-    """How many of them the readings determine; `size` where there is no prior."""
+    """Number of them that the readings determine; `size` where there is no prior."""
     p_value: float
-    """F test, the price of the search included."""
+    """p-value of the F test, with the price of the search included."""
     visible_share: float
 
     @property
@@ -79,7 +79,7 @@ class Scan:
     def candidates(self, effects: Sequence[Effect]) -> list[Candidate]:
         """The best variant of every effect that these readings can show, most significant first."""
         found = []
-        # joint by joint, as what the rows say is summed for one place of action at a time
+        # joint by joint, as the sums over rows are made for one place of action at a time
         for effect in sorted(effects, key=lambda e: e.joint or 0):
             variants = effect.variants(self.fit.conditions)
             if variants is not None:
@@ -93,40 +93,40 @@ class Scan:
         return self._possible(reduction), share, largest
 
     def _possible(self, reduction: Real) -> Real:
-        """(V,) the same, 0 where it is more than there is: rounding along a direction that cannot be seen."""
+        """(V,) the same, 0 where it exceeds the possible value: rounding along an invisible direction."""
         return np.where(reduction <= self.fit.cost, reduction, 0.0)
 
     def signature(self, candidate: Candidate) -> Real:
-        """(R, q) of a candidate as it was found, mm per unit of amplitude."""
+        """(R, q) signature of a candidate as found, mm per unit of amplitude."""
         model = self.fit.model
         basis = candidate.effect.at(candidate.hidden, self.fit.conditions)
         rows = model.mechanism.reading_of_row
         return signature(candidate.variants.acts, basis, self.fit.at, model.names, rows)
 
     def information(self, variants: Variants) -> Real:
-        """(V, q, q) what the rows say of each variant's amplitudes, everything in the model refitted."""
+        """(V, q, q) information of the rows on each variant's amplitudes, with the whole model refitted."""
         return self._projected(variants, variants.basis)[0]
 
     def _projected(self, variants: Variants, basis: Real) -> tuple[Real, Real, Real]:
-        """What is left of signatures: information (V, q, q), gradient (V, q), and their share (V,) in RMS."""
+        """Remainder of signatures: information (V, q, q), gradient (V, q), and their share (V,) in RMS."""
         shape, rows = basis.shape[::2], len(self.fit.row_sd)
         flat = basis.transpose(1, 0, 2).reshape(basis.shape[1], -1)
         of = self._summed(variants.acts)
-        # what the parameters in the model would take up of each: S' J (J'J + W'W)^-1 J' S
+        # the part of each that the parameters in the model would take up: S' J (J'J + W'W)^-1 J' S
         inside = of.jacobian.T @ flat
         back = self._taken_up @ inside
         inside, back = (a.reshape(-1, *shape).transpose(1, 0, 2) for a in (inside, back))
         whole = basis.transpose(0, 2, 1) @ (of.square[:, None] * basis)
         left = whole - inside.transpose(0, 2, 1) @ back
         along = (of.residual @ flat).reshape(shape)
-        # what a constant reading offset takes up is no part of a signature
+        # the part that a constant reading offset takes up does not belong to a signature
         mean = (of.weight @ flat).reshape(shape) / rows
         total = np.trace(whole, axis1=1, axis2=2) - rows * np.sum(mean**2, axis=1)
         share = np.sqrt(np.maximum(np.trace(left, axis1=1, axis2=2), 0.0) / np.where(total > 0, total, 1.0))
         return left, along, share
 
     def _summed(self, acts: Acts) -> _ByReading:
-        """Of signatures that act at one place; the last such place is kept."""
+        """Sums of signatures with one place of action; those of the last such place are cached."""
         if self._by_reading is None or self._by_reading[0] != acts:
             model = self.fit.model
             w = weight(acts, self.fit.at, model.names) / self.fit.row_sd
@@ -143,7 +143,7 @@ class Scan:
         return self._by_reading[1]
 
     def step(self, columns: Real) -> Real:
-        """(q,) by how much added whitened columns (R, q) answer the residual, all else refitted."""
+        """(q,) amplitudes with which added whitened columns (R, q) fit the residual, all else refitted."""
         left = columns - self._J @ (self._taken_up @ (self._J.T @ columns))
         return np.asarray(np.linalg.lstsq(left, self._residual, rcond=None)[0])
 
@@ -168,7 +168,7 @@ class Scan:
     def _with_spread(
         self, effect: Effect, variants: Variants, left: Real, along: Real, share: float
     ) -> Candidate:
-        """Of many amplitudes with a prior only as many count as the readings determine."""
+        """Count only as many of the amplitudes with a prior as the readings determine."""
         assert variants.spread is not None
         size = len(along)
         noise = max(self.fit.cost / max(self.fit.dof, 1), 1.0)
@@ -191,7 +191,7 @@ class Scan:
         dof, own = self.fit.dof - freedom, self._own_dof - freedom
         if min(dof, own) <= 0:
             return 1.0
-        # generous tolerances add to the readings' scatter nothing, but degrees of freedom
+        # wide tolerances add nothing to the readings' scatter, but degrees of freedom
         noise = max((self.fit.cost - reduction) / dof, (self._own_cost - reduction) / own, 1e-12)
         return float(min(1.0, trials * fdtrc(freedom, dof, reduction / freedom / noise)))
 

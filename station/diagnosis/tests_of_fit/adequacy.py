@@ -1,8 +1,8 @@
 """Whether a fit is good enough to stop: lack of fit, order, smooth departures, repeats, tolerances.
 
-Null hypothesis of each test: the residual is noise.  The repeats' own scatter is the yardstick for
-the residual; where something changes with time it scatters too much itself, and few repeats are a poor
-yardstick, which is why the other tests stand beside it.
+Null hypothesis of each test: the residual is noise. The repeats' own scatter is the reference for the
+residual; where something changes with time it is too large itself, and few repeats are a poor reference.
+Therefore the other tests are used as well.
 """
 
 from __future__ import annotations
@@ -19,11 +19,11 @@ from station.model import Fit
 from station.records import Real
 
 ALPHA = 5e-4
-"""Of each test: a clean machine is looked at twice in two of a thousand runs."""
+"""Level of each test: a machine without a defect is searched in two of a thousand runs."""
 TENSION = 1e-4
-"""Tolerances are rougher than noise: only a plain contradiction counts."""
+"""Tolerances are less exact than noise: only a clear contradiction counts."""
 LOUD = 3.0
-"""Repeats that scatter so many times more than specified are a fault by themselves: any model fits them."""
+"""Repeats with this many times the specified scatter are a fault by themselves: any model fits them."""
 
 
 @dataclass(frozen=True)
@@ -33,41 +33,41 @@ class Adequacy:
     lack_of_fit_p: float
     order_in_time_p: float
     repeats_p: float
-    """Of the repeats against the specification."""
+    """p-value of the repeats against the specification."""
     pure_factor: float
     """Pure error over the row_sd of the fit; NaN without enough repeats."""
     pure_dof: int
     loudness: float
     """Pure error over the specification; NaN without enough repeats."""
     departure_p: float
-    """Of the most significant smooth departure, the price of all of them included."""
+    """p-value of the most significant smooth departure, with the price of all of them included."""
     tension_p: float
-    """Of the parameters against their tolerances: a model may fit by bending what is known."""
+    """p-value of the parameters against their tolerances: a model may fit by bending known values."""
 
     @property
     def passed(self) -> bool:
-        """By the tests that a somewhat noisier head alone does not fail."""
+        """Whether it passes the tests that a somewhat noisier head alone does not fail."""
         fits = min(self.lack_of_fit_p, self.order_in_time_p, self.departure_p) >= ALPHA
         return fits and not self.loud and self.tension_p >= TENSION
 
     @property
     def settled(self) -> bool:
-        """Nothing is left to look for, neither in the fit nor in the repeats."""
+        """Whether nothing remains to be searched, neither in the fit nor in the repeats."""
         return self.passed and self.quiet
 
     @property
     def loud(self) -> bool:
-        """Repeats scatter far more than specified."""
+        """Whether repeats scatter far more than specified."""
         return self.loudness > LOUD
 
     @property
     def quiet(self) -> bool:
-        """Repeats scatter no more than specified."""
+        """Whether repeats scatter no more than specified."""
         return self.repeats_p >= ALPHA
 
 
 def judge(fit: Fit, specified_sd: Real) -> Adequacy:
-    """Test a fit's residual; specified_sd (K,) mm is what the devices promise at worst."""
+    """Test a fit's residual; specified_sd (K,) mm is the devices' guaranteed limit."""
     r = fit.residual_mm
     group = _repeat_groups(fit)
     spec_ratio = float(np.mean((fit.row_sd / specified_sd) ** 2))
@@ -80,7 +80,7 @@ def judge(fit: Fit, specified_sd: Real) -> Adequacy:
     repeats_p = float(chdtrc(dof, against_spec)) if known else 1.0
     lack_p = _lack_of_fit_p(fit, pure, dof) if known else 1.0
     if repeats_p >= ALPHA:
-        # few repeats say little; no worse than specified, they let the specification speak
+        # a few repeats are weak evidence; if no worse than specified, the specification is used
         lack_p = min(lack_p, float(chdtrc(fit.dof, fit.cost * spec_ratio)))
     return Adequacy(
         lack_of_fit_p=lack_p,
@@ -100,13 +100,13 @@ def _departure_p(fit: Fit) -> float:
 
 
 def _tension_p(fit: Fit) -> float:
-    """Chi-square of the parameters under their prior; conservative: the readings hold only some of them."""
+    """Chi-square of the parameters under their prior; conservative: the readings determine only some."""
     pull = fit.prior.root @ (fit.x - fit.prior.mean)
     return float(chdtrc(len(pull), float(pull @ pull)))
 
 
 def _repeat_groups(fit: Fit) -> np.ndarray:
-    """(R,) rows alike in place, approach, mount, the slider's sense and coordinate."""
+    """(R,) group of rows with the same position, approach, mount, slider's sense and coordinate."""
     m, reading = fit.model.mechanism.measurements, fit.model.mechanism.reading_of_row
     keys = np.column_stack([m.repeat_group, fit.conditions.slider_net])[reading]
     keys = np.column_stack([keys, axis_of_row(fit.model.mechanism)])
@@ -122,9 +122,9 @@ def _lack_of_fit_p(fit: Fit, pure: float, pure_dof: int) -> float:
 
 
 def _order_p(fit: Fit, whitened: Real) -> float:
-    """von Neumann's ratio of successive differences in time order, one-sided (neighbours too alike).
+    """von Neumann's ratio of successive differences in time order, one-sided (neighbours too similar).
 
-    Coordinates of one reading are looked at each by itself and put together after Stouffer.
+    Coordinates of one reading are tested separately and combined after Stouffer.
     """
     axis = axis_of_row(fit.model.mechanism)
     order = np.argsort(fit.model.mechanism.measurements.t_s, kind="stable")
@@ -133,7 +133,7 @@ def _order_p(fit: Fit, whitened: Real) -> float:
 
 
 def _order_score(r: Real) -> float:
-    """Standard score of the ratio; inf where too little is there to be judged."""
+    """Standard score of the ratio; inf where there is too little to judge."""
     n = len(r)
     square = float(r @ r)
     if n < 12 or square == 0.0:

@@ -1,9 +1,9 @@
-"""Unnamed alternatives to a cause: the residual wanders with time, position, angle or travel.
+"""Unnamed alternatives to a cause: the residual varies with time, position, angle or travel.
 
 Each alternative is a Gaussian process added to the noise (Rasmussen and Williams, Gaussian Processes for
-Machine Learning, 2006, chapter 5), its size found by restricted maximum likelihood (Patterson and
-Thompson, Biometrika 58, 1971).  A cause with its few parameters must make the readings far more
-probable than any of them: whatever is flexible enough imitates a wandering, three ripples a bump.
+Machine Learning, 2006, chapter 5), its size found by restricted maximum likelihood (Patterson and Thompson,
+Biometrika 58, 1971). A cause with its few parameters must make the readings far more probable than any of
+them: a flexible function imitates a random variation, three ripples a bump.
 """
 
 from __future__ import annotations
@@ -23,26 +23,26 @@ from station.model import Term
 from station.records import Real
 
 REACH = 0.1
-"""Of the range visited, over which what wanders stays alike."""
+"""Correlation length, as a share of the visited range."""
 FAR_BETTER = 10.0
-"""Of minus twice the log likelihood: 150 times more probable ("very strong", Kass and Raftery 1995)."""
+"""Minus twice the log likelihood: 150 times more probable ("very strong", Kass and Raftery 1995)."""
 SIZES = np.geomspace(1e-3, 1e6, 40)
 """Variance of the alternative over that of the noise."""
 
 
 @dataclass(frozen=True)
 class Alternative:
-    """One kind of wandering, as large as suits the readings best."""
+    """One kind of variation, with the size that fits the readings best."""
 
     on: str
     score: float
     """Minus twice the log restricted likelihood, plus the price of its size."""
     share: float
-    """Of the residual's square that it takes, 0 to 1."""
+    """Share of the residual's sum of squares that it takes, 0 to 1."""
 
 
 def alternatives(residual: WhitenedResidual) -> tuple[Alternative, ...]:
-    """Every kind, in the place of all effects; `residual` is what the model without them leaves."""
+    """All kinds, in place of all effects; `residual` is that of the model without them."""
     return tuple(_fitted(residual, on, covariance) for on, covariance in _kinds(residual))
 
 
@@ -51,8 +51,7 @@ def strongest(
 ) -> str | None:
     """The alternative that the terms do not beat by `FAR_BETTER`, None where they beat all.
 
-    Terms pay for their amplitudes (BIC: Schwarz, Annals of Statistics 6, 1978) and for the ways in
-    which they were searched.
+    Terms are charged for their amplitudes (BIC: Schwarz, Annals of Statistics 6, 1978) and for their search.
     """
     price = 0.0
     for term in terms:
@@ -66,7 +65,7 @@ def strongest(
 def _kinds(residual: WhitenedResidual) -> Iterator[tuple[str, Real]]:
     """(K, K) covariance in mm^2, of any size."""
     order = np.argsort(np.argsort(residual.of("t_s"), kind="stable"), kind="stable") + 1.0
-    # Brownian: every stop adds to the one before
+    # Brownian: every stop adds to the previous one
     yield "time", np.minimum(order[:, None], order[None, :]) / len(order)
     if np.any(residual.of("approach") != 0):
         columns = by_approach_and_place(residual)
@@ -80,7 +79,7 @@ def _kinds(residual: WhitenedResidual) -> Iterator[tuple[str, Real]]:
 
 
 def _alike(along: Real, span: float) -> Real:
-    """(K, K) squared exponential of the way between rows of along (K, d)."""
+    """(K, K) squared exponential of the distance between rows of along (K, d)."""
     apart = np.linalg.norm(along[:, None] - along[None, :], axis=2) / (REACH * span or 1.0)
     return np.asarray(np.exp(-0.5 * apart**2))
 

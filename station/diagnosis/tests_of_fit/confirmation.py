@@ -1,9 +1,9 @@
-"""Fresh readings against a frozen model: only what predicts them may be called the cause.
+"""Fresh readings against a fixed model: only a model that predicts them may be called the cause.
 
-Three questions are put to them.  Are they predicted as a whole (chi-square with the prediction
-covariance)?  Do old and fresh readings together show no smooth departure from the model
-(`departures`)?  And are the effects a far better account of all of them than a wandering without a
-name (`alternatives`)?  The last two ask far more than the first, since they know where to look.
+There are three tests. Are they predicted as a whole (chi-square with the prediction covariance)? Do old and
+fresh readings together show no smooth departure from the model (`departures`)? And are the effects a far
+better explanation of all of them than an unnamed variation (`alternatives`)? The last two are far more
+sensitive than the first, since they test specific directions.
 """
 
 from __future__ import annotations
@@ -30,32 +30,32 @@ from station.model import Fit, Model, is_long
 from station.records import Flags, Measurements, Real
 
 DIRECTED_P = 1e-4
-"""A true model is refused this often by each of the directed tests; as a whole by `REFUSED_P`."""
+"""Probability that each directed test refuses a true model; `REFUSED_P` is that of the overall test."""
 FEWEST = 8
 FAR_OFF = 5.0
-"""Standard deviations; and of few fresh readings, at most this share:"""
+"""Standard deviations beyond which a fresh reading is far off; and the maximum share of such readings:"""
 FEW_OFF = 0.05
 
 
 @dataclass(frozen=True)
 class Confirmation:
-    """What a frozen model made of fresh readings."""
+    """The comparison of a fixed model with fresh readings."""
 
     residual_mm: Real
     """(R,) measured less predicted."""
     sd_mm: Real
-    """(R,) of that, by the model's covariance and the noise."""
+    """(R,) standard deviation of that, from the model's covariance and the noise."""
     error_mm: Real
     """(K,) size of each reading's residual."""
     p_value: float
     left_out: tuple[int | str, ...]
-    """Ids of few fresh readings far off a model that predicts all others; they took no part in the tests."""
+    """Ids of a few fresh readings far off a model that predicts all others; excluded from the tests."""
     whitened: WhitenedResidual
-    """What the model leaves of readings learned on and fresh ones together; of a long log, of the former."""
+    """The model's residual for readings learned on and fresh ones; in a long log, only the former."""
     departures: tuple[Departure, ...]
-    """Of it; of a long log none are asked for beyond those that `adequacy` has found already."""
+    """Departures of it; in a long log no further ones are tested than `adequacy` has already."""
     alternative: str | None
-    """A nameless dependence that makes all readings about as probable as the effects do."""
+    """An unnamed dependence that makes all readings about as probable as the effects do."""
 
     @property
     def confirmed(self) -> bool:
@@ -63,7 +63,7 @@ class Confirmation:
 
     @property
     def refusal(self) -> str:
-        """What speaks against the model, where it is not confirmed for a alternative's sake."""
+        """What contradicts the model, where it is not refused because of an alternative."""
         if self.p_value < REFUSED_P or not self.departures:
             return "fresh readings refute the model"
         worst = min(self.departures, key=lambda d: d.p_value)
@@ -79,10 +79,10 @@ class Confirmation:
 
 
 def confirm(base: Fit, learned: Fit, fresh: Measurements, noise_dof: int) -> Confirmation:
-    """Predict fresh readings with everything frozen; `base` is the model before any effect was added.
+    """Predict fresh readings with all parameters fixed; `base` is the model before any effect was added.
 
-    The statistic is chi-square with the prediction covariance, searched parameters included; as the
-    noise itself was estimated with `noise_dof` degrees of freedom it is held against F.
+    The statistic is chi-square with the prediction covariance, searched parameters included; since the noise
+    itself was estimated with `noise_dof` degrees of freedom, it is compared with F.
     """
     if is_long(learned.model.mechanism):
         return _of_long_log(learned, fresh, noise_dof)
@@ -115,10 +115,10 @@ def confirm(base: Fit, learned: Fit, fresh: Measurements, noise_dof: int) -> Con
 
 
 def _of_long_log(learned: Fit, fresh: Measurements, noise_dof: int) -> Confirmation:
-    """The first question only; thousands of readings find some smooth departure in any real machine."""
+    """The first test only; thousands of readings show some smooth departure in any real machine."""
     after = _fresh(learned, fresh, _noise_ratio(learned))
     residual, C = after.residual_mm, learned.solution.covariance
-    # what is searched is known far better than fitted, from so many readings
+    # with this many readings, searched parameters are known far better than fitted ones
     J = after.by_unknown[:, : len(C)]
     sd_mm = np.sqrt(np.einsum("ki,ki->k", J @ C, J) + after.row_sd**2)
     off = _far_off(residual, sd_mm, after)
@@ -140,12 +140,12 @@ def _chi_square(r: Real, J: Real, C: Real) -> float:
 
 
 def _noise_ratio(learned: Fit) -> float:
-    """Of the noise learned to the specification."""
+    """Ratio of the learned noise to the specification."""
     return float(np.sqrt(np.mean(learned.row_sd**2) / np.mean(learned.model.mechanism.row_sd**2)))
 
 
 def _far_off(residual: Real, sd: Real, of: Readings) -> Flags:
-    """(K,) readings with a row further off than any noise."""
+    """(K,) readings with a row further off than noise can be."""
     off = np.zeros(len(of.at), dtype=bool)
     off[of.reading[np.abs(residual) > FAR_OFF * sd]] = True
     return off
@@ -172,7 +172,7 @@ def _fresh(learned: Fit, fresh: Measurements, ratio: float) -> Readings:
 
 
 def _root(learned: Fit, before: Readings) -> Real:
-    """(X, N) whose square is the covariance of all unknowns, the searched ones included."""
+    """(X, N) root of the covariance of all unknowns, the searched ones included."""
     held = np.zeros((len(learned.prior.root), before.by_unknown.shape[1]))
     held[:, : learned.prior.root.shape[1]] = learned.prior.root
     stacked = np.concatenate([before.by_unknown / before.row_sd[:, None], held])

@@ -1,4 +1,4 @@
-"""Blocked cross-validation: every reading predicted without any reading of its own place."""
+"""Blocked cross-validation: every reading predicted without any reading of its own position."""
 
 from __future__ import annotations
 
@@ -11,10 +11,10 @@ from station.model import Fit
 from station.records import Flags, Index, Measurements, Real
 
 DETERMINED = 1e-9
-"""A block that alone holds a direction cannot be predicted in it by the others."""
+"""A block that alone determines a direction cannot be predicted in it by the others."""
 
 LONG = 1000
-"""Readings from which neighbours in the log are left out together, a quarter of it at a time."""
+"""Number of readings from which neighbours in the log are excluded together, a quarter of it at a time."""
 FOLDS = 4
 BLOCK = 40
 """Consecutive readings that stay together then, fewer where the log"""
@@ -23,7 +23,7 @@ BLOCKS_A_FOLD = 2
 
 
 def predicted_by_others(solution: Solution, mechanism: Mechanism) -> Real:
-    """(R,) whitened measured less predicted, by a fit without the place, of long logs without the block."""
+    """(R,) whitened measured less predicted, by a fit without the position; in long logs, the block."""
     m, reading = mechanism.measurements, mechanism.reading_of_row
     if len(m) < LONG:
         return held_out(solution, m.position[reading])
@@ -31,9 +31,9 @@ def predicted_by_others(solution: Solution, mechanism: Mechanism) -> Real:
 
 
 def folds(m: Measurements) -> Index:
-    """(K,) fold of each reading: blocks of neighbours dealt out in turn, every place in one fold only.
+    """(K,) fold of each reading: blocks of neighbours dealt out in turn, each position in one fold only.
 
-    Every set-up is dealt out by itself, so that none is missing on one side.
+    Each set-up is dealt out separately, so that none is missing on one side.
     """
     out = np.zeros(len(m), dtype=np.intp)
     for s in range(len(m.setups)):
@@ -47,7 +47,7 @@ def folds(m: Measurements) -> Index:
 def without_a_quarter(m: Measurements) -> tuple[Measurements, Measurements]:
     """Readings to learn from, and a quarter of them, in blocks of neighbours, to be judged by.
 
-    :raises InputRefused: so few positions that nothing is left on one side.
+    :raises InputRefused: there are so few positions that one side is empty.
     """
     aside = folds(m) == 0
     if aside.all() or not aside.any():
@@ -59,7 +59,7 @@ def without_a_quarter(m: Measurements) -> tuple[Measurements, Measurements]:
 
 
 def left_out_rms(found: Fit) -> float:
-    """mm, RMS of readings predicted without the fold of blocks that they are in."""
+    """RMS of readings predicted without the fold of blocks that they are in, mm."""
     mechanism = found.model.mechanism
     fold = folds(mechanism.measurements)[mechanism.reading_of_row]
     rows = held_out_folds(found.solution, fold) * found.row_sd

@@ -1,9 +1,9 @@
-"""Smooth departures from any model: in time, by approach and place, by place, along an angle or the travel.
+"""Smooth departures from any model: in time, by approach and position, by position, along angle or travel.
 
-The catalogue names causes; these name none, and are what a cause has to leave nothing to.  A residual
-is held against a few smooth columns of each kind, with whatever the model could still take up
-projected out of them (added variables: Cook and Weisberg, Residuals and Influence in Regression,
-1982, section 2.3.2).  The null hypothesis of each F test is that the residual is noise.
+The catalogue names causes; these are unnamed, and a cause must leave none of them. A residual is compared
+with a few smooth columns of each kind, after the part that the model could still take up is projected out of
+them (added variables: Cook and Weisberg, Residuals and Influence in Regression, 1982, section 2.3.2). The
+null hypothesis of each F test is that the residual is noise.
 """
 
 from __future__ import annotations
@@ -20,15 +20,15 @@ from station.model import Fit, Model, is_long
 from station.records import Flags, Index, Real
 
 SLOW, SMOOTH = 6, 8
-"""Half waves over the readings in order of time, and in order of an angle or the travel."""
+"""Half waves over the readings in time order, and in order of an angle or the travel."""
 OVER = (6, 3, 3)
 """Half waves over the workspace: across, up, and in the third direction where there is one."""
 MOST = 600
-"""Readings of a long log that are looked at, evenly spread: what a residual follows is plain in those."""
+"""Number of readings used of a long log, evenly spread: they show what a residual depends on."""
 LOST = 1e-3
-"""A column of which less is left after projection says nothing of its own."""
+"""Minimum share of a column after projection; below it the column has no information of its own."""
 STEP = 1e-4
-"""Relative, of the difference quotient of a searched parameter."""
+"""Relative step of the difference quotient of a searched parameter."""
 
 
 @dataclass(frozen=True)
@@ -37,12 +37,12 @@ class Departure:
 
     on: str
     share: float
-    """Of the residual's square, beyond what as many columns take of noise; 0 to 1."""
+    """Share of the residual's sum of squares, beyond what as many columns take of noise; 0 to 1."""
     p_value: float
 
 
 def in_words(on: str) -> str:
-    """What a departure or a alternative is on, for people."""
+    """The quantity of a departure or an alternative, in words."""
     if on.startswith("theta"):
         return f"the angle of joint {on.removeprefix('theta')}"
     return {"approach x place": "approach and place", "place": "the place", "travel": "the travel"}.get(
@@ -52,7 +52,7 @@ def in_words(on: str) -> str:
 
 @dataclass(frozen=True)
 class Readings:
-    """K readings in R rows with what a model leaves of them and how it answers to its unknowns."""
+    """K readings in R rows with a model's residual and its derivatives with respect to its unknowns."""
 
     residual_mm: Real
     """(R,) measured less predicted."""
@@ -64,7 +64,7 @@ class Readings:
     """(R,) number of the reading of each row."""
     conditions: Conditions
     at: Real
-    """(K, d) where the end of the machine stood, mm."""
+    """(K, d) position of the end of the machine, mm."""
 
     def take(self, some: Flags) -> Readings:
         """Only these readings, mask (K,)."""
@@ -80,7 +80,7 @@ class Readings:
 
 
 def readings(model: Model, x: Real, measured: Real, row_sd: Real, c: Conditions) -> Readings:
-    """Of a model at its unknowns x (X,), with measured (R,), mm."""
+    """The readings of a model at its unknowns x (X,), with measured (R,), mm."""
     predicted = model.observe(x, model.bases(c))
     J = np.column_stack([predicted.by_parameter, *(column for *_, column in by_searched(model, x, c))])
     at = model.mechanism.places(x[: model.base_size])
@@ -97,7 +97,7 @@ def by_searched(model: Model, x: Real, c: Conditions) -> Iterator[tuple[int, str
 
 
 def turned(model: Model, k: int, name: str, by: float) -> Model:
-    """With a searched parameter of term k changed."""
+    """The model with a searched parameter of term k changed."""
     term = model.terms[k]
     changed = replace(term, hidden={**term.hidden, name: term.hidden[name] + by})
     return replace(model, terms=(*model.terms[:k], changed, *model.terms[k + 1 :]))
@@ -108,24 +108,24 @@ def _value(model: Model, x: Real, c: Conditions) -> Real:
 
 
 class WhitenedResidual:
-    """What a model leaves of readings, with everything that its unknowns could take up taken.
+    """A model's residual, after the part that its unknowns could take up is projected out.
 
     Whitened rows: the readings of all parts, then those of the prior.
     """
 
     def __init__(self, parts: tuple[Readings, ...], prior: Prior, x: Real) -> None:
-        """`parts` in order of time; prior and x of the model's parameters."""
+        """`parts` in time order; prior and x of the model's parameters."""
         self.row_sd: Real = np.concatenate([part.row_sd for part in parts])
         """(R,) mm"""
         self.at: Real = np.concatenate([part.at for part in parts])
-        """(K, d) where the end of the machine stood, mm."""
+        """(K, d) position of the end of the machine, mm."""
         before = np.cumsum([0, *(len(part.at) for part in parts)])
         self.reading: Index = np.concatenate(
             [part.reading + first for part, first in zip(parts, before, strict=False)]
         )
         """(R,) number of the reading of each row."""
         self.axis: Index = axes(self.reading)
-        """(R,) which coordinate of its reading each row is."""
+        """(R,) index of the coordinate of each row."""
         J = np.concatenate([part.by_unknown / part.row_sd[:, None] for part in parts])
         held = np.zeros((len(prior.root), J.shape[1]))
         held[:, : prior.root.shape[1]] = prior.root
@@ -144,15 +144,15 @@ class WhitenedResidual:
         return float(self.left @ self.left)
 
     def recorded(self, name: str) -> bool:
-        """Whether the conditions of all readings have it."""
+        """Whether the conditions of all readings contain it."""
         return all(getattr(c, name) is not None for c in self._conditions)
 
     def of(self, name: str) -> Real:
-        """(K, ...) of the conditions of all readings."""
+        """(K, ...) from the conditions of all readings."""
         return np.concatenate([getattr(c, name) for c in self._conditions])
 
     def spread(self, columns: Real) -> Real:
-        """(N, q) whitened, of columns (K, q) in mm; each coordinate of a reading has columns of its own."""
+        """(N, q) whitened columns, from columns (K, q) in mm; separate for each coordinate of a reading."""
         count, coordinates = columns.shape[1], int(self.axis.max()) + 1
         rows = np.zeros((len(self.left), count * coordinates))
         for a in range(coordinates):
@@ -162,7 +162,7 @@ class WhitenedResidual:
 
 
 def departures(residual: WhitenedResidual) -> tuple[Departure, ...]:
-    """Every kind that these readings can show, in no order of importance."""
+    """All kinds that these readings can show, in arbitrary order."""
     found = [added(residual, "time", half_waves(residual.of("t_s"), SLOW))]
     if np.any(residual.of("approach") != 0):
         found.append(added(residual, "approach x place", by_approach_and_place(residual), in_doubt(residual)))
@@ -176,7 +176,7 @@ def departures(residual: WhitenedResidual) -> tuple[Departure, ...]:
 
 
 def added(residual: WhitenedResidual, on: str, columns: Real, beside: Real | None = None) -> Departure:
-    """F test of columns (K, q) in mm, with what columns `beside` (K, m) could take up left to those."""
+    """F test of columns (K, q) in mm; what columns `beside` (K, m) could take up is attributed to those."""
     taken, left = residual.taken, residual.left
     if beside is not None and beside.size:
         others = _orthonormal(perpendicular(residual.spread(beside), taken))
@@ -187,7 +187,7 @@ def added(residual: WhitenedResidual, on: str, columns: Real, beside: Real | Non
     u, s, _ = np.linalg.svd(perpendicular(new, taken), full_matrices=False)
     new = u[:, s > LOST]
     along, size = new.T @ left, new.shape[1]
-    # noise is what the readings' own rows scatter by: how generous a tolerance is says nothing of it
+    # noise is the scatter of the readings' own rows: the width of a tolerance has no information on it
     left_of_rows = (left - new @ along)[: residual.rows]
     used = np.sum(taken[: residual.rows] ** 2) + np.sum(new[: residual.rows] ** 2)
     dof = residual.rows - float(used)
@@ -200,7 +200,7 @@ def added(residual: WhitenedResidual, on: str, columns: Real, beside: Real | Non
 
 
 def in_doubt(residual: WhitenedResidual) -> Real:
-    """(K, m) a column of its own for each reading of which the slider's sense cannot be said."""
+    """(K, m) a separate column for each reading whose slider sense is unknown."""
     doubtful = residual.of("slider_direction") != residual.of("slider_net")
     return np.eye(len(doubtful))[:, doubtful]
 
@@ -230,7 +230,7 @@ def _over_workspace(residual: WhitenedResidual) -> Real:
 
 
 def perpendicular(columns: Real, taken: Real) -> Real:
-    """What is left of columns (N, ...) with orthonormal `taken` (N, X) projected out."""
+    """Columns (N, ...) with orthonormal `taken` (N, X) projected out."""
     return np.asarray(columns - taken @ (taken.T @ columns))
 
 
@@ -240,10 +240,10 @@ def of_fit(fit: Fit, row_sd: Real) -> Readings:
 
 
 def whitened_residual(fit: Fit) -> WhitenedResidual:
-    """What a fit leaves of the readings it was learned on.
+    """A fit's residual for the readings it was learned on.
 
-    Of a long log some readings, and what the parameters of the mechanism could take up of them: the
-    amplitudes of curves have taken theirs from all.
+    In a long log only some readings are used, and only the parameters of the mechanism are projected out of
+    them: the amplitudes of curves are determined by all readings.
     """
     if not is_long(fit.model.mechanism):
         return WhitenedResidual((of_fit(fit, fit.row_sd),), fit.prior, fit.x)
@@ -270,12 +270,12 @@ def _orthonormal(J: Real) -> Real:
 
 
 def half_waves(along: Real, count: int) -> Real:
-    """(K, count) cosines over the order of the readings along something."""
+    """(K, count) cosines over the order of the readings along a quantity."""
     rank = np.argsort(np.argsort(along, kind="stable"), kind="stable")
     return np.asarray(np.cos(np.pi * (rank[:, None] + 0.5) / len(along) * np.arange(1, count + 1)))
 
 
 def _centred(v: Real) -> Real:
-    """From -1 to 1."""
+    """Values scaled to -1 to 1."""
     low, high = float(v.min()), float(v.max())
     return np.asarray((2.0 * v - low - high) / ((high - low) or 1.0))

@@ -19,6 +19,6 @@ def read(spec: MachineSpec, *stops_deg: tuple[float, float]) -> list[VirtualRead
 
 
 def change_mm(effect: AnyEffect, *stops_deg: tuple[float, float], **given: object) -> list[float]:
-    """What an effect adds to the readings of a sequence."""
+    """Contribution of an effect to the readings of a sequence."""
     with_it, without = read(quiet(effect, **given), *stops_deg), read(quiet(**given), *stops_deg)
     return [a.scale_mm - b.scale_mm for a, b in zip(with_it, without, strict=True)]

@@ -1,4 +1,4 @@
-"""libmodbus, which comes with Debian's mbpoll, as a master and as a slave: frames that no one here wrote."""
+"""libmodbus, from Debian's mbpoll, as a master and as a slave: an independent implementation."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class _Mapping(ctypes.Structure):
 
 
 class Refused(Exception):
-    """What libmodbus says of an exchange."""
+    """libmodbus's error of an exchange."""
 
 
 def _library() -> ctypes.CDLL:
@@ -103,7 +103,7 @@ def master(where: str | int, unit: int) -> Iterator[Master]:
 
 
 class Slave:
-    """Registers from 0 on, served until told to end."""
+    """Registers from 0 on, served until it is told to end."""
 
     def __init__(self, context: ctypes.c_void_p, registers: int) -> None:
         library = _library()
@@ -119,7 +119,7 @@ class Slave:
         self._mapping.tab_registers[address] = value
 
     def serve(self) -> None:
-        """What comes on the line that is open, until it breaks or the end."""
+        """Serve requests on the open line, until it breaks or the end."""
         library, query = _library(), (ctypes.c_uint8 * _LONGEST)()
         library.modbus_set_indication_timeout(self._context, 0, _PATIENCE_US)
         while not self.ended.is_set():
@@ -135,7 +135,7 @@ class Slave:
 
 @contextmanager
 def tcp_slave(registers: int) -> Iterator[tuple[Slave, int]]:
-    """Answers on the port that is given; one connection at a time, as small gateways do."""
+    """Answers on the given port; one connection at a time, as small gateways do."""
     with socket.socket() as probe:
         probe.bind(("127.0.0.1", 0))
         port: int = probe.getsockname()[1]
@@ -160,7 +160,7 @@ def tcp_slave(registers: int) -> Iterator[tuple[Slave, int]]:
 
 @contextmanager
 def rtu_slave(unit: int, registers: int) -> Iterator[tuple[Slave, str]]:
-    """Answers at the far end of the serial port that is given."""
+    """Answers at the far end of the given serial port."""
     with crossed_ports() as (near, far), _context(far, unit) as context:
         assert _library().modbus_connect(context) == 0
         slave = Slave(context, registers)
@@ -183,7 +183,7 @@ def _running(serve: object, slave: Slave) -> Iterator[None]:
 
 @contextmanager
 def crossed_ports() -> Iterator[tuple[str, str]]:
-    """Two serial ports; what is written to one comes at the other."""
+    """Two serial ports; bytes written to one arrive at the other."""
     ends = [os.openpty(), os.openpty()]
     for _, station in ends:
         tty.setraw(station)
@@ -209,6 +209,6 @@ def crossed_ports() -> Iterator[tuple[str, str]]:
 
 
 def device(url: str) -> str | int:
-    """Where the drives of an emulated rig are, as `master` wants it."""
+    """Address of the drives of an emulated rig, in the form for `master`."""
     place = url.partition("://")[2].partition("?")[0]
     return place if Path(place).is_absolute() else int(place.rpartition(":")[2])

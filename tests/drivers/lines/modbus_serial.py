@@ -1,6 +1,6 @@
 """npm's modbus-serial as a master of the emulated drives and as a slave of the station's own master.
 
-`python -m tests.drivers.lines.modbus_serial`: the package is fetched into a folder of its own.
+`python -m tests.drivers.lines.modbus_serial`: the package is fetched into a separate folder.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ def _as_slave(script: Path) -> None:
 
 
 def main() -> int:
-    """0; what does not agree is an AssertionError."""
+    """0; a difference is an AssertionError."""
     with tempfile.TemporaryDirectory() as folder:
         script = Path(shutil.copy(Path(__file__).with_suffix(".js"), folder))
         subprocess.run(

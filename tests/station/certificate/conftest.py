@@ -1,4 +1,4 @@
-"""A home folder with one finished run on record: the example of the documentation."""
+"""A home folder with one finished run: the example of the documentation."""
 
 from __future__ import annotations
 

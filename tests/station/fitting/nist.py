@@ -1,6 +1,6 @@
-"""NIST's certified nonlinear regression problems (StRD, https://www.itl.nist.gov/div898/strd/nls/nls_main.shtml).
+"""NIST's nonlinear regression problems (StRD, https://www.itl.nist.gov/div898/strd/nls/nls_main.shtml).
 
-The numbers (data, two starts, certified values and standard deviations) stand in `nist.json`.
+The numbers (data, two starts, certified values and standard deviations) are in `nist.json`.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ import numpy as np
 from station.records import Real
 
 STEP = 1e-30
-"""Of the complex step: derivatives to full precision."""
+"""Size of the complex step: derivatives to full precision."""
 
 Formula = Callable[[Any, Any], Any]
 
@@ -106,7 +106,7 @@ class NistProblem:
 
 
 def problems() -> dict[str, NistProblem]:
-    """By name."""
+    """Problems by name."""
     out = {}
     for name, data in json.loads(Path(__file__).with_name("nist.json").read_text()).items():
         x, y = np.array(data["x"], dtype=float), np.array(data["y"], dtype=float)

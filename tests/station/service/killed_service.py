@@ -1,10 +1,10 @@
-"""Kills the real service at random instants while a program follows its runs, and sees that nothing is lost.
+"""Kills the real service at random instants while a program follows its runs, to check that nothing is lost.
 
 `python -m tests.station.service.killed_service [--kills N] [--seed S] [--resume FILE]`: one `station serve`
-on the emulated rig is asked over REST for a run, followed on the live feed and killed (SIGKILL), N times.
-After each restart every reading that the feed showed is kept as it was shown, an end that was told stays,
-the same key answers the same run, and the next run succeeds.  At the end the chain of records is whole and
-the receiver has heard of every end, in order.  `--resume` keeps what was done, a line each.
+on the emulated rig gets a run over REST, is followed on the live feed and killed (SIGKILL), N times. After
+each restart every reading that the feed showed is stored unchanged, a reported end remains, the same key
+returns the same run, and the next run succeeds. At the end the chain of records is intact and the receiver
+has every end, in order. `--resume` stores completed kills, one per line.
 """
 
 from __future__ import annotations
@@ -31,7 +31,7 @@ from station.store import Store
 from tests.served import ROOT, Served
 
 LONGEST_S = 3.5
-"""After the request; a run takes less, so that ends, deliveries and the time at rest are hit too."""
+"""Time after the request; a run takes less, so that ends, deliveries and idle times are hit too."""
 _TOML = """[service]
 open = false
 [emulated]
@@ -44,26 +44,26 @@ events = ["run.ended"]
 
 @dataclass(frozen=True)
 class Blow:
-    """One kill, and what came of it."""
+    """One kill, and its result."""
 
     after_s: float
     state: str
-    """Of the run that was under way, or had just ended."""
+    """State of the run that was active, or had just ended."""
     shown: int
     """Readings that the feed had shown."""
     kept: int
     wrong: str
-    """Empty where all is as it should be."""
+    """Empty if all requirements are met."""
 
 
 class Follower:
-    """What the live feed tells, until it breaks."""
+    """The messages of the live feed, until it breaks."""
 
     def __init__(self, url: str, key: str) -> None:
         self.shown: dict[str, dict[int, RunReading]] = {}
         """By the uid of the run and the number of the reading."""
         self.told: dict[str, str] = {}
-        """How a run was said to have ended."""
+        """The reported end of each run."""
         self._uid = ""
         feed = f"ws{url.removeprefix('http')}/api/v1/live"
         self._connection = connect(feed, additional_headers={"Authorization": f"Bearer {key}"})
@@ -101,7 +101,7 @@ class Bench:
         self._asked = 0
 
     def blow(self, after_s: float) -> Blow:
-        """Start, let a run succeed, kill in the next one, start again and look."""
+        """Start, let a run succeed, kill in the next one, start again and check."""
         self._asked += 1
         key = f"job {self._asked}"
         order = CalibrationBody(robot_serial="FB-1", plan="rapid", operator="line 4")
@@ -147,7 +147,7 @@ class Bench:
         return [] if following.verdict == "pass" else [f"the next run {following.state}: {following.reason}"]
 
     def whole(self) -> str:
-        """While the station is off: what is wrong with the chain or with what was delivered, or empty."""
+        """While the station is off: the fault in the chain or in the deliveries, or empty."""
         verified = subprocess.run(
             [sys.executable, "-m", "station", "--home", str(self.folder), "verify"],
             capture_output=True,
@@ -169,7 +169,7 @@ class Bench:
 
 
 def all_blows(kills: int, seed: int, resume: Path | None) -> tuple[list[Blow], str]:
-    """So many, those that were done earlier included, and what is wrong at the end."""
+    """All kills, earlier ones included, and the faults at the end."""
     done = resume.read_text().splitlines() if resume is not None and resume.exists() else []
     blows = [Blow(**json.loads(line)) for line in done]
     with tempfile.TemporaryDirectory() as folder:
@@ -183,14 +183,14 @@ def all_blows(kills: int, seed: int, resume: Path | None) -> tuple[list[Blow], s
                 if resume is not None:
                     with resume.open("a") as out:
                         out.write(f"{line}\n")
-            time.sleep(2.0)  # what waits is delivered
+            time.sleep(2.0)  # pending events are delivered
         finally:
             bench.served.end()
         return blows, bench.whole()
 
 
 def main() -> int:
-    """0, or 1 where something is that must not be."""
+    """0, or 1 if a requirement is violated."""
     parser = argparse.ArgumentParser(prog="python -m tests.station.service.killed_service")
     parser.add_argument("--kills", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)

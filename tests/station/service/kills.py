@@ -1,9 +1,9 @@
-"""Kills and freezes the station at random instants of motion, and sees that the machine comes to no harm.
+"""Kills and freezes the station at random instants of motion, and checks that the machine is not harmed.
 
 `python -m tests.station.service.kills [--kills N] [--freezes N] [--servo FAMILY] [--seed S] [--workers N]`:
-each rig runs in a process group of its own.  After each: the drives stand, within 350 ms where the drive has
-a communication watchdog (300 ms and the 50 ms between two looks at the machine), else after the one move
-that was under way; the arm is brought back where it must be; and the next run, a check, passes.
+each rig runs in a separate process group. After each: the drives come to standstill, within 350 ms if the
+drive has a communication watchdog (300 ms and the 50 ms between two queries of the machine), otherwise after
+the active motion; the arm is brought back if necessary; and the next run, a check, passes.
 """
 
 from __future__ import annotations
@@ -43,17 +43,17 @@ def command(module: str, *arguments: object) -> list[str]:
 
 @dataclass(frozen=True)
 class Blow:
-    """One kill or freeze, and what came of it."""
+    """One kill or freeze, and its result."""
 
     signal: str
     stood_s: float
     """From the signal to the last motion; 0 where nothing moved."""
     wrong: str
-    """Empty where all is as it should be."""
+    """Empty if all requirements are met."""
 
 
 class Victim:
-    """A rig of its own, and stations that are killed on it."""
+    """A separate rig, and stations that are killed on it."""
 
     def __init__(self, folder: Path, servo: str) -> None:
         self.folder, self.servo = folder, servo
@@ -81,7 +81,7 @@ class Victim:
         self._rig.stdout.close()
 
     def blow(self, number: signal.Signals, after_s: float) -> Blow:
-        """Start a run, hit it so long after its first motion, look, bring back, run again."""
+        """Start a run, hit it this long after its first motion, check, bring back, run again."""
         station = subprocess.Popen(
             command("station", "--home", self.folder, "calibrate", "--config", self._config, *_RUN),
             stdout=subprocess.DEVNULL,
@@ -94,7 +94,7 @@ class Victim:
         stood_s = self._last_motion_s(time.monotonic())
         if number is signal.SIGSTOP:
             station.send_signal(signal.SIGCONT)
-            station.send_signal(signal.SIGINT)  # where no watchdog stopped the drives it would measure on
+            station.send_signal(signal.SIGINT)  # without a watchdog it would continue to measure
         station.wait(END_S)
         limit_s = WATCHDOG_S + LOOK_S if self.servo == "orientalmotor" else LONGEST_MOVE_S
         wrong = f"moved for {stood_s:.2f} s" if stood_s > limit_s else self._again()
@@ -119,7 +119,7 @@ class Victim:
         return self._run("check")
 
     def _run(self, plan: str) -> str:
-        """Bring the arm back where it must be, and run; what went wrong, or empty."""
+        """Bring the arm back if necessary, and run; returns the fault, or empty."""
         settings = Settings.model_validate(
             {
                 **self.devices,
@@ -129,7 +129,7 @@ class Victim:
         )
         with Runtime.open(settings, self.folder) as runtime:
             while runtime.orchestrator.snapshot().machine is None:
-                time.sleep(0.05)  # it looks at the machine twice a second
+                time.sleep(0.05)  # it queries the machine twice a second
             if runtime.orchestrator.snapshot().retract.needed:
                 run = runtime.orchestrator.retract("ada").id
                 runtime.orchestrator.wait(run, END_S)
@@ -143,7 +143,7 @@ class Victim:
 
 @contextmanager
 def victim(servo: str) -> Iterator[Victim]:
-    """A rig in a folder of its own."""
+    """A rig in a separate folder."""
     with tempfile.TemporaryDirectory() as folder:
         one = Victim(Path(folder), servo)
         try:
@@ -164,7 +164,7 @@ def _toml(devices: Mapping[str, Mapping[str, Any]]) -> str:
 
 
 def blows_of(servo: str, signals: Sequence[signal.Signals], seed: int) -> list[Blow]:
-    """One rig, and a station on it that is hit so often."""
+    """One rig, and a station on it that is hit this many times."""
     rng = random.Random(seed)
     blows = []
     with victim(servo) as one:
@@ -175,7 +175,7 @@ def blows_of(servo: str, signals: Sequence[signal.Signals], seed: int) -> list[B
 
 
 def main() -> int:
-    """0, or 1 where something is that must not be."""
+    """0, or 1 if a requirement is violated."""
     parser = argparse.ArgumentParser(prog="python -m tests.station.service.kills")
     parser.add_argument("--kills", type=int, default=200)
     parser.add_argument("--freezes", type=int, default=100)

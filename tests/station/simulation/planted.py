@@ -36,10 +36,10 @@ class Planted:
     plant: Callable[[Patch], None]
     deeds: Mapping[str, float] = field(default_factory=lambda: DEEDS)
     troubles: Mapping[str, float] = field(default_factory=lambda: TROUBLES)
-    """What happens more often, so that it is met sooner."""
+    """More frequent disturbances, so that it is found sooner."""
 
     def found(self, seed: int) -> Life:
-        """The life in which it shows, or `MOST_DAYS` in which it did not."""
+        """The life in which it is found, or `MOST_DAYS` without a finding."""
         with pytest.MonkeyPatch.context() as patch:
             self.plant(patch)
             return live(seed, MOST_DAYS, deeds=self.deeds, troubles=self.troubles)
@@ -50,7 +50,7 @@ def _nothing(*_: Any, **__: Any) -> None:
 
 
 def _replace(owner: type, name: str, make: Callable[[Any], Any]) -> Callable[[Patch], None]:
-    """Put in the place of a method what is made from it."""
+    """Replace a method by a function made from it."""
     return lambda patch: patch.setattr(owner, name, make(getattr(owner, name)))
 
 

@@ -1,4 +1,4 @@
-"""A client of the station's REST interface, for a MES: `Station`, typed and patient."""
+"""A client of the station's REST interface, for a MES: `Station`, typed and with retries."""
 
 from __future__ import annotations
 

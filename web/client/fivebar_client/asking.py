@@ -1,4 +1,4 @@
-"""One request, repeated while the station is away or busy, and its answer read."""
+"""One request, repeated while the station is unreachable or busy, and its parsed answer."""
 
 from __future__ import annotations
 
@@ -15,30 +15,28 @@ from fivebar_client.models import Problem
 Answer = TypeVar("Answer", bound=BaseModel)
 LONGEST_WAIT_S = 5.0
 _OF_PROXIES = (502, 503, 504)
-"""Statuses of a proxy whose station is away."""
+"""Statuses of a proxy whose station is unreachable."""
 
 
 class Asking:
-    """Repeats what may be repeated: reads, and commands that change nothing the second time."""
+    """Repeats requests that may be repeated: reads, and commands without a second effect."""
 
     def __init__(self, http: httpx.Client, patience_s: float) -> None:
-        """
-        :param patience_s: for so long a request is repeated while the station is away or busy
-        """
+        """:param patience_s: time limit for repeating a request while the station is unreachable or busy"""
         self._http, self._patience_s = http, patience_s
 
     def once(self, method: str, path: str, **request: object) -> httpx.Response:
-        """The answer, whatever its status.  :raises Unreachable: there is none."""
+        """The answer, whatever its status. :raises Unreachable: there is none."""
         try:
             return self._http.request(method, path, **request)  # type: ignore[arg-type]
         except httpx.TransportError as error:
             raise Unreachable(f"{method} {path}: {error or type(error).__name__}") from error
 
     def ask(self, method: str, path: str, **request: object) -> httpx.Response:
-        """The answer, of a status below 400.
+        """The answer, with a status below 400.
 
-        :raises Refused: the station says no, or was busy all the time.
-        :raises Unreachable: nothing answered.
+        :raises Refused: the station refused, or was busy all the time.
+        :raises Unreachable: there was no answer.
         """
         deadline_s = time.monotonic() + self._patience_s
         wait_s = 0.1
@@ -63,7 +61,7 @@ class Asking:
 
 
 def read(kind: type[Answer], answer: httpx.Response) -> Answer:
-    """:raises Unexpected: it is none of this kind."""
+    """:raises Unexpected: it is not of this kind."""
     try:
         return kind.model_validate_json(answer.content)
     except ValidationError as error:
@@ -76,7 +74,7 @@ def _again(answer: httpx.Response) -> bool:
 
 def accepted(answer: httpx.Response) -> httpx.Response:
     """The same.  :raises Refused: it is a problem document.
-    :raises Unreachable: it comes from a proxy whose station is away.
+    :raises Unreachable: it comes from a proxy whose station is unreachable.
     """
     if not answer.is_error:
         return answer

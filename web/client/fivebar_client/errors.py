@@ -1,4 +1,4 @@
-"""What can go wrong between a program and the station."""
+"""Errors of the communication with the station."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ class Unreachable(StationError):
 
 
 class Unexpected(StationError):
-    """An answer that this client cannot read: is it a station, and of this major version?"""
+    """An answer that this client cannot read; check that it is a station of this major version."""
 
 
 class Refused(StationError):
-    """The station says no, and why."""
+    """The station refused, with the reason."""
 
     def __init__(self, problem: Problem) -> None:
         super().__init__(problem.detail)

@@ -1,6 +1,6 @@
 """What the station takes and answers.  Made by `make reference`; do not edit.
 
-From schemas with SHA-256 33b601e9f752512b0d87f6f4bd29ac4189eaf44508a298225e84aba8e3abef24.
+From schemas with SHA-256 e7b98d159b3ae7234738c6b82557c9f10c934b3a29a7a768ae38b6b092f70bc1.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from pydantic import AwareDatetime, BaseModel, Field
 
 class JointAngle(BaseModel):
     """
-    The angle of a proximal link, seen by an instrument in the robot's frame while the drive stands.
+    The angle of a proximal link, measured in the robot's frame at standstill of the drive.
     """
 
     kind: Literal["joint_angle"] = "joint_angle"
@@ -25,7 +25,7 @@ class JointAngle(BaseModel):
 
 class MountingError(BaseModel):
     """
-    An error of the mechanism's mounting (MAEMM), measured: of c + d, sideways or in height.
+    A measured error of the mechanism's mounting (MAEMM): of c + d, sideways or in height.
     """
 
     kind: Literal["drm_x", "drm_y"]
@@ -56,7 +56,7 @@ class Quantity(BaseModel):
 
 class Remedy(BaseModel):
     """
-    What would determine a weak direction, and the standard uncertainty of the zero offsets with it.
+    A measurement that would determine a weak direction, and the zero offsets' standard uncertainty.
     """
 
     text: str
@@ -65,26 +65,26 @@ class Remedy(BaseModel):
 
 class PositionError(BaseModel):
     """
-    Over the workspace or the measured poses, mm.
+    Position error over the workspace or the measured poses, mm.
     """
 
     rms: float
     max: float
     bound_95: float | None
     """
-    With 95 % probability no error is larger; null where only one model was considered.
+    With 95 % probability no error is larger; null if only one model was considered.
     """
 
 
 class AccuracyReached(BaseModel):
     """
-    What a calibration promises of positions, beside what was wanted.
+    The predicted position accuracy of a calibration, with the required one.
     """
 
     bound_95_mm: float | None
     """
     With 95 % probability no position error over the workspace is larger, with the zeros in the drives
-    only: what the robot's own controller will do.
+    only, as with the robot's own controller.
     """
 
     bound_95_model_mm: float | None
@@ -94,12 +94,12 @@ class AccuracyReached(BaseModel):
 
     wanted_mm: float | None
     """
-    Null where nobody said.
+    Required accuracy; null if not specified.
     """
 
     reached: bool | None
     """
-    Whether `bound_95_mm` is what was wanted; null without a wish.
+    Whether `bound_95_mm` meets the requirement; null without one.
     """
 
     stopped_because: str | None
@@ -110,7 +110,7 @@ class AccuracyReached(BaseModel):
 
 class Advice(BaseModel):
     """
-    What would make a calibration better.
+    A measure that would improve a calibration.
     """
 
     kind: str
@@ -121,12 +121,12 @@ class Advice(BaseModel):
     text: str
     joint: int | None
     """
-    Of a joint angle: whose.
+    The joint, if `kind` is `joint_angle`.
     """
 
     gain_mm: float
     """
-    By how much the bound on the largest position error would fall, with the zeros in the drives only.
+    Reduction of the bound on the largest position error, with the zeros in the drives only.
     """
 
     minutes: float
@@ -134,12 +134,12 @@ class Advice(BaseModel):
 
 class CheckFound(BaseModel):
     """
-    How small a shift of the zeros a check would have found, and what it found.
+    The smallest shift of the zeros that a check detects, and the shift found.
     """
 
     smallest_shift_deg: float
     """
-    A shift of either zero of this size is found with 99 % probability.
+    A shift of either zero of this size is detected with 99 % probability.
     """
 
     smallest_by_joint_deg: Annotated[list[Any], Field(min_length=2)]
@@ -150,22 +150,22 @@ class CheckFound(BaseModel):
 
     p_value: float
     """
-    Of the readings, if nothing has changed.
+    p-value of the readings, if nothing has changed.
     """
 
     blind: str
     """
-    The direction of both zeros together in which a shift shows least.
+    The direction of both zeros together in which a shift has the smallest effect.
     """
 
     blind_shift_deg: float
     """
-    The shift that is found along it.
+    The smallest shift detected along it.
     """
 
     valid_until: AwareDatetime | None
     """
-    Until when the check holds; null when it failed.
+    End of the check's validity; null if it failed.
     """
 
 
@@ -185,7 +185,7 @@ class Iteration(BaseModel):
 
 class Residual(BaseModel):
     """
-    Measured less predicted, of one reading.
+    Residual of one reading: measured less predicted.
     """
 
     reading: int
@@ -196,13 +196,13 @@ class Residual(BaseModel):
 
 class MemoryUse(BaseModel):
     """
-    Whether what earlier runs know of geometry and mechanism took part.
+    Whether the knowledge of geometry and mechanism from earlier runs was used.
     """
 
     used: bool
     p_value: float | None
     """
-    Of the readings under the memory.
+    p-value of the readings under the memory.
     """
 
     text: str
@@ -212,17 +212,17 @@ class MemoryUse(BaseModel):
 
 class FleetPrior(BaseModel):
     """
-    Geometry of a robot as others of its type let expect it, before it is measured: mm and mm^2.
+    Expected geometry of a robot from others of its type, before it is measured: mm and mm^2.
     """
 
     type: str
     """
-    As the robot files name it.
+    Type as in the robot files.
     """
 
     serials: list[str]
     """
-    Of those others.
+    Serials of those others.
     """
 
     names: list[str]
@@ -232,14 +232,14 @@ class FleetPrior(BaseModel):
 
 class ReferenceUse(BaseModel):
     """
-    A reference that took part in a fit, and how well everything else agrees with it.
+    A reference that was used in a fit, and how well all other data agree with it.
     """
 
     reference: Annotated[JointAngle | MountingError, Field(discriminator="kind")]
     residual: float | None
     """
-    Reference less what everything else says, in the unit of the parameter; null when nothing else says
-    anything of it.
+    Reference less the value from all other data, in the unit of the parameter; null if the other data do
+    not determine it.
     """
 
     sd: float | None
@@ -250,7 +250,7 @@ class ReferenceUse(BaseModel):
     unit: str
     p_value: float | None
     """
-    Of a difference that large, if both are right; null where that was not judged.
+    p-value of that difference, if both are correct; null if it was not tested.
     """
 
 
@@ -269,7 +269,7 @@ class EffectName(BaseModel):
 
 class Phrase(BaseModel):
     """
-    `code` is a template in `station.messages`; every language says it from the same parameters.
+    `code` is a template in `station.messages`; every language uses the same parameters.
     """
 
     code: str
@@ -296,25 +296,25 @@ class Prompt(BaseModel):
 
     id: str
     """
-    To be given with the answer.
+    Identifier to return with the answer.
     """
 
     text: str
     kind: str
     """
-    Whether a number is asked for.  Today `confirm`, `number`.
+    Whether a number is requested.  Today `confirm`, `number`.
     """
 
     unit: str | None
     expires_at: AwareDatetime
     """
-    Without an answer the run ends then.
+    Without an answer the run ends at this time.
     """
 
 
 class JointApplication(BaseModel):
     """
-    One drive: `shift_deg` is how far its frame has moved since the calibration.
+    One drive: `shift_deg` is the movement of its frame since the calibration.
     """
 
     joint: int
@@ -327,7 +327,7 @@ class JointApplication(BaseModel):
     shift_deg: float | None
     new_offset_deg: float | None
     """
-    What is left of the zero offset in the drive's frame.
+    The remaining zero offset in the drive's frame.
     """
 
 
@@ -345,7 +345,7 @@ class ApplicationRun(BaseModel):
     operator: str
     state: str
     """
-    Of a calibration run.  Today `queued`, `running`, `waiting`, `succeeded`, `failed`, `aborted`, `interrupted`.
+    State of a calibration run.  Today `queued`, `running`, `waiting`, `succeeded`, `failed`, `aborted`, `interrupted`.
     """
 
     verdict: str | None
@@ -355,7 +355,7 @@ class ApplicationRun(BaseModel):
 
 class DeviceUsed(BaseModel):
     """
-    One device as the station file names it.
+    One device as in the station file.
     """
 
     name: str
@@ -365,7 +365,7 @@ class DeviceUsed(BaseModel):
 
 class ScaleCertificate(BaseModel):
     """
-    The calibration certificate of the linear scale, as the station file states it.
+    The calibration certificate of the linear scale, as in the station file.
     """
 
     scale: str
@@ -380,27 +380,27 @@ class ScaleCertificate(BaseModel):
 
     laboratory: str
     """
-    Who calibrated it.
+    Laboratory that calibrated it.
     """
 
     calibrated: date
     """
-    The day on which it was.
+    Day of the calibration.
     """
 
     due: date
     """
-    The last day on which it counts.
+    Last day of its validity.
     """
 
     u95_um: float
     """
-    Expanded uncertainty (k = 2) of a length, the part that does not depend on it, um.
+    Expanded uncertainty (k = 2) of a length, the part independent of the length, um.
     """
 
     u95_um_per_m: float
     """
-    The part in proportion to the length, um/m.
+    The part proportional to the length, um/m.
     """
 
     expansion_ppm_per_k: float
@@ -410,12 +410,12 @@ class ScaleCertificate(BaseModel):
 
     temperature_c: float
     """
-    Of the scale at its place of work; readings that carry a temperature state their own.
+    Temperature of the scale in operation; readings with a temperature state their own.
     """
 
     temperature_within_k: float
     """
-    The temperature lies within this of what is stated; every value is equally likely (GUM, 4.3.7).
+    The temperature is within this of the stated value; every value is equally likely (GUM, 4.3.7).
     """
 
 
@@ -427,18 +427,18 @@ class CalibrationSummary(BaseModel):
     id: int
     uid: str
     """
-    UUIDv7; other than the number, no other station gives it away, nor this one after a restore.
+    UUIDv7; unlike the number, it is unique over all stations, and after a restore.
     """
 
     robot_serial: str
     kind: str
     """
-    What the run did: `calibrate`, `diagnose`, `separate`, `apply`, `rollback` or `import`.
+    Kind of run: `calibrate`, `diagnose`, `separate`, `apply`, `rollback` or `import`.
     """
 
     plan: str
     """
-    Of a calibration; else `apply`, `rollback`, `separating` or `dataset`.
+    Plan of a calibration; otherwise `apply`, `rollback`, `separating` or `dataset`.
     """
 
     of: int | None
@@ -450,7 +450,7 @@ class CalibrationSummary(BaseModel):
     work_order: str | None
     state: str
     """
-    Of a calibration run.  Today `queued`, `running`, `waiting`, `succeeded`, `failed`, `aborted`, `interrupted`.
+    State of a calibration run.  Today `queued`, `running`, `waiting`, `succeeded`, `failed`, `aborted`, `interrupted`.
     """
 
     verdict: str | None
@@ -461,12 +461,12 @@ class CalibrationSummary(BaseModel):
 
     reason: str | None
     """
-    In English.
+    Reason in English.
     """
 
     reason_code: str | None
     """
-    The same for other languages, with `reason_params`.
+    The reason's code for other languages, with `reason_params`.
     """
 
     reason_params: dict[str, float | int | str | Phrase]
@@ -480,7 +480,7 @@ class CalibrationSummary(BaseModel):
 
 class Event(BaseModel):
     """
-    Something that happened; `n` rises from 1 without gaps, `uid` is the same at every delivery.
+    An event; `n` increases from 1 without gaps, `uid` is the same at every delivery.
     """
 
     n: int
@@ -496,7 +496,7 @@ class Event(BaseModel):
 
 class FieldAtFault(BaseModel):
     """
-    One thing wrong with a request.
+    One error in a request.
     """
 
     field: str
@@ -524,7 +524,7 @@ class ReadingAnswer(BaseModel):
 
 class StationInfo(BaseModel):
     """
-    What the station is and can do.
+    Identity and capabilities of the station.
     """
 
     name: str
@@ -541,18 +541,18 @@ class StationInfo(BaseModel):
 
     recommended_plan: str
     """
-    Where nothing speaks for another one.
+    The default plan.
     """
 
     open: bool
     """
-    Whether anybody at this computer may do everything without signing in.
+    Whether users at this computer have all rights without signing in.
     """
 
 
 class DeviceView(BaseModel):
     """
-    What is known of one device.
+    The state of one device.
     """
 
     name: str
@@ -578,17 +578,17 @@ class Trip(BaseModel):
     run: int
     text: str
     """
-    What was noticed.
+    The detected condition.
     """
 
     stop_frame_ms: float | None
     """
-    From noticing it until the stop frames of both drives were sent; null where none was.
+    Time from detection until the stop frames of both drives were sent; null if none was.
     """
 
     standstill_ms: float
     """
-    From noticing it until both drives were seen to stand.
+    Time from detection until standstill of both drives was confirmed.
     """
 
 
@@ -622,7 +622,7 @@ class RetractView(BaseModel):
     needed: bool
     excess_mm: float | None
     """
-    How far outside it stands; null when that is not known or the linkage cannot close there.
+    Distance outside the workspace; null if unknown or if the linkage cannot close there.
     """
 
     text: str
@@ -630,7 +630,7 @@ class RetractView(BaseModel):
 
 class CalibrationHolds(BaseModel):
     """
-    Whether calibrated work of a robot may go on.
+    Whether work with the calibration of a robot is permitted.
     """
 
     robot_serial: str
@@ -642,18 +642,18 @@ class CalibrationHolds(BaseModel):
     text: str
     check: int | None
     """
-    The run that says so.
+    The run that determines it.
     """
 
     calibration_valid_until: AwareDatetime | None
     """
-    Of the last passed check; null where there is none since the last calibration.
+    From the last passed check; null if there is none since the last calibration.
     """
 
 
 class SequenceTitle(BaseModel):
     """
-    The measurement sequence under way.
+    The active measurement sequence.
     """
 
     number: int
@@ -662,7 +662,7 @@ class SequenceTitle(BaseModel):
 
 class RunStop(BaseModel):
     """
-    One position of the sequence under way.
+    One position of the active sequence.
     """
 
     position: str
@@ -673,7 +673,7 @@ class RunStop(BaseModel):
 
 class RunReading(BaseModel):
     """
-    One reading of the run under way.
+    One reading of the active run.
     """
 
     reading: int
@@ -692,7 +692,7 @@ class RunReading(BaseModel):
 
 class Stopped(BaseModel):
     """
-    What the drives answered to the quick stop; a run under way is being aborted.
+    Answer of the drives to the quick stop; an active run is being aborted.
     """
 
     axes: dict[str, str | None]
@@ -708,7 +708,7 @@ class Stopped(BaseModel):
 
 class CalibrationBody(BaseModel):
     """
-    What to calibrate, how, and who asks.
+    A calibration request: robot, plan and requester.
     """
 
     robot_serial: str
@@ -753,7 +753,7 @@ class WeakDirection(BaseModel):
 
     blind: list[str]
     """
-    Directions that no reading can see.
+    Directions that no reading can determine.
     """
 
     remedies: list[Remedy]
@@ -765,13 +765,13 @@ class WeakDirection(BaseModel):
 
 class Accuracy(BaseModel):
     """
-    How well the robot positions, before or after; of a diagnosis, without its effects or with them.
+    Position accuracy of the robot, before or after; for a diagnosis, without its effects or with them.
     """
 
     reading_rms_mm: float | None
     fresh_reading_rms_mm: float | None
     """
-    Of readings that took no part in the fit.
+    RMS of readings that were not used in the fit.
     """
 
     fresh_reading_max_mm: float | None
@@ -780,13 +780,13 @@ class Accuracy(BaseModel):
 
 class FleetUse(BaseModel):
     """
-    Whether what other robots of the type showed took part.
+    Whether the prior from other robots of the type was used.
     """
 
     used: bool
     p_value: float | None
     """
-    Of the readings under that prior.
+    p-value of the readings under that prior.
     """
 
     text: str
@@ -809,18 +809,18 @@ class Finding(BaseModel):
     parameters: list[Quantity]
     share: float
     """
-    Of the base residual's square that this effect accounts for.
+    Share of the base residual's sum of squares that this effect accounts for.
     """
 
     p_value: float
     probability: float | None
     """
-    That the effect or one of its alias set is there; null in schema 1.
+    Probability that the effect or one of its alias set is present; null in schema 1.
     """
 
     alias_set: list[EffectName]
     """
-    The effect with those that these readings cannot distinguish from it.
+    The effect and those that these readings cannot distinguish from it.
     """
 
     remedy: str
@@ -829,7 +829,7 @@ class Finding(BaseModel):
 
 class Application(BaseModel):
     """
-    What the drives hold of a calibration's zero offsets.
+    The state of a calibration's zero offsets in the drives.
     """
 
     state: str
@@ -843,18 +843,18 @@ class Application(BaseModel):
     runs: list[ApplicationRun]
     apply_refused: str | None
     """
-    Why it cannot be applied, null when it can.
+    Why it cannot be applied, null if it can.
     """
 
     rollback_refused: str | None
     """
-    Why it cannot be rolled back, null when it can.
+    Why it cannot be rolled back, null if it can.
     """
 
 
 class MadeBy(BaseModel):
     """
-    Kept with a run when it is created, and never changed.
+    Stored with a run when it is created, and never changed.
     """
 
     station: str
@@ -865,7 +865,7 @@ class MadeBy(BaseModel):
 
     libraries: dict[str, str]
     """
-    Versions of what computes.
+    Versions of the numerical libraries.
     """
 
     emulated: bool
@@ -876,7 +876,7 @@ class MadeBy(BaseModel):
     devices: list[DeviceUsed]
     scale_certificate: ScaleCertificate | None
     """
-    None where the station file names none.
+    None if the station file names none.
     """
 
 
@@ -890,7 +890,7 @@ class CalibrationList(BaseModel):
 
 class EventList(BaseModel):
     """
-    Events in the order in which they happened.
+    Events in chronological order.
     """
 
     items: list[Event]
@@ -937,7 +937,7 @@ class ReadingList(BaseModel):
 
 class Interlock(BaseModel):
     """
-    One condition that must hold before and during motion.
+    One condition for motion, before and during it.
     """
 
     id: str
@@ -945,27 +945,27 @@ class Interlock(BaseModel):
     ok: bool
     detail: str
     """
-    What is wrong; empty when it holds.
+    The trouble; empty if the condition holds.
     """
 
     own_text: bool
     """
-    Whether `text` is the station file's, to be shown as it is in every language.
+    Whether `text` is from the station file, to be shown unchanged in every language.
     """
 
     limits: dict[str, float]
     """
-    As the station file declares them, by name with unit, or its defaults.
+    Limits from the station file, by name with unit, or the defaults.
     """
 
     shows: str
     """
-    The value that was looked at last, with its unit, where there is one.
+    The last value with its unit, if there is one.
     """
 
     last_trip: Trip | None
     """
-    When it last ended a motion, since the station was started.
+    Its last trip since the station was started.
     """
 
 
@@ -978,7 +978,7 @@ class RunView(BaseModel):
     uid: str
     state: str
     """
-    Of a calibration run.  Today `queued`, `running`, `waiting`, `succeeded`, `failed`, `aborted`, `interrupted`.
+    State of a calibration run.  Today `queued`, `running`, `waiting`, `succeeded`, `failed`, `aborted`, `interrupted`.
     """
 
     robot_serial: str
@@ -993,7 +993,7 @@ class RunView(BaseModel):
     walk: SequenceTitle | None
     progress: float
     """
-    Of the whole run, 0 to 1; an estimate that never falls.
+    Progress of the whole run, 0 to 1; an estimate that never decreases.
     """
 
     step: int | None
@@ -1001,7 +1001,7 @@ class RunView(BaseModel):
     iterations: list[Iteration]
     prompt: Prompt | None
     """
-    What the run waits to be told, in state `waiting`.
+    The prompt that the run waits for, in state `waiting`.
     """
 
     stops: list[RunStop]
@@ -1010,65 +1010,65 @@ class RunView(BaseModel):
 
 class Calibration(BaseModel):
     """
-    All that is known about one run.
+    The complete record of one run.
     """
 
     method: str | None
     parameters: list[Quantity]
     """
-    Every identified parameter but the zero offsets.
+    Every identified parameter except the zero offsets.
     """
 
     weak_direction: WeakDirection | None
     before: Accuracy | None
     """
-    With no compensation.
+    Accuracy without compensation.
     """
 
     after: Accuracy | None
     """
-    With the identified offsets applied.
+    Accuracy with the identified offsets applied.
     """
 
     accuracy: AccuracyReached | None
     """
-    What is promised of positions, beside what was wanted; null where no offsets were identified.
+    Predicted position accuracy, with the required one; null if no offsets were identified.
     """
 
     advice: list[Advice]
     """
-    What would help most, by gain per minute; only what helps.
+    The most effective measures, by gain per minute; only those with a benefit.
     """
 
     check: CheckFound | None
     """
-    Of a check.
+    Result of a check.
     """
 
     iterations: list[Iteration]
     residuals: list[Residual]
     """
-    Of the readings of the fit.
+    Residuals of the readings of the fit.
     """
 
     memory: MemoryUse | None
     """
-    Null when nothing was known of this robot before.
+    Null if there was no knowledge of this robot before.
     """
 
     fleet: FleetUse | None
     """
-    Null when this robot was known, or no others of its type were.
+    Null if there was knowledge of this robot, or of no others of its type.
     """
 
     references: list[ReferenceUse]
     """
-    What other instruments measured, and how well it agrees with the rest.
+    References from other instruments, and how well they agree with the other data.
     """
 
     lack_of_fit: str | None
     """
-    What the model does not account for; null when it fits or none was judged.
+    The misfit of the model; null if it fits or was not tested.
     """
 
     findings: list[Finding]
@@ -1079,18 +1079,18 @@ class Calibration(BaseModel):
     id: int
     uid: str
     """
-    UUIDv7; other than the number, no other station gives it away, nor this one after a restore.
+    UUIDv7; unlike the number, it is unique over all stations, and after a restore.
     """
 
     robot_serial: str
     kind: str
     """
-    What the run did: `calibrate`, `diagnose`, `separate`, `apply`, `rollback` or `import`.
+    Kind of run: `calibrate`, `diagnose`, `separate`, `apply`, `rollback` or `import`.
     """
 
     plan: str
     """
-    Of a calibration; else `apply`, `rollback`, `separating` or `dataset`.
+    Plan of a calibration; otherwise `apply`, `rollback`, `separating` or `dataset`.
     """
 
     of: int | None
@@ -1102,7 +1102,7 @@ class Calibration(BaseModel):
     work_order: str | None
     state: str
     """
-    Of a calibration run.  Today `queued`, `running`, `waiting`, `succeeded`, `failed`, `aborted`, `interrupted`.
+    State of a calibration run.  Today `queued`, `running`, `waiting`, `succeeded`, `failed`, `aborted`, `interrupted`.
     """
 
     verdict: str | None
@@ -1113,12 +1113,12 @@ class Calibration(BaseModel):
 
     reason: str | None
     """
-    In English.
+    Reason in English.
     """
 
     reason_code: str | None
     """
-    The same for other languages, with `reason_params`.
+    The reason's code for other languages, with `reason_params`.
     """
 
     reason_params: dict[str, float | int | str | Phrase]
@@ -1132,12 +1132,12 @@ class Calibration(BaseModel):
     zero_offset_tolerance_deg: float | None
     machine: str
     """
-    Model of its robot file.
+    Model in its robot file.
     """
 
     prompt: Prompt | None
     """
-    What the run asks, in state `waiting`.
+    The prompt of the run, in state `waiting`.
     """
 
     application: Application | None
@@ -1147,13 +1147,13 @@ class Calibration(BaseModel):
 
     made_by: MadeBy | None
     """
-    Software, devices and scale; null for a run of an earlier version, and one measured elsewhere.
+    Software, devices and scale; null for a run of an earlier version, or one measured elsewhere.
     """
 
 
 class StationView(BaseModel):
     """
-    The whole station at one moment; also the `data` of the live feed's snapshot.
+    The complete state of the station; also the `data` of the live feed's snapshot.
     """
 
     station: StationInfo
@@ -1161,21 +1161,21 @@ class StationView(BaseModel):
     interlocks: list[Interlock]
     machine: MachineView | None
     """
-    Null while it is not known where the arm stands.
+    Null while the position of the arm is unknown.
     """
 
     workspace: Workspace
     retract: RetractView
     calibration: CalibrationHolds
     """
-    Of the robot measured last.
+    Calibration of the robot measured last.
     """
 
     run: RunView | None
     last: CalibrationSummary | None
     finished: RunView | None
     """
-    The last run with its positions and readings; null while another is under way.
+    The last run with its positions and readings; null while another is active.
     """
 
 

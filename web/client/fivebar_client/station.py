@@ -1,4 +1,4 @@
-"""The station as a MES sees it."""
+"""The interface of the station for a MES."""
 
 from __future__ import annotations
 
@@ -25,25 +25,24 @@ from fivebar_client.models import (
 
 API = "/api/v1"
 ENDED = ("succeeded", "failed", "aborted", "interrupted")
-"""States that do not change any more."""
+"""Final states."""
 _ANSWER_S = 15.0
 _NOT_CONFIRMED = 502
 
 
 class Station:
-    """One station.  Every method raises a `StationError` where it fails.
+    """One station.  Every method raises a `StationError` on failure.
 
-    While the station cannot be reached, or answers that it is busy, requests are repeated.
+    Requests are repeated while the station is unreachable or busy.
     """
 
     def __init__(
         self, url: str, key: str, *, patience_s: float = 60.0, http: httpx.Client | None = None
     ) -> None:
-        """
-        :param url: as `https://station.plant.example`
-        :param key: of `station key add NAME --role mes`
-        :param patience_s: for so long
-        :param http: a client of your own, for instance one that trusts the plant's certificate authority
+        """:param url: for instance `https://station.plant.example`
+        :param key: made with `station key add NAME --role mes`
+        :param patience_s: time limit for repetitions
+        :param http: your own client, for instance one that trusts the plant's certificate authority
         """
         self._http = http or httpx.Client(timeout=_ANSWER_S)
         self._http.base_url = httpx.URL(f"{url.rstrip('/')}{API}")
@@ -63,15 +62,15 @@ class Station:
         self._http.close()
 
     def view(self) -> StationView:
-        """Devices, interlocks and the run under way, at this moment."""
+        """Current devices, interlocks and active run."""
         return self._asking.read(StationView, "GET", "/station")
 
     def start(self, body: CalibrationBody, idempotency_key: str) -> CalibrationSummary:
-        """Start a run; again with the same key and body answers the run that was started.
+        """Start a run; the same key and body again returns the same run.
 
-        :param idempotency_key: one for each run that is wanted, kept before this is called
-        :raises Refused: with `problem.type` `urn:station:problem:busy` where another run held the rig all
-            the time, `...:key-reused` where the key has started something else
+        :param idempotency_key: one for each new run, stored before this call
+        :raises Refused: with `problem.type` `urn:station:problem:busy` if another run held the rig all the
+        time, `...:key-reused` if the key was used for another request
         """
         return self._asking.read(
             CalibrationSummary,
@@ -86,7 +85,7 @@ class Station:
         return self._asking.read(Calibration, "GET", f"/calibrations/{number}")
 
     def runs(self, **filters: str) -> Iterator[CalibrationSummary]:
-        """Newest first.
+        """Runs, newest first.
 
         :param filters: as `work_order`, `robot_serial`, `state`, `verdict`, `plan`, `since`, `ended_since`
         """
@@ -101,7 +100,7 @@ class Station:
             cursor = {"cursor": page.next}
 
     def readings(self, number: int) -> list[ReadingAnswer]:
-        """What a run has measured so far."""
+        """Readings of a run so far."""
         return self._asking.read(ReadingList, "GET", f"/calibrations/{number}/readings").items
 
     def certificate(self, number: int) -> bytes:
@@ -109,13 +108,13 @@ class Station:
         return self._asking.ask("GET", f"/calibrations/{number}/certificate.pdf").content
 
     def wait(self, number: int, *, every_s: float = 1.0) -> Calibration:
-        """The run when it has ended; also across restarts of the station."""
+        """The run after its end; also across restarts of the station."""
         while (run := self.run(number)).state not in ENDED:
             time.sleep(every_s)
         return run
 
     def events(self, after: int = 0) -> Iterator[Event]:
-        """What happened after event `after`, until now."""
+        """Events after event `after`, until now."""
         while True:
             page = self._asking.read(EventList, "GET", "/events", params={"after": after})
             yield from page.items
@@ -124,10 +123,10 @@ class Station:
             after = page.next
 
     def abort(self, number: int) -> CalibrationSummary:
-        """End a run that was started with the same key; again is harmless."""
+        """End a run that was started with the same key; repeating it is harmless."""
         return self._asking.read(CalibrationSummary, "POST", f"/calibrations/{number}/abort")
 
     def stop(self) -> Stopped:
-        """Stop both axes now, asked once.  `confirmed` says whether both did.  Not the emergency stop."""
+        """Stop both axes now; sent once. `confirmed` states whether both stopped. Not the emergency stop."""
         answer = self._asking.once("POST", "/stop")
         return read(Stopped, answer if answer.status_code == _NOT_CONFIRMED else accepted(answer))

@@ -33,7 +33,7 @@ const TIMEOUT_MS = 8000;
 /** Longer than the service itself waits for the drives. */
 const STOP_TIMEOUT_MS = 4000;
 
-/** What went wrong, in words for the operator. */
+/** The error, in words for the operator. */
 export class Refused extends Error {
   constructor(
     message: string,
@@ -73,7 +73,10 @@ export async function call<T>(
   return body as T;
 }
 
-/** What moves the machine or writes to its drives: not after this page has told that there is no answer. */
+/**
+ * Commands that move the machine or write to its drives: not valid after this page has shown that there is no
+ * answer.
+ */
 function command(path: string, body: object, headers: Record<string, string> = {}): Promise<Summary> {
   const time = stationTime();
   const until = time === null ? {} : { "X-Not-After": String(Math.round(time + TIMEOUT_MS)) };
@@ -110,7 +113,7 @@ export const forget = (serial: string, who: string) =>
     headers: { "X-Operator": encodeURIComponent(who) },
   });
 
-/** What each axis answered; 502 has the same body. */
+/** Answer of each axis; 502 has the same body. */
 export const stop = () =>
   call<Stopped>(
     "POST",
@@ -188,7 +191,7 @@ export const countRuns = (query: URLSearchParams) =>
   call<{ count: number; more: boolean }>("GET", `/calibrations/count?${query}`);
 
 /** Outcomes of the newest runs of one robot, or of all. */
-/** Of one robot, of all of one type, or of all. */
+/** Trend of one robot, of all of one type, or of all. */
 export const quality = (serial: string | null, type: string | null) =>
   call<Quality>("GET", `/quality?${chosen({ robot_serial: serial, robot_type: type })}`);
 
@@ -201,7 +204,7 @@ export const trend = (serial: string | null, type: string | null) =>
 const chosen = (filters: Record<string, string | null>) =>
   new URLSearchParams(Object.entries(filters).flatMap(([name, value]) => (value ? [[name, value]] : [])));
 
-/** A key of its own for each confirmed start, so that pressing again after a lost answer is still one run. */
+/** A separate key for each confirmed start, so that pressing again after a lost answer is still one run. */
 export function newKey(): string {
   // crypto.randomUUID is missing on pages served without TLS, as in most plants
   return Array.from(crypto.getRandomValues(new Uint8Array(16)), (b) => b.toString(16).padStart(2, "0")).join(

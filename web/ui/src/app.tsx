@@ -1,4 +1,4 @@
-/** The frame: a header that never scrolls away, and one view below it. */
+/** The frame: a header that does not scroll, and one view below it. */
 import { useEffect, useRef } from "preact/hooks";
 import { followHeading } from "./heading";
 import { t } from "./messages";
@@ -35,7 +35,7 @@ function View() {
   return <StationView />;
 }
 
-/** Comes when it is needed, not with the page. */
+/** Loaded when it is needed, not with the page. */
 function Maintenance() {
   const { value: view, trouble } = useLoaded("", () => import("./views/maintenance/maintenance")).value;
   if (view) return <view.MaintenanceView />;

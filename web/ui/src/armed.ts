@@ -1,4 +1,4 @@
-/** What waits for a confirmation: one thing at a time, ten seconds at most; whatever else happens withdraws it. */
+/** The pending confirmation: one at a time, ten seconds at most; any other event withdraws it. */
 import { computed, effect, signal } from "@preact/signals";
 import { connected, links, now, station } from "./live";
 import { path } from "./router";
@@ -7,7 +7,7 @@ import { session } from "./session";
 const LASTS_MS = 10_000;
 
 interface Armed {
-  /** Whose question it is. */
+  /** Owner of the question. */
   by: object;
   /** By the page's clock. */
   until: number;
@@ -15,7 +15,7 @@ interface Armed {
 }
 
 export const armed = signal<Armed | null>(null);
-/** The page's clock ticks now and then: what was armed since its last tick has all its time. */
+/** The page's clock ticks at intervals: a confirmation armed since its last tick has its full time. */
 export const secondsLeft = computed(() => {
   const leftMs = armed.value ? armed.value.until - now.value : 0;
   return Math.ceil(Math.min(Math.max(leftMs, 0), LASTS_MS) / 1000);
@@ -25,12 +25,12 @@ export function arm(by: object, confirmed: () => void): void {
   armed.value = { by, until: performance.now() + LASTS_MS, confirmed };
 }
 
-/** Whatever waits, or only what this one asks. */
+/** The pending confirmation, or only that of this owner. */
 export function disarm(by?: object): void {
   if (by === undefined || armed.peek()?.by === by) armed.value = null;
 }
 
-/** Does what waits, or only what this one asks, once; answers whether anything did. */
+/** Confirms the pending action, or only that of this owner, once; returns whether there was one. */
 export function confirm(by?: object): boolean {
   const waiting = armed.peek();
   if (by !== undefined && waiting?.by !== by) return false;
@@ -40,7 +40,7 @@ export function confirm(by?: object): boolean {
   return true;
 }
 
-/** Withdraw it when its time is over, and after all that may have changed what it means. */
+/** Withdraw it when its time is over, and after any change of its meaning. */
 export function watchArmed(): () => void {
   const escaped = (event: KeyboardEvent) => {
     if (event.key === "Escape") disarm();
@@ -59,7 +59,7 @@ export function watchArmed(): () => void {
     effect(() => {
       const before = last;
       last = session.value;
-      // the first answer to who is there is no change of who is there
+      // the first answer on who is signed in is not a change
       if (before !== undefined && before?.name !== last?.name) disarm();
     }),
     ...[path, run, online, links].map((changed) =>

@@ -1,6 +1,6 @@
-/** Whether somebody is at the page: what it asks by itself must keep nobody signed in. */
+/** Whether a user is active at the page: its automatic requests must not extend a session. */
 
-/** What a touch leads to may be asked so long after it. */
+/** Time after a touch within which requests count as caused by it. */
 const LASTS_MS = 60_000;
 
 let touchedAt = performance.now();
@@ -15,7 +15,7 @@ for (const sign of ["pointerdown", "keydown", "wheel"]) {
   );
 }
 
-/** Headers of a request: none, or that nobody asked for it. */
+/** Headers of a request: none, or the mark of an automatic one. */
 export function attendance(): Record<string, string> {
   return performance.now() - touchedAt > LASTS_MS ? { "X-Unattended": "1" } : {};
 }

@@ -1,4 +1,4 @@
-/** Asks for the station's state before the texts of the page are there: both are on their way at once. */
+/** Requests the station's state before the texts of the page are loaded: both are loaded at the same time. */
 import { connect } from "./live";
 
 connect();

@@ -1,10 +1,10 @@
-/** Numbers and times as the operator reads them; a dash stands for what is not a number. */
+/** Numbers and times in the operator's format; a dash in place of a value that is not a number. */
 
 import { writing } from "./messages/language";
 
 export const MISSING = "–";
 
-/** A number that is a text already, with the decimal sign of the language. */
+/** A formatted number, with the decimal sign of the language. */
 export const local = (text: string) => (writing.decimalComma ? text.replace(".", ",") : text);
 
 export function fixed(value: number | null | undefined, digits: number): string {
@@ -19,7 +19,7 @@ export function signed(value: number | null | undefined, digits: number): string
   return value != null && Number(value.toFixed(digits)) > 0 ? `+${text}` : text;
 }
 
-/** To so many significant digits, without zeros at the end. */
+/** With this many significant digits, without zeros at the end. */
 export function significant(value: number | null | undefined, digits: number): string {
   if (value == null || !Number.isFinite(value)) return MISSING;
   return local(String(Number(value.toPrecision(digits))).replace("-", "\u2212"));
@@ -78,7 +78,7 @@ function dateOf(time: Date): string {
   return writing.date(String(time.getFullYear()), pad(time.getMonth() + 1), pad(time.getDate()));
 }
 
-/** How far this computer's clock is from UTC: all times of the page are those of its place. */
+/** Difference of this computer's clock from UTC: all times of the page are in its zone. */
 export function zone(time: Date): string {
   const minutes = -time.getTimezoneOffset();
   const [hours, rest] = [Math.floor(Math.abs(minutes) / 60), Math.abs(minutes) % 60];

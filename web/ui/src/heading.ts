@@ -1,4 +1,6 @@
-/** The title is that of the view; after a change of view the focus is at its heading, also when that comes late. */
+/**
+ * The title is that of the view; after a change of view its heading gets the focus, also if it appears late.
+ */
 import { effect } from "@preact/signals";
 import { t } from "./messages";
 import { navigations, path } from "./router";
@@ -12,7 +14,7 @@ export function followHeading(main: HTMLElement): () => void {
     heading.tabIndex = -1;
     heading.focus({ preventScroll: true });
   };
-  // the heading of a view that waits for its data is replaced; who has gone on meanwhile is left alone
+  // the heading of a view that waits for its data is replaced; a focus moved meanwhile is not changed
   const goesOn = () => {
     changed = false;
   };

@@ -1,4 +1,4 @@
-/** The live feed: one snapshot, then numbered events; after a gap or a silence a snapshot again. */
+/** The live feed: one snapshot, then numbered events; after a gap or a silence a new snapshot. */
 import { computed, signal } from "@preact/signals";
 import type { LiveEvent, LiveMessage, Run, RunReading, Station } from "./types";
 
@@ -8,16 +8,16 @@ const TICK_MS = 250;
 
 /** The station as last reported; null until the first snapshot. */
 export const station = signal<Station | null>(null);
-/** The run under way, else the last one, with its map and readings. */
+/** The active run, otherwise the last one, with its map and readings. */
 export const shownRun = computed(() => station.value?.run ?? station.value?.finished ?? null);
-/** Milliseconds of the page's own clock; everything that ages reads it. */
+/** Milliseconds of the page's own clock; every displayed age uses it. */
 export const now = signal(performance.now());
 const heardAt = signal(performance.now());
 const machineAt = signal(0);
 const runAt = signal(0);
-/** The station's clock less the page's; null until the station was heard. */
+/** The station's clock less the page's; null until the first message of the station. */
 const clockOffset = signal<number | null>(null);
-/** How many live feeds have opened or ended. */
+/** Number of live feeds that have opened or ended. */
 export const links = signal(0);
 
 export const offline = computed(() => now.value - heardAt.value > BEATS_MISSED_MS);
@@ -45,7 +45,7 @@ export function connect(): void {
   open();
   setInterval(() => {
     now.value = performance.now();
-    // a frozen server closes nothing: only the silence shows it
+    // a frozen server closes no connection: only the silence reveals it
     const quietSince = Math.max(heardAt.value, openedAt);
     if (now.value - quietSince > BEATS_MISSED_MS + RETRY_MS) reopen();
     if (newBuild && !station.value?.run) location.reload();
@@ -93,7 +93,7 @@ function receive(message: LiveMessage): void {
   else if (station.value) station.value = apply(station.value, message);
 }
 
-/** Events state facts by id: one that the snapshot already held changes nothing. */
+/** Events state facts by id: one that the snapshot already contains changes nothing. */
 function apply(before: Station, event: LiveEvent): Station {
   const run = before.run;
   switch (event.type) {

@@ -1,4 +1,4 @@
-/** Display names of what the service calls by an identifier. */
+/** Display names for identifiers of the service. */
 
 import { t } from "./messages";
 import { writing } from "./messages/language";
@@ -14,20 +14,20 @@ function own<T>(entries: Record<string, T>, id: string): T | undefined {
   return Object.hasOwn(entries, id) ? entries[id] : undefined;
 }
 
-/** Better than nothing for what has no display name yet. */
+/** Fallback for identifiers without a display name. */
 const plain = (id: string): Entry => ({ name: capital(id.replaceAll("_", " ")), text: "" });
 
-/** As the first word of a sentence. */
+/** For the beginning of a sentence. */
 export const capital = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
 
-/** As in the middle of a sentence; abbreviations keep their capitals, and so do German nouns. */
+/** For the middle of a sentence; abbreviations keep their capitals, and so do German nouns. */
 export const inSentence = (name: string) =>
   !writing.capitals && /^[A-Z][^A-Z]/.test(name) ? name.charAt(0).toLowerCase() + name.slice(1) : name;
 
 const PLACEHOLDERS: Record<string, string> = { n: "(\\d+)", axis: "([xyz])" };
 const PLACEHOLDER = /\{(\w+)\}/;
 
-/** The entry of an identifier, also where it has a number or an axis that the entry leaves open. */
+/** The entry of an identifier, also with a number or an axis that the entry leaves open. */
 function find<T>(entries: Record<string, T>, id: string): { entry: T; at: string } | undefined {
   const exact = own(entries, id);
   if (exact !== undefined) return { entry: exact, at: "" };
@@ -48,7 +48,7 @@ function word(entries: Record<string, string>, id: string): string | undefined {
 
 const partName = (part: string) => word(t.parts, part) ?? part;
 
-/** What a residual depends on. */
+/** The quantity that a residual depends on. */
 export const dependence = (on: string) => word(t.dependences, on) ?? on;
 
 const effectEntry = (id: string) => own<Entry>(t.effects, id) ?? plain(id);
@@ -59,7 +59,7 @@ export function effectName({ effect, joint, part, label, depends_on }: EffectAt)
   const { name } = effectEntry(effect);
   if (depends_on) return t.effectAt.dependent(name, dependence(depends_on));
   if (part) return t.effectAt.part(name, partName(part));
-  // only the label has the link or the curve
+  // only the label contains the link or the curve
   if (label) return labelName(label);
   return joint === null ? name : t.effectAt.joint(name, joint);
 }
@@ -68,7 +68,7 @@ export function effectName({ effect, joint, part, label, depends_on }: EffectAt)
 const LABEL =
   /^(?<effect>\w+?)(?<curve> curve)?(?: of joint (?<joint>\d+)| of the (?<part>links|mounting)| (?<link>[Ll]\d+))?$/;
 
-/** Of an effect that the service names by its label alone. */
+/** The name of an effect for which the service has only the label. */
 export function labelName(label: string): string {
   const { effect = label, curve, joint, part, link } = LABEL.exec(label)?.groups ?? {};
   const { name } = effectEntry(effect);
@@ -78,7 +78,10 @@ export function labelName(label: string): string {
   return acting ? t.effectAt.part(whole, partName(acting)) : whole;
 }
 
-/** Identifiers of effects within a sentence; with blanks, as older versions wrote them, only where one acts on something. */
+/**
+ * Identifiers of effects within a sentence; with blanks, as in older versions, only for an effect with a
+ * place of action.
+ */
 const MENTIONED = new RegExp(
   Object.keys(t.effects)
     .flatMap((id) => {
@@ -90,7 +93,7 @@ const MENTIONED = new RegExp(
   "g",
 );
 
-/** What stands between backquotes is the identifier of a plan. */
+/** Text between backquotes is the identifier of a plan. */
 const QUOTED = /`(\w+)`/g;
 
 /** A text of the service with display names in place of identifiers. */
@@ -105,16 +108,16 @@ export const withNames = (text: string) =>
 /** The same as a sentence. */
 export const readable = (text: string) => capital(withNames(said(text)));
 
-/** A model on the way from the simplest one: one of three by name, or one with one more effect. */
+/** A model in the sequence from the simplest one: one of three by name, or one with one more effect. */
 export function stageName(model: string): string {
   if (model.startsWith("+ ")) return t.added(inSentence(labelName(model.slice(2))));
   return (own<Entry>(t.stages, model) ?? plain(model)).name;
 }
 
-/** What a run does. */
+/** Name of a kind of run. */
 export const runKind = (kind: RunKind | (string & {})): Entry => own<Entry>(t.runKinds, kind) ?? plain(kind);
 
-/** The plan that a run measures by; none of what measures by no plan. */
+/** The plan of a run; empty for a run without a plan. */
 export const planOf = (plan: Plan | (string & {})): Entry | undefined => own<Entry>(t.plans, plan);
 
 export const methodName = (method: string) => own<Entry>(t.methods, method)?.name ?? withNames(method);
@@ -138,7 +141,7 @@ interface Sized {
 const IN_UM = new Set(["amplitude_mm", "width_mm", "mm_at_100_mm", "mm_per_hour", "mounting_mm", "mm"]);
 const UM = 1000;
 
-/** By the unit that the service states; no language writes them otherwise. */
+/** By the unit of the service; it is the same in every language. */
 const UNITS: Record<string, string> = {
   deg: "°",
   "deg/kg": "°/kg",
@@ -160,12 +163,12 @@ export function shown({ name, value, sd, unit }: Sized): Sized & { text: string 
   };
 }
 
-/** As the page writes it. */
+/** A unit in the page's form. */
 export const unitName = (unit: string) => UNITS[unit] ?? unit;
 
 export const deviceName = (name: string) => own<string>(t.deviceNames, name) ?? name;
 
-/** What must hold before and during motion; a station of another version may know more. */
+/** The condition of an interlock; a station of another version may have more of them. */
 export const interlockName = ({ id, text, own_text }: Interlock) =>
   own_text ? text : (own<string>(t.interlocks, id) ?? readable(text));
 
@@ -179,6 +182,6 @@ export function interlockLimits({ limits }: Interlock): string {
   return [...window, ...most].join(", ");
 }
 
-/** What would raise the accuracy, in the page's language; of a kind that it does not know, in English. */
+/** A measure to improve the accuracy, in the page's language; an unknown kind, in English. */
 export const adviceText = ({ kind, joint, text }: { kind: string; joint?: number | null; text: string }) =>
   own<(joint: string) => string>(t.result.adviceByKind, kind)?.(String(joint ?? "")) ?? readable(text);

@@ -1,4 +1,4 @@
-/** Who works at this page; kept as long as its tab. */
+/** The name of the user at this page; stored as long as its tab is open. */
 import { signal } from "@preact/signals";
 
 const OPERATOR = "operator";

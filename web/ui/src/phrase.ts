@@ -1,10 +1,10 @@
-/** What the station says by a code with parameters, which may be such phrases themselves. */
+/** Texts of the station as a code with parameters, which may be such phrases themselves. */
 import { t } from "./messages";
 import { template } from "./messages/phrases";
 import { formatted, type Params, type Value } from "./template";
 import type { Phrase } from "./types";
 
-/** Null where a text is not loaded yet, not known to this page, or not complete. */
+/** Null if a text is not loaded yet, unknown to this page, or incomplete. */
 export function phraseText(phrase: Phrase): string | null {
   const text = part(phrase);
   return text === null ? null : text.charAt(0).toUpperCase() + text.slice(1);

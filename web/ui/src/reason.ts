@@ -1,4 +1,4 @@
-/** Why a run ended as it did: the template of its code, filled with its parameters. */
+/** The reason for the end of a run: the template of its code, filled with its parameters. */
 import { t } from "./messages";
 import { said } from "./messages/said";
 import { capital, dependence, inSentence, labelName, readable, withNames } from "./names";
@@ -6,13 +6,13 @@ import { phraseText } from "./phrase";
 import { FIELD, formatted, type Params, type Value } from "./template";
 import type { Summary } from "./types";
 
-/** What the parameters of a reason name by identifiers, in words. */
+/** Identifiers in the parameters of a reason, in words. */
 const IN_WORDS: Record<string, (value: string) => string> = {
   causes: (labels) => t.both(labels.split(" and ").map((label) => inSentence(labelName(label)))),
   depends_on: dependence,
 };
 
-/** What has no code of its own: a sentence that the station says in English. */
+/** A reason without a code of its own: an English sentence of the station. */
 const inEnglishOnly = (text: string) => withNames(said(text));
 
 function inWords(name: string, value: NonNullable<Because["reason_params"]>[string]): Value | null {
@@ -21,7 +21,7 @@ function inWords(name: string, value: NonNullable<Because["reason_params"]>[stri
   return typeof value === "string" ? words(value) : value;
 }
 
-/** What a code stands for, without the numbers of one run. */
+/** The meaning of a code, without the numbers of one run. */
 export function reasonName(code: string): string {
   const templates: Record<string, string> = t.reasons;
   const template = Object.hasOwn(templates, code) ? templates[code] : undefined;
@@ -30,7 +30,7 @@ export function reasonName(code: string): string {
 
 type Because = Pick<Summary, "reason"> & Partial<Pick<Summary, "reason_code" | "reason_params">>;
 
-/** The parameters of a reason, with display names in place of identifiers; without what is not known yet. */
+/** The parameters of a reason, with display names in place of identifiers; without unknown ones. */
 export function paramsInWords(params: Because["reason_params"]): Params {
   const words: Params = {};
   for (const [name, value] of Object.entries(params ?? {})) {
@@ -40,7 +40,10 @@ export function paramsInWords(params: Because["reason_params"]): Params {
   return words;
 }
 
-/** In the page's language; runs of older versions, and reasons unknown to the page, have only the sentence. */
+/**
+ * In the page's language; for runs of older versions, and reasons unknown to the page, only the English
+ * sentence.
+ */
 export function reasonText({ reason, reason_code, reason_params }: Because): string | null {
   const templates: Record<string, string> = t.reasons;
   const template = reason_code && Object.hasOwn(templates, reason_code) ? templates[reason_code] : undefined;

@@ -1,7 +1,7 @@
-/** View state lives in the address: which view, which filters, which page. */
+/** View state is in the address: view, filters, page. */
 import { computed, signal } from "@preact/signals";
 
-/** How often the view has been changed since the page was loaded. */
+/** Number of changes of the view since the page was loaded. */
 export const navigations = signal(0);
 const address = signal(location.pathname + location.search);
 let stay = new AbortController();
@@ -25,7 +25,7 @@ export function navigate(to: string, options: { replace?: boolean } = {}): void 
   address.value = to;
 }
 
-/** Holds the view where it was when one left it, while its parts arrive, until the person moves it. */
+/** Restores the scroll position of the view while its parts are loaded, until the user scrolls. */
 function holdAt(top: number): void {
   stay.abort();
   stay = new AbortController();

@@ -1,4 +1,4 @@
-/** What each scan does, wherever the page is. */
+/** The effect of each scan, in any view. */
 import { effect, signal, untracked } from "@preact/signals";
 import * as api from "./api";
 import { confirm, disarm } from "./armed";
@@ -12,19 +12,19 @@ import type { RefusedScan, ScanCodes } from "./types";
 import { scans, takeSerial } from "./views/station/start";
 
 const RETRY_MS = 2000;
-/** A scan that came before the page knew what to do with it waits so long. */
+/** Maximum wait of a scan until the page knows its effect. */
 const EARLY_MS = 3000;
 const LONGEST = 64;
-/** So many refused scans wait for a station that does not respond. */
+/** Maximum number of refused scans kept for a station that does not respond. */
 const MOST_UNSENT = 50;
 
-/** What the last scan led to, in words. */
+/** The result of the last scan, in words. */
 export const notice = signal<{ text: string; refused: boolean } | null>(null);
 const codes = signal<ScanCodes | null>(null);
 const early = signal<Scan | null>(null);
 let unsent: RefusedScan[] = [];
 
-/** The patterns come from the station, however long it takes; refused scans go to it. */
+/** The patterns come from the station, with any delay; refused scans are sent to it. */
 export function watchScans(): void {
   const load = () =>
     api.scanCodes().then(
@@ -57,7 +57,7 @@ export function scanned(scan: Scan): void {
   else wait(scan);
 }
 
-/** The last scan before the station has said what its codes look like and who is signed in. */
+/** The last scan before the station has sent the patterns of its codes and the signed-in user. */
 function wait(scan: Scan): void {
   early.value = scan;
   setTimeout(() => {
@@ -67,7 +67,9 @@ function wait(scan: Scan): void {
   }, EARLY_MS);
 }
 
-/** Anything but a confirmation: a scan that has waited confirms nothing, for it was made before the question. */
+/**
+ * Any scan except a confirmation: a delayed scan confirms nothing, because it was made before the question.
+ */
 function take({ text, readable, secret }: Scan, known: ScanCodes): void {
   disarm();
   const field = fieldForBadges();
@@ -80,7 +82,7 @@ function take({ text, readable, secret }: Scan, known: ScanCodes): void {
   else refuse(secret ? "" : text, "unknown", secret ? t.scan.unknown : t.scan.notSerial(shortened(text)));
 }
 
-/** The pattern holds for the whole text; one that this browser does not take fits nothing. */
+/** The pattern applies to the whole text; one that this browser does not support matches nothing. */
 function matching(pattern: string, text: string): RegExpExecArray | null {
   try {
     return new RegExp(`^(?:${pattern})$`).exec(text);
@@ -124,7 +126,7 @@ function refuse(text: string, because: RefusedScan["because"], why: string): voi
   void send();
 }
 
-/** One after the other, in their order.  What the station refuses is not sent again. */
+/** One after the other, in order. A scan that the station refuses is not sent again. */
 async function send(): Promise<void> {
   const waiting = unsent;
   unsent = [];

@@ -1,24 +1,25 @@
 /**
- * Tells what a barcode scanner types from what a person types, in any view and with the focus anywhere.
+ * Distinguishes the input of a barcode scanner from that of a person, in any view and with any focus.
  *
- * A scanner is a keyboard whose keys follow each other within a few milliseconds, ended by Enter or Tab.  Until
- * that end nobody can know, so that characters arrive as usual; then what they did to a field is taken back.
+ * A scanner is a keyboard whose keys follow each other within a few milliseconds, ended by Enter or Tab.
+ * Before that end the two cannot be distinguished, so characters arrive as usual; then their effect on a
+ * field is undone.
  */
 
-/** From one key to the next, and from pressing a key to releasing it: a person takes longer. */
+/** Time from one key to the next, and from pressing a key to releasing it: a person takes longer. */
 const FAST_MS = 30;
-/** From one key to the next where the link or the computer is slow, but each key is released as fast. */
+/** Time from one key to the next on a slow link or computer, if each key is released as fast. */
 const SLOWED_MS = 60;
-/** Keys further apart do not belong together; a pause within a scan may be so long. */
+/** Keys further apart do not belong together; a pause within a scan may have this length. */
 const TOGETHER_MS = 300;
 const FEWEST = 2;
 
-/** What was read. */
+/** The text that was read. */
 export interface Scan {
   text: string;
-  /** False when keys came among it that are no characters: some of the text may be missing. */
+  /** False if some keys in between are not characters: a part of the text may be missing. */
   readable: boolean;
-  /** Whether a secret was being typed where it was read. */
+  /** Whether a secret was being typed in the focused field. */
   secret: boolean;
 }
 
@@ -40,7 +41,7 @@ const isEnd = (key: Key) =>
   key.key === "Tab" ||
   (key.ctrlKey && ENDS_BY_CONTROL.includes(key.key.toLowerCase()));
 
-/** Keys that came together, as far as they have come. */
+/** Keys received together so far. */
 export class Burst {
   private text = "";
   /** For each key after the first, whether a machine pressed it. */
@@ -50,10 +51,13 @@ export class Burst {
   private released = Number.NEGATIVE_INFINITY;
   private endedAt = Number.NEGATIVE_INFINITY;
 
-  /** Whether the key taken last was the first character. */
+  /** Whether the last key was the first character. */
   began = false;
 
-  /** What a key means: a scan that it ends, "machine" for another key that no person has pressed, else null. */
+  /**
+   * The meaning of a key: the scan that it ends, "machine" for another key not pressed by a person, otherwise
+   * null.
+   */
   take(key: Key): Omit<Scan, "secret"> | "machine" | null {
     this.began = false;
     if (MODIFIERS.includes(key.key)) return null;
@@ -74,7 +78,7 @@ export class Burst {
     return fast && !this.began ? "machine" : null;
   }
 
-  /** That the key pressed last is released. */
+  /** The key pressed last has been released. */
   release(timeStamp: number): void {
     this.released = timeStamp;
   }
@@ -90,7 +94,7 @@ export class Burst {
     const fast = [...this.fast, last].filter(Boolean).length;
     const most = fast > (this.fast.length + 1) / 2;
     this.forget();
-    // what sends two ends, as CR and LF do, has sent one too many
+    // a scanner that sends two ends, such as CR and LF, has sent one too many
     if (text === "") return key.timeStamp - this.endedAt < TOGETHER_MS ? "machine" : null;
     const whole = text.length >= FEWEST && most;
     if (!whole && !last) return null;
@@ -106,7 +110,7 @@ export class Burst {
   }
 }
 
-/** Answers every scan anywhere in the document. */
+/** Handles every scan anywhere in the document. */
 export function listen(scanned: (scan: Scan) => void): () => void {
   const burst = new Burst();
   /** Every field that had the focus since the first key: the page may move it while a scan arrives. */
@@ -133,7 +137,7 @@ export function listen(scanned: (scan: Scan) => void): () => void {
     for (const { restore } of touched) restore();
     scanned({ ...meaning, secret: touched.some(({ secret }) => secret) });
   };
-  // one browser presses a button when the blank is let go
+  // one browser presses a button when the blank key is released
   const released = (event: KeyboardEvent) => {
     burst.release(event.timeStamp);
     if (event.key !== " " || !blankSwallowed) return;
@@ -151,7 +155,7 @@ export function listen(scanned: (scan: Scan) => void): () => void {
 const isField = (element: Element | null): element is Field => !!element?.matches("input, select, textarea");
 const isText = (element: Element | null) => isField(element) && !element.matches("select, [type=checkbox]");
 
-/** The field that has the focus, and the way back to what it holds now. */
+/** The focused field, and a function to restore its present value. */
 function fieldNow() {
   const field = document.activeElement;
   if (!isField(field)) return null;
@@ -163,7 +167,8 @@ function fieldNow() {
       if (field.value === value) return;
       field.value = value;
       field.dispatchEvent(new Event("input", { bubbles: true }));
-      // of a list or a day the page hears when it is chosen, of a text only when the field is left
+      // the page receives a change of a list or a date when it is chosen, of a text only when the field loses
+      // the focus
       if (field.matches("select, [type=date]")) field.dispatchEvent(new Event("change", { bubbles: true }));
     },
   };

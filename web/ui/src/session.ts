@@ -1,4 +1,4 @@
-/** Who is signed in at this page; null when nobody is, undefined before the station has answered. */
+/** The user signed in at this page; null if nobody is, undefined before the station has answered. */
 import { signal } from "@preact/signals";
 import * as api from "./api";
 import { operator } from "./operator";
@@ -7,7 +7,7 @@ import type { SignedIn } from "./types";
 const LOOK_MS = 10_000;
 
 export const session = signal<SignedIn | null | undefined>(undefined);
-/** A badge that was scanned and waits for its PIN; who is signed in stays so until then. */
+/** A scanned badge that waits for its PIN; the signed-in user is unchanged until then. */
 export const badge = signal<string | null>(null);
 
 function begin(known: SignedIn): void {
@@ -15,7 +15,7 @@ function begin(known: SignedIn): void {
   if (known.via === "user") operator.value = known.name;
 }
 
-/** Ask now and from time to time: a session can end by itself. */
+/** Query now and at intervals: a session can end by itself. */
 export function watchSession(): void {
   void look();
   setInterval(() => void look(), LOOK_MS);
@@ -25,7 +25,7 @@ async function look(): Promise<void> {
   try {
     begin(await api.session());
   } catch (error) {
-    // a station that does not answer says nothing about who is signed in
+    // a station that does not answer gives no information on the session
     if (error instanceof api.Refused && error.status === 401) session.value = null;
   }
 }
@@ -34,7 +34,7 @@ export async function signIn(name: string, password: string): Promise<void> {
   begin(await api.signIn({ name, password }));
 }
 
-/** Who shows the badge that was scanned, in place of whoever was signed in. */
+/** Sign in the owner of the scanned badge, in place of the previous user. */
 export async function signInByBadge(pin: string): Promise<void> {
   begin(await api.signInByBadge({ badge: badge.peek() ?? "", pin }));
   badge.value = null;
@@ -45,10 +45,10 @@ export async function makeFirst(secret: string, name: string, password: string):
   begin(await api.firstAdministrator({ secret, name, password }));
 }
 
-/** Where the plant's provider signs people in, when it has a name. */
+/** Address of the sign-in at the plant's provider, if it has a name. */
 export const PROVIDER = "/api/v1/session/openid";
 
-/** Whom the plant's provider has signed in is signed out there as well. */
+/** A user signed in by the plant's provider is signed out there as well. */
 export async function signOut(): Promise<void> {
   const next = session.peek()?.sign_out_at;
   await api.signOut();

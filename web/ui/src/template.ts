@@ -1,4 +1,4 @@
-/** Templates as Python's `str.format` fills them. */
+/** Templates filled as by Python's `str.format`. */
 import { local } from "./format";
 
 export type Value = string | number;
@@ -7,7 +7,7 @@ export type Params = Record<string, Value>;
 /** The fields of Python's `str.format` that the templates use: `{x}`, `{x:.1f}`, `{x:+.1f}`, `{x:.1g}`. */
 export const FIELD = /\{(?<name>\w+)(?::(?<sign>\+?)\.(?<digits>\d+)(?<kind>[fg]))?\}/g;
 
-/** Null where a value is missing or is not a number where one has to be. */
+/** Null if a value is missing or is not a number where one is required. */
 export function formatted(template: string, params: Params): string | null {
   let complete = true;
   const fill = (_: string, name: string, sign: string, digits: string | undefined, kind: string) => {

@@ -1,4 +1,4 @@
-/** Every type that the page shares with the service; all come from the checked-in OpenAPI file. */
+/** All types that the page shares with the service; they come from the checked-in OpenAPI file. */
 import type { components } from "./api-types";
 
 type Schemas = components["schemas"];
@@ -61,7 +61,7 @@ export type RunKind =
   | "retract";
 export type Outcome = NonNullable<Summary["outcome"]>;
 
-/** An effect of the catalogue, or an unnamed error, and where it acts. */
+/** An effect of the catalogue, or an unnamed error, and its place of action. */
 export type EffectAt = Pick<Schemas["EffectName"], "effect" | "joint"> & {
   part?: string | null;
   label?: string;
@@ -75,12 +75,12 @@ export type Explanation = Diagnosis["explanations"][number];
 /** An error of an explanation, with its size. */
 export type Held = Explanation["effects"][number];
 export type Experiment = Diagnosis["experiments"][number];
-/** Where only a label of the file is wrong: what, and in which rows. */
+/** A wrong label in the file: which, and in which rows. */
 export type Mistake = NonNullable<Diagnosis["mistake"]>;
 /** A sentence, or a part of one, by its code. */
 export type Phrase = Schemas["Phrase"];
 
-/** Of the position over the workspace, mm. */
+/** Position error over the workspace, mm. */
 export type PositionError = Schemas["PositionError"];
 
 export type Role = NonNullable<SignedIn["role"]>;

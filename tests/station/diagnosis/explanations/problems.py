@@ -1,4 +1,4 @@
-"""A small sequence of the emulated machine, and families made for one column each."""
+"""A small sequence of the emulated machine, and families with one column each."""
 
 from __future__ import annotations
 

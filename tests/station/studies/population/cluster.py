@@ -1,4 +1,4 @@
-"""A study on a cluster that loses a worker, in a process of its own: Dask leaves threads behind."""
+"""A study on a cluster that loses a worker, in a separate process, since Dask leaves threads behind."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def slowly(number: int) -> int:
 
 
 def refused(address: str) -> bool:
-    """Whether it is said that nobody answers there."""
+    """Whether the missing answer is reported."""
     try:
         Engine(QUIET, scheduler=address).each(slowly, [1], "Squares")
     except InputRefused as refusal:

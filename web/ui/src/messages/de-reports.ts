@@ -1,4 +1,7 @@
-/** What drives, lines, runs and the station report or refuse in English only: `{name}` stands for any text, `{name_text}` for whole sentences. */
+/**
+ * Messages that drives, lines, runs and the station produce in English only: `{name}` stands for any text,
+ * `{name_text}` for whole sentences.
+ */
 export const reports: Record<string, string> = {
   // drives
   "Drive {unit} answered with exception {code}.": "Antrieb {unit} antwortete mit Ausnahme {code}.",
@@ -172,7 +175,7 @@ export const reports: Record<string, string> = {
     "Referenzroboter {robot} hat seit seiner Kalibrierung keine Prüfung bestanden",
   "the last check of reference robot {robot} was valid until {until} UTC":
     "die letzte Prüfung des Referenzroboters {robot} galt bis {until} UTC",
-  // the way back
+  // the return into the workspace
   "The arm still stands {mm} mm outside its workspace.":
     "Der Arm steht noch {mm} mm außerhalb seines Arbeitsraums.",
   "Step {number} of the way back led away from the workspace, from {before} mm to {after} mm outside; switch the drives off and look at the arm.":
@@ -184,7 +187,7 @@ export const reports: Record<string, string> = {
     "Das Gelenkviereck kann sich bei diesen Gelenkwinkeln nicht schließen.",
   "The arm stands within its workspace.": "Der Arm steht in seinem Arbeitsraum.",
   "The arm stands {mm} mm outside its workspace.": "Der Arm steht {mm} mm außerhalb seines Arbeitsraums.",
-  // what runs ask, and what they do
+  // prompts and steps of runs
   Measuring: "Messen",
   "Measuring, pass {number}": "Messen, Durchgang {number}",
   "Measuring, reading {number}": "Messen, Messung {number}",
@@ -215,7 +218,7 @@ export const reports: Record<string, string> = {
     "{value} {unit} kann nicht sein; erwartet wird ein Wert zwischen {low} und {high}.",
   "Run {run} does not ask anything.": "Lauf {run} fragt nichts.",
   "Run {run} does not ask this (any more).": "Lauf {run} fragt das nicht (mehr).",
-  // what a run needs
+  // requirements of a run
   "Run {run} has no zero offsets; calibrate again.":
     "Lauf {run} hat keine Nullpunktfehler; kalibrieren Sie neu.",
   "Nothing was written: the machine is not as run {run} measured it. {why_text} Calibrate again.":
@@ -503,7 +506,7 @@ export const reports: Record<string, string> = {
   "The guard door is closed": "Die Schutztür ist geschlossen",
   "The temperature is within its window": "Die Temperatur liegt im erlaubten Bereich",
   "The reference check is valid": "Die Referenzprüfung gilt",
-  // what crosses the wires
+  // wire traffic
   "drive {unit}: {address}h {name} = {value}": "{value} (Register {address}h)",
   "drive {unit}: {address}h = {value}": "{value} (Register {address}h)",
   "drive {unit}: {address}h {name} on = {bytes}": "{name} und folgende = {bytes} (Register {address}h)",

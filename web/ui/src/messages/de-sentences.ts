@@ -1,9 +1,9 @@
-/** Sentences that the station says in English only: numbers are {}, in their order. */
+/** Sentences that the station produces in English only: numbers are {}, in order. */
 import ofDiagnoses from "../../../../station/messages/de-sentences.json";
 
 export const sentences: Record<string, string> = {
   ...ofDiagnoses,
-  // what the drives hold
+  // zeros in the drives
   "The drives hold the old zero offsets.": "Die Antriebe haben die alten Nullpunkte.",
   "The drives hold these zero offsets.": "Die Antriebe haben diese Nullpunkte.",
   "One drive holds its new zero offset, the other does not.":
@@ -21,7 +21,7 @@ export const sentences: Record<string, string> = {
   "readings cannot reach the wanted accuracy":
     "mit Messungen ist die gewünschte Genauigkeit nicht zu erreichen",
   "further readings would not help": "weitere Messungen würden nicht helfen",
-  // what earlier calibrations found
+  // results of earlier calibrations
   "geometry and mechanism as earlier calibrations found them":
     "Geometrie und Messeinrichtung, wie frühere Kalibrierungen sie fanden",
   "not used: it contradicts the new readings; has the mechanism been remounted?":

@@ -241,7 +241,7 @@ export const training = {
   notRevealed: "not shown",
   at: (name: string, joint: number) => `${name}, joint ${joint}`,
   sized: (name: string, size: string) => `${name}, ${size}`,
-  /** Kinds that the diagnosis has no name for. */
+  /** Kinds without a name in the diagnosis. */
   kinds: {
     base_flex: { name: "Flexible base", text: "The base bends sideways under the moving arms." },
     bearing_runout: { name: "Bearing run-out", text: "A bearing wobbles twice in each turn." },

@@ -1,9 +1,9 @@
 /**
  * Every text of the page in English.
  *
- * What the page shares with the service (effects, parameters, plans, states, verdicts, outcomes, kinds of run,
- * reasons) is written once, in `station/messages`; here is only what is the page's own.  Another language is
- * another pair of files of the same shape.
+ * Texts shared with the service (effects, parameters, plans, states, verdicts, outcomes, kinds of run,
+ * reasons) are in `station/messages`; this file has only the page's own. Another language is another pair of
+ * files of the same shape.
  */
 import shared from "../../../../station/messages/en.json";
 import type {
@@ -18,7 +18,7 @@ import type {
 } from "../types";
 import { maintenance, training } from "./en-maintenance";
 
-/** How a thing is called, and what it is in one sentence. */
+/** The name of a thing, and its explanation in one sentence. */
 interface Entry {
   name: string;
   text: string;
@@ -30,10 +30,10 @@ export const en = {
   listed: (parts: string[]) => parts.join(", "),
 
   /** By the identifier of the catalogue; `unnamed` is an error outside it. */
-  /** Of what the station says in English only. */
+  /** Sentences that the station produces in English only. */
   sentences: {} as Record<string, string>,
   effects: shared.effects satisfies Record<string, Entry>,
-  /** An effect and where it acts. */
+  /** An effect and its place of action. */
   effectAt: {
     joint: (effect: string, joint: string | number) => `${effect} of joint ${joint}`,
     part: (effect: string, part: string) => `${effect} of ${part}`,
@@ -66,7 +66,7 @@ export const en = {
   } satisfies Record<string, Entry>,
 
   states: shared.states satisfies Record<State, Entry>,
-  /** Of a run and of a diagnosis. */
+  /** Verdicts of a run and of a diagnosis. */
   verdicts: shared.verdicts satisfies Record<Verdict | DiagnosisVerdict, Entry>,
   outcomes: shared.outcomes satisfies Record<Outcome, Entry>,
   /** Templates with the values of `reason_params`. */
@@ -89,7 +89,7 @@ export const en = {
     fault: { name: "fault", text: "The device reports a fault." },
   } satisfies Record<Device["state"], Entry>,
 
-  /** By the name that the service gives. */
+  /** By the name in the service. */
   deviceNames: {
     "linear scale": "linear scale",
     "servo axis 1": "servo axis 1",
@@ -249,7 +249,7 @@ export const en = {
     interlockNotMet: "◆ not met",
     lastTrip: (run: number, frameMs: number | null, standstillMs: number) =>
       `Stopped run ${run}: ${frameMs === null ? "" : `stop frames sent after ${frameMs} ms, `}standstill seen after ${standstillMs} ms`,
-    /** Of devices and interlocks while the station does not answer. */
+    /** State of devices and interlocks while the station does not answer. */
     notKnown: "not known",
     run: "Run",
     noRun: "No run in progress",
@@ -338,7 +338,7 @@ export const en = {
       separate: " over its workspace.",
       resume: " over its workspace.",
     },
-    /** By what the step is for. */
+    /** By the purpose of the step. */
     next: {
       watch: { button: "Show the run", text: "The run is in progress." },
       answer: { button: "Answer the question", text: "The run waits for an answer at the station." },
@@ -410,7 +410,7 @@ export const en = {
       },
       see: { button: "Show the diagnosis", text: "The diagnosis shows what the residual depends on." },
     },
-    /** By its kind, with the joint where it is about one. */
+    /** By its kind, with the joint if it concerns one. */
     adviceByKind: {
       repeat: () => "Measure the same readings once more.",
       joint_angle: (joint: string) => `Read the angle of joint ${joint} from a level.`,

@@ -1,4 +1,4 @@
-/** The language of the page: chosen at this browser, else the browser's own, else English. */
+/** The language of the page: chosen in this browser, otherwise the browser's own, otherwise English. */
 
 export const LANGUAGES = { en: "English", de: "Deutsch", zh: "中文" } as const;
 
@@ -17,13 +17,13 @@ function keptHere(): string | null {
   try {
     return localStorage.getItem(KEPT);
   } catch {
-    return null; // a browser that keeps nothing
+    return null; // a browser without storage
   }
 }
 
 export const language = preferred(keptHere(), navigator.languages);
 
-/** What a language writes in a way of its own. */
+/** Formats that differ between languages. */
 interface Writing {
   decimalComma: boolean;
   /** From texts of year, month and day. */
@@ -45,7 +45,7 @@ const WRITING: Record<Language, Writing> = {
 
 export const writing = WRITING[language];
 
-/** The address stays: the page begins anew in the other language where it was. */
+/** The address is unchanged: the page reloads in the other language at the same view. */
 export function choose(chosen: Language): void {
   try {
     localStorage.setItem(KEPT, chosen);

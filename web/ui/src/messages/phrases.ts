@@ -1,4 +1,4 @@
-/** Templates of sentences that are put together of parts; loaded where the first one is shown. */
+/** Templates of sentences composed of parts; loaded when the first one is shown. */
 import { signal } from "@preact/signals";
 import { type Language, language } from "./language";
 
@@ -13,7 +13,7 @@ const FILES: Record<Language, () => Promise<{ default: Templates }>> = {
 const templates = signal<Templates | null>(null);
 let asked: Promise<void> | null = null;
 
-/** Once; after a failure again when the next one is shown. */
+/** Loaded once; after a failure again when the next one is shown. */
 export function loadPhrases(): Promise<void> {
   asked ??= FILES[language]()
     .then((file) => {
@@ -25,7 +25,7 @@ export function loadPhrases(): Promise<void> {
   return asked;
 }
 
-/** Null until they are loaded, and where the page does not know the code; what shows it is drawn again then. */
+/** Null until they are loaded, and for an unknown code; its users are redrawn then. */
 export function template(code: string): string | null {
   if (templates.value === null) void loadPhrases();
   const known = templates.value;

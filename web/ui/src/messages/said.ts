@@ -1,17 +1,19 @@
-/** What the station says in English only, in the page's language. */
+/** English-only texts of the station, in the page's language. */
 import { local } from "../format";
 import { t } from "./index";
 import { writing } from "./language";
 
 const BETWEEN = /(?<=[.?!]) (?=[A-Z])/;
-/** Of a sentence: `{}` stands for a number, `{name}` for words, `{name_text}` for whole sentences. */
+/**
+ * Template of a sentence: `{}` stands for a number, `{name}` for words, `{name_text}` for whole sentences.
+ */
 const PLACE = /\{(\w*)\}/g;
 const NUMBER = "([+-]?\\d+(?:\\.\\d+)?)";
 const WORDS = "((?:(?![.?!] [A-Z]).)+?)";
 const SENTENCES = "(.+?)";
 const ANGLE = /([\d.]) deg\b/g;
 const IS_NUMBER = /^[+-]?\d+(?:\.\d+)?$/;
-/** A sentence with fewer letters of its own could be any text: one of its values has to be known as well. */
+/** A template with fewer letters could match any text: one of its values has to be known as well. */
 const FEW_LETTERS = 4;
 
 interface Sentence {
@@ -21,7 +23,7 @@ interface Sentence {
   text: string;
 }
 
-/** The ones with most words of their own first. */
+/** Templates with the most fixed words first. */
 const known: Sentence[] = Object.entries(t.sentences)
   .map(([english, text]) => {
     const own = english.split(/\{\w*\}/);
@@ -41,7 +43,7 @@ function escaped(text: string): string {
 
 const answers = new Map<string, string>();
 
-/** As few pieces as are known; a sentence that is not stays as it is. */
+/** As few known pieces as possible; an unknown sentence is unchanged. */
 export function said(text: string): string {
   let answer = answers.get(text);
   if (answer === undefined) {
@@ -83,7 +85,7 @@ function whole(text: string): string | undefined {
   return undefined;
 }
 
-/** A number, a device, or again something that the station says. */
+/** A number, a device, or another text of the station. */
 function value(text: string): string {
   if (IS_NUMBER.test(text)) return local(text).replace("-", "−");
   if (text === "deg") return "°";

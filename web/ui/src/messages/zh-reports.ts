@@ -1,4 +1,7 @@
-/** What drives, lines, runs and the station report or refuse in English only: `{name}` stands for any text, `{name_text}` for whole sentences. */
+/**
+ * Messages that drives, lines, runs and the station produce in English only: `{name}` stands for any text,
+ * `{name_text}` for whole sentences.
+ */
 export const reports: Record<string, string> = {
   // drives
   "Drive {unit} answered with exception {code}.": "驱动器 {unit} 以异常 {code} 应答。",
@@ -152,7 +155,7 @@ export const reports: Record<string, string> = {
     "参考机器人 {robot} 自标定以来没有通过检查",
   "the last check of reference robot {robot} was valid until {until} UTC":
     "参考机器人 {robot} 的上次检查有效期至 {until} UTC",
-  // the way back
+  // the return into the workspace
   "The arm still stands {mm} mm outside its workspace.": "机械臂仍在工作空间外 {mm} mm。",
   "Step {number} of the way back led away from the workspace, from {before} mm to {after} mm outside; switch the drives off and look at the arm.":
     "返回的第 {number} 步远离了工作空间，从 {before} mm 到 {after} mm；请关断驱动器并查看机械臂。",
@@ -162,7 +165,7 @@ export const reports: Record<string, string> = {
   "The linkage cannot close at these joint angles.": "在这些关节角下机构无法闭合。",
   "The arm stands within its workspace.": "机械臂位于其工作空间内。",
   "The arm stands {mm} mm outside its workspace.": "机械臂在其工作空间外 {mm} mm。",
-  // what runs ask, and what they do
+  // prompts and steps of runs
   Measuring: "测量",
   "Measuring, pass {number}": "测量，第 {number} 轮",
   "Measuring, reading {number}": "测量，读数 {number}",
@@ -193,7 +196,7 @@ export const reports: Record<string, string> = {
     "{value} {unit} 不可能；应在 {low} 与 {high} 之间。",
   "Run {run} does not ask anything.": "运行 {run} 没有提问。",
   "Run {run} does not ask this (any more).": "运行 {run} 没有（或不再）提出该问题。",
-  // what a run needs
+  // requirements of a run
   "Run {run} has no zero offsets; calibrate again.": "运行 {run} 没有零点偏差；请重新标定。",
   "Nothing was written: the machine is not as run {run} measured it. {why_text} Calibrate again.":
     "未写入任何内容：机器与运行 {run} 测得的不同。{why_text}请重新标定。",
@@ -451,7 +454,7 @@ export const reports: Record<string, string> = {
   "The guard door is closed": "防护门已关闭",
   "The temperature is within its window": "温度在允许范围内",
   "The reference check is valid": "参考检查有效",
-  // what crosses the wires
+  // wire traffic
   "drive {unit}: {address}h {name} = {value}": "{value}（寄存器 {address}h）",
   "drive {unit}: {address}h = {value}": "{value}（寄存器 {address}h）",
   "drive {unit}: {address}h {name} on = {bytes}": "{name}及其后 = {bytes}（寄存器 {address}h）",

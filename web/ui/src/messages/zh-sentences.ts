@@ -1,9 +1,9 @@
-/** Sentences that the station says in English only: numbers are {}, in their order. */
+/** Sentences that the station produces in English only: numbers are {}, in order. */
 import ofDiagnoses from "../../../../station/messages/zh-sentences.json";
 
 export const sentences: Record<string, string> = {
   ...ofDiagnoses,
-  // what the drives hold
+  // zeros in the drives
   "The drives hold the old zero offsets.": "驱动器中为旧零点。",
   "The drives hold these zero offsets.": "驱动器中为这些零点。",
   "One drive holds its new zero offset, the other does not.": "一个驱动器已有新零点，另一个没有。",
@@ -18,7 +18,7 @@ export const sentences: Record<string, string> = {
   "the wanted accuracy is reached": "已达到要求的精度",
   "readings cannot reach the wanted accuracy": "增加读数无法达到要求的精度",
   "further readings would not help": "更多读数没有帮助",
-  // what earlier calibrations found
+  // results of earlier calibrations
   "geometry and mechanism as earlier calibrations found them": "以前标定得到的几何与测量机构参数",
   "not used: it contradicts the new readings; has the mechanism been remounted?":
     "未使用：与新读数矛盾；测量机构是否重新安装过？",

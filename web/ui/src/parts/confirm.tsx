@@ -1,4 +1,7 @@
-/** Two steps for what moves, writes or forgets: press, then confirm.  Nothing is replaced while it updates. */
+/**
+ * Two steps for actions that move, write or delete: press, then confirm. No element is replaced during an
+ * update.
+ */
 import { useSignal } from "@preact/signals";
 import type { ComponentChildren, RefObject } from "preact";
 import { useEffect, useRef } from "preact/hooks";
@@ -6,20 +9,20 @@ import { arm, armed, confirm, disarm, secondsLeft } from "../armed";
 import { t } from "../messages";
 import { HoldButton } from "./hold";
 
-/** A scan puts a field back as it was; only what stays changed for longer was meant. */
+/** A scan restores a field; only a value that stays changed for longer was entered by a person. */
 const MEANT_MS = 60;
 
 interface Props {
   label: string;
-  /** What will happen, in a sentence. */
+  /** The consequence, in a sentence. */
   children: ComponentChildren;
   disabled: boolean;
-  /** What is to be done next, rather than what may be. */
+  /** The recommended next action, not one of several. */
   prominent?: boolean;
   act: () => Promise<unknown>;
-  /** Before the question is asked: whether there is something to ask. */
+  /** Before the question is shown: whether it is needed. */
   check?: () => boolean;
-  /** What the question is about; another one withdraws it. */
+  /** The object of the question; another one withdraws it. */
   about?: string;
   button?: RefObject<HTMLButtonElement | null>;
 }
@@ -62,7 +65,7 @@ export function ConfirmedButton({ label, children, disabled, prominent, act, che
     );
     sending.value = false;
   };
-  // a scan has changed a field until what it put back is drawn; drawing waits already
+  // a scan has changed a field until its restored value is drawn; drawing is pending already
   const confirmed = () =>
     queueMicrotask(() => {
       if (aboutNow.current === askedAbout.current) void send();

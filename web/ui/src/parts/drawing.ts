@@ -1,4 +1,4 @@
-/** What all charts share: how they are put in place, their colours and axes. */
+/** Common parts of all charts: placement, colours and axes. */
 import { type ECharts, type EChartsCoreOption, init } from "echarts/core";
 
 export const DARK = "#1b1f24";
@@ -10,7 +10,7 @@ export const axis = {
   axisLabel: { color: DARK, fontSize: 13 },
 };
 
-/** The x axis, named below, with a little room beside the first and last point. */
+/** The x axis, with its name below, and a margin beside the first and last point. */
 export const xAxis = {
   ...axis,
   type: "value" as const,
@@ -19,7 +19,7 @@ export const xAxis = {
   scale: true,
 };
 
-/** The y axis, named above. */
+/** The y axis, with its name above. */
 export const yAxis = {
   ...axis,
   type: "value" as const,
@@ -31,20 +31,20 @@ export const grid = { left: 76, right: 24, top: 34, bottom: 48 };
 
 /** A chart in its place. */
 export interface Chart {
-  /** Shows something else in the same place. */
+  /** Shows another chart in the same place. */
   set: (option: EChartsCoreOption) => void;
   /** The chart as the text of an SVG file. */
   picture: () => string;
   remove: () => void;
 }
 
-/** Where a value pair stands in the chart, in pixels. */
+/** Position of a value pair in the chart, in pixels. */
 export type ToPixel = (value: [number, number]) => [number, number];
 
 /**
  * Draws into `place` and follows its size.
  *
- * @param tapped where somebody tapped, in pixels
+ * @param tapped position of a tap, in pixels
  */
 export function put(
   place: HTMLElement,
@@ -54,7 +54,7 @@ export function put(
   const chart: ECharts = init(place, null, { renderer: "svg" });
   const fit = () => {
     chart.resize();
-    // so that paper and narrow windows can scale what was drawn for another width
+    // so that paper and narrow windows can scale a chart that was drawn for another width
     place.querySelector("svg")?.setAttribute("viewBox", `0 0 ${chart.getWidth()} ${chart.getHeight()}`);
   };
   const set = (next: EChartsCoreOption) =>
@@ -80,7 +80,7 @@ export function put(
   };
 }
 
-/** The same where nothing else is shown later; returns how to take it away. */
+/** The same for a place with one chart only; returns a function to remove it. */
 export function mount(place: HTMLElement, option: EChartsCoreOption): () => void {
   return put(place, option).remove;
 }

@@ -3,15 +3,15 @@ import { useEffect, useRef } from "preact/hooks";
 import { t } from "../messages";
 
 interface Props {
-  /** What the chart shows, for those who do not see it. */
+  /** Description of the chart for users who cannot see it. */
   label: string;
-  /** Drawn again whenever this changes. */
+  /** Redrawn whenever this changes. */
   on: string;
-  /** Fetches what draws into a place and answers how to take it away. */
+  /** Loads a function that draws into a place and returns a function to remove the chart. */
   load: () => Promise<(place: HTMLElement) => () => void>;
 }
 
-/** A place for a chart.  What draws it comes when it is needed, not with the page. */
+/** A place for a chart. Its drawing code is loaded when it is needed, not with the page. */
 export function Drawn({ label, on, load }: Props) {
   const place = useRef<HTMLDivElement>(null);
   const trouble = useSignal(false);
@@ -21,10 +21,10 @@ export function Drawn({ label, on, load }: Props) {
     load().then(
       (draw) => {
         trouble.value = false;
-        // of two that were asked for one after the other only the last may draw here
+        // of two successive requests only the last may draw here
         if (!gone && place.current) remove = draw(place.current);
       },
-      // the station went down before it had sent what draws
+      // the station went down before it had sent the drawing code
       () => {
         trouble.value = true;
       },

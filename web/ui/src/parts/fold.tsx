@@ -1,4 +1,4 @@
-/** What is folded until somebody wants it; which folds are open lives in the address as `open`. */
+/** A section that is folded until it is opened; the address lists the open ones as `open`. */
 import type { ComponentChildren } from "preact";
 import { query } from "../router";
 import { setQuery } from "./set-query";
@@ -8,7 +8,7 @@ const SEPARATOR = ".";
 const opened = () => new Set(query.value.get("open")?.split(SEPARATOR).filter(Boolean));
 
 interface Props {
-  /** Stands in the address. */
+  /** Its identifier in the address. */
   name: string;
   title: string;
   children: ComponentChildren;
@@ -33,7 +33,7 @@ export function Fold({ name, title, children }: Props) {
       <summary>
         <h2>{title}</h2>
       </summary>
-      {/* what is not looked at is neither asked for nor drawn */}
+      {/* a closed section is neither loaded nor drawn */}
       {open && <div class="folded">{children}</div>}
     </details>
   );

@@ -67,7 +67,7 @@ function beside(): string {
 
 function status(): { text: string; alarm?: "act" | "warn" } {
   const now = station.value;
-  // whoever has not signed in gets no values, from a station that is there all the same
+  // a user who is not signed in gets no values, although the station is running
   if (session.value === null) return { text: t.header.signInFirst };
   if (offline.value) return { text: t.header.offline, alarm: "act" };
   if (!now) return { text: t.header.notConnected };

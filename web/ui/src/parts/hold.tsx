@@ -1,4 +1,6 @@
-/** A button that has to be held for a second, with a finger, a glove, or a key; a press alone does nothing. */
+/**
+ * A button that has to be held for a second, with a finger, a glove, or a key; a short press does nothing.
+ */
 import { useSignal } from "@preact/signals";
 import type { ComponentChildren, RefObject } from "preact";
 import { useEffect, useRef } from "preact/hooks";
@@ -27,7 +29,7 @@ export function HoldButton({ children, disabled, held, button }: Props) {
     let heldMs = 0;
     timer.current = setInterval(() => {
       const time = performance.now();
-      // while the page was busy the finger may have gone, which it hears of only afterwards
+      // while the page was busy the finger may have left; the event arrives only afterwards
       heldMs += Math.min(time - last, 2 * TICK_MS);
       last = time;
       part.value = heldMs / HOLD_MS;
@@ -38,7 +40,7 @@ export function HoldButton({ children, disabled, held, button }: Props) {
   };
   useEffect(() => {
     if (disabled) end();
-    // another window may take the pointer and the keys without a word to the button
+    // another window may take the pointer and the keys without an event for the button
     addEventListener("blur", end);
     return () => {
       removeEventListener("blur", end);
@@ -68,7 +70,7 @@ export function HoldButton({ children, disabled, held, button }: Props) {
       onKeyDown={(event) => {
         if (event.key !== "Enter" && event.key !== " ") return;
         event.preventDefault();
-        // a key that was down before, for another button, goes on repeating here
+        // a key that was pressed before, for another button, continues to repeat here
         if (!event.repeat) begin();
       }}
       onKeyUp={end}

@@ -8,12 +8,12 @@ export interface Loaded<T> {
   trouble: string | null;
 }
 
-/** Where the station answers the page's feed but not what was asked. */
+/** The station answers the page's feed but not this request. */
 const AGAIN_MS = 3000;
 
 /**
- * What `ask` answers, asked again whenever `key` changes; the last answer stays until the next is there.
- * What got no answer is asked again as soon as the station is there again.
+ * The answer of `ask`, requested again whenever `key` changes; the last answer is kept until the next one. A
+ * request without an answer is repeated as soon as the station is reachable again.
  */
 export function useLoaded<T>(key: string, ask: () => Promise<T>): ReadonlySignal<Loaded<T>> {
   const loaded = useSignal<Loaded<T>>({ value: null, trouble: null });
@@ -51,6 +51,6 @@ export function useLoaded<T>(key: string, ask: () => Promise<T>): ReadonlySignal
   return loaded;
 }
 
-/** No answer, or one that says that the station cannot answer now. */
+/** No answer, or one that states that the station cannot answer now. */
 const isPassing = (error: Error) =>
   error instanceof Refused && (error.status === null || error.status >= 500);

@@ -1,6 +1,6 @@
 import { t } from "../messages";
 
-/** Before anything moves: which robot, over what or with what consequence, and that nobody may be near. */
+/** Warning before any motion: which robot, its range or consequence, and that nobody may be near. */
 export function MotionWarning({ serial, then = "." }: { serial: string; then?: string }) {
   return (
     <>

@@ -1,7 +1,7 @@
 import { t } from "../messages";
 import { operator } from "../operator";
 
-/** Who is at this page; one name wherever it is asked for. */
+/** The name of the user at this page; shared by all fields that ask for it. */
 export function OperatorField({ id }: { id: string }) {
   return (
     <p class="field">

@@ -1,4 +1,4 @@
-/** Offers a text as a file, without asking the station for it again. */
+/** Offers a text as a file, without another request to the station. */
 export function saveFile(name: string, type: string, text: string): void {
   const address = URL.createObjectURL(new Blob([text], { type }));
   const link = document.createElement("a");

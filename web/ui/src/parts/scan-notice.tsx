@@ -1,6 +1,6 @@
 import { notice } from "../scanned";
 
-/** What the last scan led to; it stays until the next one. */
+/** The result of the last scan, shown until the next one. */
 export function ScanNotice() {
   const said = notice.value;
   return (

@@ -1,4 +1,4 @@
-/** One step to stop.  Always there, always enabled; it reports when the stop did not reach the station. */
+/** One step to stop. Always present, always enabled; it reports if the stop did not reach the station. */
 import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { Refused, stop } from "../api";
@@ -43,7 +43,7 @@ export function StopButton() {
   );
 }
 
-/** Stays until the next stop or the next start; one that failed is of the past once the station is there again. */
+/** Shown until the next stop or the next start; a failed one only until the station is reachable again. */
 export function StopReport() {
   const run = station.value?.run?.id;
   useEffect(() => {

@@ -1,4 +1,4 @@
-/** How a run ended, in one line: shape, word, reason.  Colour only where something is wrong. */
+/** The end of a run in one line: shape, word, reason. Colour only if there is a problem. */
 import { t } from "../messages";
 import { reasonText } from "../reason";
 import type { Outcome, State, Summary, Verdict } from "../types";
@@ -35,20 +35,23 @@ type Ended = Pick<Summary, "state" | "verdict"> & Partial<Pick<Summary, "outcome
 export interface Worded extends Look {
   word: string;
   text: string;
-  /** Beside an outcome; empty where the word is the verdict already. */
+  /** Verdict beside an outcome; empty if the word is the verdict already. */
   verdict: string;
   /** Whether the robot may be used as it is. */
   good: boolean;
 }
 
-/** The outcome where the run has come to one, else its verdict, else its state; never better than any of them. */
+/**
+ * The outcome of the run if it has one, otherwise its verdict, otherwise its state; never better than any of
+ * them.
+ */
 export function outcomeOf({ state, verdict, outcome }: Ended): Worded {
   if (state !== "succeeded") return worded(t.states[state], STATES[state]);
   if (outcome && outcome !== "good") {
     return worded(t.outcomes[outcome], OUTCOMES[outcome], verdict === "fail" ? verdict : null);
   }
   if (verdict === "pass" && outcome === "good") return worded(t.outcomes.good, OUTCOMES.good, verdict);
-  // of an attempt to write zeros there is a verdict only; of a run, a pass alone leaves open what to repair
+  // an attempt to write zeros has only a verdict; for a run, a pass alone does not state what to repair
   if (verdict === "pass" && outcome === undefined) return worded(t.verdicts.pass, OUTCOMES.good);
   if (verdict === "fail") return worded(t.verdicts.fail, STATES.failed);
   return worded({ name: t.shared.noVerdict, text: t.states.succeeded.text }, STATES.succeeded);

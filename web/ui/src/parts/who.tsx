@@ -2,7 +2,7 @@ import { station } from "../live";
 import { t } from "../messages";
 import { session, signOut } from "../session";
 
-/** Who is signed in, and the way out; or that nobody has to be. */
+/** The signed-in user, with sign-out; or the note that no sign-in is needed. */
 export function Who() {
   if (station.value?.station.open) return <p class="who">{t.signIn.open}</p>;
   const known = session.value;

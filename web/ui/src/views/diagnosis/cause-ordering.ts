@@ -1,4 +1,4 @@
-/** The ordering that shows a cause: each effect is plain to see along what it depends on. */
+/** The ordering that shows a cause: each effect is clearly visible along the quantity it depends on. */
 import type { Diagnosis, EffectAt } from "../../types";
 import { type Ordering, POSITION } from "./orderings";
 
@@ -22,7 +22,7 @@ const OF_EFFECT: Record<string, string[]> = {
   reading_step: ["order"],
 };
 
-/** By what an error without a name depends on. */
+/** By the quantity that an unnamed error depends on. */
 const OF_DEPENDENCE: Record<string, string> = {
   approach: "approach1",
   "approach x place": "approach1",
@@ -30,7 +30,9 @@ const OF_DEPENDENCE: Record<string, string> = {
   reading: "order",
 };
 
-/** By the cause that is reported, else by the most probable explanation, else by what the residual depends on. */
+/**
+ * By the reported cause, otherwise by the most probable explanation, otherwise by the residual's dependence.
+ */
 export function causeOrdering(
   { findings, explanations = [], hints }: Pick<Diagnosis, "findings" | "explanations" | "hints">,
   orderings: readonly Ordering[],

@@ -1,11 +1,11 @@
-/** The causes that a diagnosis found, by rank, and what an unexplained residual depends on. */
+/** The causes that a diagnosis found, by rank, and the dependences of an unexplained residual. */
 import { fixed, K, percent, quantity } from "../../format";
 import { t } from "../../messages";
 import { said } from "../../messages/said";
 import { effectExplanation, effectName, readable, shown } from "../../names";
 import type { Diagnosis, Finding } from "../../types";
 
-/** Whether the effects found are no more than an attempt. */
+/** Whether the effects found are only an attempt. */
 export const isTried = ({ verdict, confirmed }: Pick<Diagnosis, "verdict" | "confirmed">) =>
   verdict === "unexplained" || (verdict === "partly_explained" && confirmed === false);
 

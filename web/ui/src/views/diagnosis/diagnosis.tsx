@@ -1,4 +1,4 @@
-/** What the model of a run lacked: residual, causes, models, before and after, and what was not detectable. */
+/** The diagnosis of a run: residual, causes, models, before and after, and detection limits. */
 import { calibration, diagnosis, residuals } from "../../api";
 import { micrometres } from "../../format";
 import { t } from "../../messages";

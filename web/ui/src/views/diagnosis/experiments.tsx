@@ -1,4 +1,4 @@
-/** What would decide between the explanations, the best experiment first. */
+/** Experiments that would decide between the explanations, the best one first. */
 import { percent } from "../../format";
 import { t } from "../../messages";
 import { readable } from "../../names";

@@ -1,4 +1,4 @@
-/** What could account for the readings: sets of errors with their probabilities, most probable first. */
+/** The explanations of the readings: sets of errors with their probabilities, most probable first. */
 import { K, percent, quantity } from "../../format";
 import { t } from "../../messages";
 import { effectName, inSentence, shown } from "../../names";

@@ -1,4 +1,4 @@
-/** What the readings could not have shown: the detection limit of every effect that was not found. */
+/** The detection limit of every effect that was not found. */
 import { MISSING, significant } from "../../format";
 import { t } from "../../messages";
 import { labelName, readable, shown } from "../../names";
@@ -43,7 +43,7 @@ export function Invisible({ found: { invisible } }: { found: Diagnosis }) {
   );
 }
 
-/** To two digits, with its unit. */
+/** A value with two digits and its unit. */
 function detectionLimit({ parameter, minimum_detectable, unit }: Diagnosis["invisible"][number]) {
   if (parameter === null || minimum_detectable === null || unit === null) return { name: "", limit: MISSING };
   const size = shown({ name: parameter, value: minimum_detectable, sd: null, unit });

@@ -1,4 +1,4 @@
-/** A wrong label in the data, without which the diagnosis went on. */
+/** A wrong label in the data, without which the diagnosis continued. */
 import { t } from "../../messages";
 import { readable } from "../../names";
 import { phraseText } from "../../phrase";
@@ -18,7 +18,7 @@ export function MistakeInData({ found: { mistake } }: { found: Diagnosis }) {
   );
 }
 
-/** 3, 4, 5, 9 as "3 to 5", "9"; ids that are words follow as they are. */
+/** 3, 4, 5, 9 as "3 to 5", "9"; ids that are words follow unchanged. */
 export function stretches(rows: (number | string)[]): string[] {
   const found: [number, number][] = [];
   for (const row of rows.filter((id) => typeof id === "number").toSorted((a, b) => a - b)) {

@@ -1,4 +1,4 @@
-/** One chart of the residual, with its legend in words; what draws it comes when it is needed. */
+/** One chart of the residual, with its legend in words; its drawing code is loaded when it is needed. */
 import { useSignal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import { micrometres } from "../../format";
@@ -28,7 +28,7 @@ export function OrderingChart({ id, title, items, ordering, series, limit_mm, sp
   const drawing = useRef<Drawing | null>(null);
   const trouble = useSignal(false);
   const shown: Shown = { rows: items, ordering, series, limit_mm, span, cursor };
-  // what has changed while the drawing was on its way counts
+  // use the values that changed while the drawing code was loading
   const latest = useRef(shown);
   latest.current = shown;
   useEffect(() => {
@@ -37,7 +37,7 @@ export function OrderingChart({ id, title, items, ordering, series, limit_mm, sp
       (loaded) => {
         if (!gone && place.current) drawing.current = loaded.draw(place.current, latest.current, read);
       },
-      // the station went down before it had sent what draws
+      // the station went down before it had sent the drawing code
       () => {
         trouble.value = true;
       },
@@ -86,7 +86,7 @@ export function OrderingChart({ id, title, items, ordering, series, limit_mm, sp
   );
 }
 
-/** What each mark stands for, in a line of text. */
+/** The meaning of each mark, in a line of text. */
 function legend(
   items: ResidualRow[],
   ordering: Ordering,

@@ -1,4 +1,7 @@
-/** The residual along an ordering: readings as dots, what effects contribute as lines, the reading that is read. */
+/**
+ * The residual along an ordering: readings as dots, contributions of effects as lines, and the selected
+ * reading.
+ */
 import { LineChart, ScatterChart } from "echarts/charts";
 import { GridComponent } from "echarts/components";
 import { use } from "echarts/core";
@@ -23,10 +26,10 @@ use([LineChart, ScatterChart, GridComponent, SVGRenderer]);
 const UM = 1000;
 const LARGEST_MARK = 34;
 const ROUND_MM = 50;
-/** Of a tap, in pixels: a gloved finger hits nothing smaller. */
+/** Radius of a tap, in pixels: the accuracy of a gloved finger. */
 const REACH = 40;
 
-/** What one chart shows. */
+/** The content of one chart. */
 export interface Shown {
   rows: ResidualRow[];
   ordering: Ordering;
@@ -35,14 +38,14 @@ export interface Shown {
   /** Drawn dashed where given. */
   limit_mm: number | null;
   span: Span | null;
-  /** Index of the row that is read. */
+  /** Index of the selected row. */
   cursor: number | null;
 }
 
 const optionOf = (shown: Shown) =>
   shown.ordering.id === POSITION ? positionsOption(shown) : orderingOption(shown);
 
-/** @param read index of the row next to where somebody tapped */
+/** @param read index of the row next to a tap */
 export function draw(
   place: HTMLElement,
   shown: Shown,
@@ -62,13 +65,13 @@ export function draw(
   };
 }
 
-/** Where each row is drawn, in the units of the axes. */
+/** Position of each row, in the units of the axes. */
 function spots({ rows, ordering, series }: Shown): [number, number][] {
   if (ordering.id === POSITION) return rows.map(({ x_mm, y_mm }) => [x_mm, y_mm]);
   return rows.map((row, index) => [ordering.along(row, index) ?? Number.NaN, UM * series[0].of(row)]);
 }
 
-/** Index of the nearest of `spots`, in pixels; null where none is near. */
+/** Index of the nearest of `spots`, in pixels; null if none is near. */
 export function nextTo([x, y]: [number, number], all: [number, number][]): number | null {
   const distances = all.map(([a, b]) => Math.hypot(a - x, b - y));
   const nearest = distances.reduce((best, d, k) => (d < (distances[best] ?? REACH) ? k : best), -1);
@@ -145,7 +148,7 @@ const marks = (data: (number | null | undefined)[][], k: number) => ({
   data,
 });
 
-/** About what is read. */
+/** Drawn around the selected reading. */
 const ring = (data: (number | null | undefined)[][]) => ({
   type: "scatter",
   silent: true,
@@ -154,7 +157,7 @@ const ring = (data: (number | null | undefined)[][]) => ({
   data,
 });
 
-/** An axis of few values in words; the one for "unknown" only where it occurs. */
+/** An axis of few values in words; the one for "unknown" only if it occurs. */
 function sidesAxis(words: Record<number, string>, known: number[]) {
   const customValues = known.some((value) => Math.abs(value) < 0.5) ? [-1, 0, 1] : [-1, 1];
   const formatter = (value: number) => words[value] ?? "";

@@ -1,4 +1,4 @@
-/** By what the residual of a diagnosis can be ordered; the choice lives in the address as `by`. */
+/** The possible orderings of a diagnosis's residual; the address contains the choice as `by`. */
 import { t } from "../../messages";
 import type { ResidualRow } from "../../types";
 import { levels, type Point, signature } from "./signature";
@@ -9,7 +9,7 @@ export interface Series {
   of: (row: ResidualRow) => number;
 }
 
-/** How the series drawn over the dots look, and the sign that stands for each in the legend. */
+/** Styles of the series drawn over the dots, and their signs in the legend. */
 export const MARKS = [
   { symbol: "circle", sign: "○" },
   { symbol: "diamond", sign: "◇" },
@@ -21,18 +21,18 @@ export const isOver = (row: ResidualRow) => Math.abs(row.after_mm) > row.limit_m
 export interface Ordering {
   id: string;
   name: string;
-  /** Of the x axis, with its unit. */
+  /** Label of the x axis, with its unit. */
   axis: string;
-  /** Null where it was not recorded; `index` is that of the row. */
+  /** Null if it was not recorded; `index` is that of the row. */
   along: (row: ResidualRow, index: number) => number | null;
-  /** Where the axis has few values: each in words, and which of them a reading has; they stand side by side. */
+  /** For an axis of few values: each value in words, and that of a reading; they are side by side. */
   words?: Record<number, string>;
   side?: (row: ResidualRow) => number;
 }
 
 const words = t.diagnosis.orderings;
 const SIDES = { [-1]: t.diagnosis.fromAbove, 0: t.diagnosis.unknownSide, 1: t.diagnosis.fromBelow };
-/** How far points of one side are spread, so that they do not cover each other. */
+/** Spread of the points of one side, so that they do not cover each other. */
 export const SPREAD = 0.6;
 const spread = (side: number, index: number) => side + SPREAD * (((index * 0.618) % 1) - 0.5);
 
@@ -58,7 +58,7 @@ export const ORDERINGS: Ordering[] = [
   { id: "temperature", ...words.temperature, along: (row) => row.temperature_rise_k },
 ];
 
-/** Those that these readings have. */
+/** The orderings that these readings support. */
 export function orderingsOf(rows: ResidualRow[]): Ordering[] {
   return ORDERINGS.filter(({ along }) => rows.some((row, index) => along(row, index) !== null));
 }
@@ -75,7 +75,10 @@ export function meansOfPositions(rows: ResidualRow[], of: (row: ResidualRow) => 
   return [...positions.values()].map(({ x, y, sum, count }) => ({ x, y, mean: sum / count }));
 }
 
-/** Where each reading stands along an ordering, from the smallest to the largest; readings without are left out. */
+/**
+ * Value of each reading along an ordering, from the smallest to the largest; readings without one are
+ * omitted.
+ */
 export function inOrder(rows: ResidualRow[], { along }: Ordering): { index: number; at: number }[] {
   return rows
     .map((row, index) => ({ index, at: along(row, index) }))
@@ -83,7 +86,7 @@ export function inOrder(rows: ResidualRow[], { along }: Ordering): { index: numb
     .sort((a, b) => a.at - b.at);
 }
 
-/** What an effect contributes, as a line along an ordering; null where it depends on more than that. */
+/** The contribution of an effect, as a line along an ordering; null if it depends on further quantities. */
 export function contributionLine(rows: ResidualRow[], ordering: Ordering, { of }: Series): Point[] | null {
   const sizes = rows.map(of);
   const { side } = ordering;
@@ -95,7 +98,7 @@ export function contributionLine(rows: ResidualRow[], ordering: Ordering, { of }
       );
 }
 
-/** Limits differ a little from position to position; the line is drawn at the middle one. */
+/** Limits differ slightly from position to position; the line is drawn at the median. */
 export function medianLimit(rows: ResidualRow[]): number {
   return rows.map(({ limit_mm }) => limit_mm).sort((a, b) => a - b)[rows.length >> 1]!;
 }

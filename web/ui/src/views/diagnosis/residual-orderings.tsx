@@ -1,7 +1,7 @@
 /**
- * The residual before and after, ordered by what may have caused it: first by what shows the cause.
+ * The residual before and after, ordered by its possible causes: first by the quantity that shows the cause.
  *
- * Ordering and zoom live in the address.  A reading is read by tap, or with the arrow keys.
+ * Ordering and zoom are in the address. A reading is selected by tap, or with the arrow keys.
  */
 import { useSignal } from "@preact/signals";
 import { micrometres, signedMicrometres } from "../../format";
@@ -34,7 +34,7 @@ export function ResidualOrderings({ id, found, residuals: { effects, items } }: 
     of: (row: ResidualRow) => row.by_effect_mm[k]!,
   }));
   const choose = (by: string) => {
-    // the stretch of one ordering means nothing in another
+    // the zoom of one ordering is meaningless in another
     setQuery("zoom", "");
     setQuery("by", by);
   };
@@ -70,11 +70,11 @@ interface ReadableProps {
   items: ResidualRow[];
   ordering: Ordering;
   charts: ChartOf[];
-  /** Of the contributions. */
+  /** Legend of the contributions. */
   names: string[];
 }
 
-/** Charts side by side with one zoom and one reading that is read. */
+/** Charts side by side with a common zoom and a common selected reading. */
 function Readable({ id, items, ordering, charts, names }: ReadableProps) {
   const cursor = useSignal<number | null>(null);
   const order = inOrder(items, ordering);

@@ -1,4 +1,4 @@
-/** Where a cause has alternative explanations: the motion that distinguishes them, started from here. */
+/** For a cause with alternative explanations: the motion that distinguishes them, started from here. */
 import { newKey, separate, separating } from "../../api";
 import { duration, fixed } from "../../format";
 import { connected, station } from "../../live";
@@ -20,7 +20,7 @@ export function SeparatingOffer({ id, serial, found }: { id: number; serial: str
 }
 
 function Offer({ id, serial }: { id: number; serial: string }) {
-  // asked again when a run ends: it may have changed the machine
+  // requested again when a run ends: it may have changed the machine
   const { value: plan, trouble } = useLoaded(`${id} ${station.value?.last?.id}`, () => separating(id)).value;
   const idle = connected.value && !station.value?.run && operator.value.trim() !== "";
   const run = async () => {
@@ -60,7 +60,7 @@ function Offer({ id, serial }: { id: number; serial: string }) {
   );
 }
 
-/** The planned positions; a circle is larger the more often it is read. */
+/** The planned positions; a circle is larger if it is read more often. */
 function PlannedPositions({ stops }: { stops: Separating["stops"] }) {
   const workspace = station.value?.workspace;
   if (!workspace) return null;

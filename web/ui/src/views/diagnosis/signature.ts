@@ -1,4 +1,4 @@
-/** What an effect contributes along an ordering, as a smooth line. */
+/** The contribution of an effect along an ordering, as a smooth line. */
 
 export type Point = [number, number | null];
 
@@ -7,10 +7,13 @@ const STEPS = 160;
 const WINDOW = 1 / 50;
 /** Windows without a reading beyond which the line is broken. */
 const GAP = 2;
-/** Share of the contribution's square that a line must account for; else the contribution depends on more. */
+/**
+ * Share of the contribution's sum of squares that a line must account for; otherwise it depends on further
+ * quantities.
+ */
 const ENOUGH = 0.7;
 
-/** Null where the contribution is not a function of this ordering. */
+/** Null if the contribution is not a function of this ordering. */
 export function signature(along: readonly (number | null)[], sizes: readonly number[]): Point[] | null {
   const known = along.flatMap((x, k) => (x === null ? [] : [{ x, y: sizes[k]! }]));
   if (known.length < 2) return null;
@@ -39,7 +42,7 @@ export function signature(along: readonly (number | null)[], sizes: readonly num
   });
 }
 
-/** Of an ordering with few values: a level for each, as wide as its readings are spread. */
+/** For an ordering with few values: a level for each, as wide as the spread of its readings. */
 export function levels(sides: readonly number[], sizes: readonly number[], half: number): Point[] | null {
   const means = new Map(
     [...new Set(sides)].map((side) => {

@@ -1,10 +1,10 @@
-/** Targets as they are typed or pasted: one a line, x and y in mm, then the side of approach of each joint. */
+/** Typed or pasted targets: one per line, x and y in mm, then the side of approach of each joint. */
 import type { Solution, Target } from "../../types";
 
-/** Half a side is none: both, or neither. */
+/** One side alone is not valid: both, or neither. */
 const COUNTS = new Set([2, 4]);
 
-/** The targets, or the number of the first line that is none. */
+/** The targets, or the number of the first invalid line. */
 export function targetsOf(text: string): { targets: Target[]; wrong: number | null } {
   const targets: Target[] = [];
   for (const [k, line] of text.split("\n").entries()) {

@@ -1,4 +1,4 @@
-/** The way on from a diagnosis: take the model away, or have commands for targets computed under it. */
+/** Use of a diagnosis: download the model, or compute commands for targets under it. */
 import { useSignal } from "@preact/signals";
 import { solve } from "../../api";
 import { fixed } from "../../format";

@@ -1,12 +1,12 @@
-/** Which part of an ordering is looked at; it lives in the address as `zoom=from,to`. */
+/** The visible part of an ordering; the address contains it as `zoom=from,to`. */
 
 export type Span = readonly [number, number];
 
 const FACTOR = 2;
-/** Of the whole; less would show no reading. */
+/** Minimum share of the whole; less would show no reading. */
 const LEAST = 1 / 200;
 
-/** The part of the whole that the address asks for; null where that is all or nothing of it. */
+/** The part of the whole given in the address; null if that is all or nothing of it. */
 export function readSpan(text: string | null, whole: Span): Span | null {
   const [from = Number.NaN, to = Number.NaN] = text?.split(",").map(Number) ?? [];
   const [left, right] = [Math.max(from, whole[0]), Math.min(to, whole[1])];
@@ -17,21 +17,21 @@ export function readSpan(text: string | null, whole: Span): Span | null {
 export const writeSpan = (span: Span | null) =>
   span?.map((value) => Number(value.toPrecision(6))).join(",") ?? "";
 
-/** Half as much about a value, inside the whole. */
+/** Half the width about a value, inside the whole. */
 export function zoomedIn(whole: Span, span: Span | null, about: number): Span {
   const [from, to] = span ?? whole;
   const width = Math.max((to - from) / FACTOR, (whole[1] - whole[0]) * LEAST);
   return inside(whole, about, width);
 }
 
-/** Twice as much about the same middle; null when that is all. */
+/** Twice the width about the same middle; null if that is all. */
 export function zoomedOut(whole: Span, span: Span | null): Span | null {
   if (!span) return null;
   const width = (span[1] - span[0]) * FACTOR;
   return width >= whole[1] - whole[0] ? null : inside(whole, (span[0] + span[1]) / 2, width);
 }
 
-/** The same width, moved so that a value is in sight. */
+/** The same width, moved so that a value is visible. */
 export function showing(whole: Span, span: Span | null, value: number): Span | null {
   if (!span || (value >= span[0] && value <= span[1])) return span;
   return inside(whole, value, span[1] - span[0]);

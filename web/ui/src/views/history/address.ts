@@ -1,8 +1,8 @@
-/** All that the view shows is in the address: filters, order, page, what is compared, and the charts. */
+/** The address contains the complete state of the view: filters, order, page, compared runs, and charts. */
 const PAGE = "20";
-/** What only the page knows. */
+/** Values that only the page uses. */
 const OF_THE_PAGE = ["show", "a", "b"];
-/** What does not change how many runs there are. */
+/** Values that do not change the number of runs. */
 const OF_THE_LIST = ["cursor", "order", "limit"];
 
 export function address(filters: URLSearchParams): string {
@@ -10,17 +10,17 @@ export function address(filters: URLSearchParams): string {
   return text ? `/history?${text}` : "/history";
 }
 
-/** The same with one value set, or cleared by an empty one; back on the first page. */
+/** The same with one value set, or removed if empty; back on the first page. */
 export function withFilter(filters: URLSearchParams, name: string, value: string): URLSearchParams {
   const next = newest(filters);
-  // what is typed takes the place of the one robot that a link led to
+  // typed text replaces the one robot that a link led to
   if (name === "search") next.delete("robot_serial");
   if (value) next.set(name, value);
   else next.delete(name);
   return next;
 }
 
-/** The same list with another value of what only the page knows. */
+/** The same list with another value that only the page uses. */
 export function showing(filters: URLSearchParams, name: string, value: string | null): URLSearchParams {
   const next = new URLSearchParams(filters);
   if (value === null) next.delete(name);
@@ -28,7 +28,7 @@ export function showing(filters: URLSearchParams, name: string, value: string | 
   return next;
 }
 
-/** One more run to compare; the two that were chosen last stay. */
+/** One more run to compare; the last two chosen remain. */
 export function comparing(filters: URLSearchParams, run: number): URLSearchParams {
   const chosen = [filters.get("a"), filters.get("b")].filter((id) => id !== null && id !== String(run));
   const [a, b] = [...chosen, String(run)].slice(-2);
@@ -47,7 +47,7 @@ export function older(filters: URLSearchParams, cursor: number): URLSearchParams
   return next;
 }
 
-/** Days in the address are the operator's days; the service is asked in absolute times. */
+/** Days in the address are in the operator's time zone; the service receives absolute times. */
 export function toApi(filters: URLSearchParams): URLSearchParams {
   const asked = new URLSearchParams(filters);
   for (const name of OF_THE_PAGE) asked.delete(name);
@@ -63,7 +63,7 @@ export function toApi(filters: URLSearchParams): URLSearchParams {
   return asked;
 }
 
-/** The whole list, whatever its page. */
+/** The whole list, on any page. */
 export function toWholeList(filters: URLSearchParams, keep: "order" | null = null): URLSearchParams {
   const asked = toApi(filters);
   for (const name of OF_THE_LIST) if (name !== keep) asked.delete(name);

@@ -1,4 +1,4 @@
-/** Two runs beside each other: zero offsets with their difference, and how well each fits its readings. */
+/** Two runs side by side: zero offsets with their difference, and the fit of each. */
 import { calibration } from "../../api";
 import { expanded, fixed, MISSING, micrometres, signed } from "../../format";
 import { t } from "../../messages";
@@ -120,7 +120,7 @@ function offset(run: Calibration, joint: number): string {
   return found ? withU(found.value_deg, found.sd_deg) : MISSING;
 }
 
-/** The second less the first; the two runs err independently of each other. */
+/** The second less the first; the errors of the two runs are independent. */
 function difference(first: Calibration, second: Calibration, joint: number): string {
   const [before, after] = [zero(first, joint), zero(second, joint)];
   if (!before || !after) return MISSING;

@@ -3,10 +3,10 @@ import { navigate, path, query } from "../../router";
 import type { Verdict } from "../../types";
 import { address, withFilter } from "./address";
 
-/** Of runs; a diagnosis has more. */
+/** Verdicts of runs; a diagnosis has more. */
 const VERDICTS = { pass: t.verdicts.pass, fail: t.verdicts.fail } satisfies Record<Verdict, unknown>;
 
-/** A part of its own: events of the station must not take away what is being typed. */
+/** A separate component: events of the station must not overwrite text being typed. */
 export function Filters() {
   const filters = query.value;
   return (
@@ -55,9 +55,9 @@ export function Filters() {
 }
 
 function set(name: string, value: string): void {
-  // a field that is left because the view is left still tells of what was typed into it
+  // a field that loses the focus with the view still reports its text
   if (path.value !== "/history") return;
-  // the address as it is now: another filter may have been set since the form was drawn
+  // the present address: another filter may have been set since the form was drawn
   navigate(address(withFilter(query.value, name, value)), { replace: true });
 }
 

@@ -1,4 +1,4 @@
-/** Every run.  Filters, order, page, comparison and charts live in the address. */
+/** All runs. Filters, order, page, comparison and charts are in the address. */
 import { calibrations, countRuns } from "../../api";
 import { K } from "../../format";
 import { station } from "../../live";
@@ -14,7 +14,7 @@ import { RunRow } from "./run-row";
 
 export function HistoryView() {
   const filters = query.value;
-  // asked again when a run starts or ends
+  // requested again when a run starts or ends
   const latest = `${station.value?.run?.id} ${station.value?.last?.id}`;
   const { value: page, trouble } = useLoaded(`${toApi(filters)} ${latest}`, () =>
     calibrations(toApi(filters)),
@@ -119,7 +119,7 @@ function Head() {
   );
 }
 
-/** The head of a column that orders the list, one way and then the other. */
+/** The head of a column that orders the list, in one direction and then the other. */
 function Sorted({ name, up, down, text }: { name: string; up: string; down: string; text?: boolean }) {
   const order = query.value.get("order") ?? "";
   const shape = order === up ? UP : order === down ? DOWN : "";

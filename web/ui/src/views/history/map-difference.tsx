@@ -1,4 +1,4 @@
-/** Where the second of two runs leaves larger or smaller position errors than the first. */
+/** Where the second of two runs has larger or smaller position errors than the first. */
 import { errorMap } from "../../api";
 import { fixed } from "../../format";
 import { t } from "../../messages";
@@ -37,7 +37,7 @@ export function MapDifference({ a, b }: { a: number; b: number }) {
   );
 }
 
-/** The 95 % bounds of the second less those of the first; null where the two maps are of other workspaces. */
+/** The 95 % bounds of the second less those of the first; null if the two maps have different workspaces. */
 export function difference(first: ErrorMap, second: ErrorMap): Values | null {
   const same = (one: readonly number[], other: readonly number[]) =>
     one.length === other.length && one.every((value, k) => value === other[k]);

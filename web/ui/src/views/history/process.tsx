@@ -1,4 +1,4 @@
-/** Is the process under control?  What runs ended with, and the trend of each quantity. */
+/** Process control: outcomes of runs, and the trend of each quantity. */
 import { quality, trend } from "../../api";
 import { fixed, percent } from "../../format";
 import { t } from "../../messages";
@@ -47,7 +47,7 @@ function title(serial: string | null, type: string | null): string {
   return type ? t.history.processOfType(type) : t.history.processOfAll;
 }
 
-/** Outcomes with their reasons, the most frequent first. */
+/** Outcomes with their reasons, most frequent first. */
 function Pareto({ ended }: { ended: Quality }) {
   const all = Math.max(ended.runs, 1);
   const outcomes: Record<string, { name: string }> = t.outcomes;
@@ -95,7 +95,7 @@ function measured(moved: Trend, of: keyof typeof VALUE, unit: string): Charted {
   return { points, lines, unit };
 }
 
-/** How the size of an effect moves over the runs that found it. */
+/** The trend of an effect's size over the runs that found it. */
 function Effect({ effect, moved }: { effect: Trend["effects"][number]; moved: Trend }) {
   const sizes = effect.values.map((value) =>
     shown({ name: effect.parameter, value, sd: null, unit: effect.unit }),
@@ -145,7 +145,7 @@ function Quantity({ name, moved, charted }: { name: string; moved: Trend; charte
   );
 }
 
-/** Which rule is broken at which runs, in words: the chart has only shapes. */
+/** Broken rules and their runs, in words: the chart has only shapes. */
 function Broken({ lines }: { lines: ChartLines }) {
   const names: Record<string, string> = t.history.rules;
   const rules = [...new Set(lines.rules.map((rule) => rule.name))];

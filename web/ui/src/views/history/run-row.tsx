@@ -62,7 +62,7 @@ export function RunRow({ run }: { run: Summary }) {
 
 const ofRobot = (serial: string) => new URLSearchParams({ robot_serial: serial });
 
-/** A calibration is what is expected; everything else is named. */
+/** A calibration is the default; every other kind is named. */
 function whatItDid({ kind, of }: Summary): string {
   const { name } = runKind(kind);
   if (of !== null) return t.history.kindOf(name, of);

@@ -18,12 +18,14 @@ export interface Charted {
 
 const short = (value: number) => fixed(value, 3);
 
-/** Draws into `place`; returns how to take it away. */
+/** Draws into `place`; returns a function to remove the chart. */
 export function draw(place: HTMLElement, moved: Trend, charted: Charted): () => void {
   return mount(place, trendOption(moved, charted));
 }
 
-/** Individuals above, moving ranges below; broken rules as diamonds, what was written to the drives or mounted anew as lines. */
+/**
+ * Individuals above, moving ranges below; broken rules as diamonds, writing of zeros and remounting as lines.
+ */
 export function trendOption(moved: Trend, { points, lines, unit }: Charted) {
   const broken = new Set(lines.rules.map(({ at }) => at));
   const ranges = points
@@ -31,7 +33,7 @@ export function trendOption(moved: Trend, { points, lines, unit }: Charted) {
     .map(([run, value], n) => [run, Math.abs(value - points[n]![1])] as [number, number]);
   const shown = [...moved.items.map(({ id }) => id), ...lines.at];
   const runs = { ...xAxis, minInterval: 1, min: Math.min(...shown) - 1, max: Math.max(...shown) + 1 };
-  // the limits belong into the picture, also while every value is well within them
+  // the limits must be visible even if every value is well within them
   const reach = (values: number[], limits: (number | null)[]) => {
     const all = [...values, ...limits.filter((limit) => limit !== null)];
     const margin = 0.05 * (Math.max(...all) - Math.min(...all));
@@ -121,13 +123,13 @@ export function trendOption(moved: Trend, { points, lines, unit }: Charted) {
   };
 }
 
-/** What a run has changed at the drives or the mechanism, beside measuring. */
+/** Changes that a run made to the drives or the mechanism, beside measuring. */
 export function markOf({ kind, plan }: Pick<Trend["items"][number], "kind" | "plan">) {
   if (kind === "apply" || kind === "rollback") return kind;
   return kind === "gauge_study" || plan === "two_mounts" ? "mount" : undefined;
 }
 
-/** The first run of each further version of the program, of those that say which it was. */
+/** The first run of each further version of the program, among those with a known version. */
 export function changes({ items }: Pick<Trend, "items">): { id: number; software: string }[] {
   const known = items.flatMap(({ id, software }) => (software ? [{ id, software }] : []));
   return known.filter(({ software }, n) => n > 0 && software !== known[n - 1]!.software);

@@ -1,4 +1,6 @@
-/** A button that asks the station for something; it cannot be pressed twice, and failures are said beside it. */
+/**
+ * A button that sends a request to the station; it cannot be pressed twice, and errors are shown beside it.
+ */
 import { useSignal } from "@preact/signals";
 import type { ComponentChildren } from "preact";
 import { connected } from "../../live";
@@ -41,7 +43,7 @@ export function ActionButton({ children, label, disabled, prominent, act }: Prop
   );
 }
 
-/** What is shown while something is being loaded, or cannot be. */
+/** Shown while data are being loaded, or cannot be loaded. */
 export function Pending({ trouble }: { trouble: string | null }) {
   return (
     <p class="empty" role="status">

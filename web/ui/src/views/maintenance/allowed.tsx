@@ -1,4 +1,4 @@
-/** What a role may do here; what it may not do is said, not left out. */
+/** The permissions of a role here; a missing permission is stated, not hidden. */
 import type { ComponentChildren } from "preact";
 import { t } from "../../messages";
 import { session } from "../../session";

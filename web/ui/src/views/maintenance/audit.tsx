@@ -1,4 +1,4 @@
-/** Who did what, page by page. */
+/** The actions and their authors, page by page. */
 import { dateTime } from "../../format";
 import { t } from "../../messages";
 import { useLoaded } from "../../parts/load";

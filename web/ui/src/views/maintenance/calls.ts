@@ -17,7 +17,7 @@ import type {
   WireList,
 } from "../../types";
 
-/** Devices that are silent, and a large history, take their time. */
+/** Silent devices, and a large history, take more time. */
 const LONG_MS = 120_000;
 
 const sent = (body: unknown): RequestInit => ({
@@ -52,7 +52,7 @@ export interface NewUser {
   pin: string | null;
 }
 export const addUser = (user: NewUser) => call<User>("POST", "/users", sent(user));
-/** What is left out stays. */
+/** Omitted fields are unchanged. */
 export interface UserChange {
   role?: Role;
   disabled?: boolean;

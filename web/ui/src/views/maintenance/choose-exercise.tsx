@@ -1,4 +1,4 @@
-/** What is to be wrong: kind, joint and size. */
+/** Choice of the error: kind, joint and size. */
 import { useComputed, useSignal } from "@preact/signals";
 import { local } from "../../format";
 import { station } from "../../live";

@@ -1,4 +1,4 @@
-/** What other systems were sent, and what they still have to take. */
+/** Delivered and pending events of other systems. */
 import { useSignal } from "@preact/signals";
 import { dateTime } from "../../format";
 import { t } from "../../messages";

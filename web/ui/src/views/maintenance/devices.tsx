@@ -1,4 +1,4 @@
-/** Devices and their lines, the examination, the way back and the reference check. */
+/** Devices and their lines, the examination, the return into the workspace and the reference check. */
 import { useSignal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { newKey, start } from "../../api";
@@ -99,7 +99,7 @@ function WayBack() {
   );
 }
 
-/** Of the robot measured last, unless another one is named. */
+/** The robot measured last, unless another one is named. */
 function Check() {
   const serial = useSignal(station.value?.last?.robot_serial ?? "");
   const started = useSignal<number | null>(null);

@@ -1,4 +1,4 @@
-/** The examination of all devices, and what to do about what it finds. */
+/** The examination of all devices, with remedies for its findings. */
 import { useSignal } from "@preact/signals";
 import { station } from "../../live";
 import { t } from "../../messages";

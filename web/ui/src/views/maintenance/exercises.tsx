@@ -1,4 +1,4 @@
-/** Exercises: what was wrong, what the station said, and the score. */
+/** Exercises: the error, the station's finding, and the score. */
 import { local, percent } from "../../format";
 import { t } from "../../messages";
 import { effectName, readable, unitName } from "../../names";
@@ -26,7 +26,7 @@ export function wrongWith({ challenge, joint, size }: Exercise): string {
   return size === null ? at : t.training.sized(at, `${local(String(size))} ${unitName(challenge.unit)}`);
 }
 
-/** What the run found, in words. */
+/** The finding of the run, in words. */
 export function inWords({ said }: Exercise): string {
   if (said === null) return "";
   if (said.diagnosis === null) return readable(said.reason ?? t.states[said.state].name);

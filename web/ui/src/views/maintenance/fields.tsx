@@ -1,4 +1,4 @@
-/** Labelled inputs, each on a signal. */
+/** Labelled inputs, each bound to a signal. */
 import type { Signal } from "@preact/signals";
 
 interface TextProps {
@@ -7,7 +7,7 @@ interface TextProps {
   value: Signal<string>;
   type?: "text" | "password";
   numeric?: boolean;
-  /** A badge that is scanned here is meant for the field and signs nobody on. */
+  /** A badge that is scanned here is meant for the field and does not sign in anyone. */
   takesBadge?: boolean;
 }
 
@@ -38,7 +38,7 @@ interface ChoiceProps {
   value: string;
   options: [id: string, name: string][];
   choose: (id: string) => void;
-  /** Where a column already says what it is. */
+  /** If a column already names it. */
   quiet?: boolean;
 }
 

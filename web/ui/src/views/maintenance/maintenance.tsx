@@ -1,4 +1,4 @@
-/** Everything that keeps the station working, one part at a time; which one is in the address. */
+/** The maintenance of the station, one part at a time; the address contains which. */
 import { station } from "../../live";
 import { t } from "../../messages";
 import { Link } from "../../parts/link";
@@ -24,7 +24,7 @@ const PARTS = [
 const TRAINING = { id: "training", name: t.maintenance.trainingPart, Part: TrainingPart };
 
 export function MaintenanceView() {
-  // real devices have no training desk, so nobody looks for it there
+  // real devices have no training desk
   const parts = station.value?.station.emulated ? [...PARTS, TRAINING] : PARTS;
   const wanted = query.value.get("part");
   const shown = parts.find(({ id }) => id === wanted) ?? parts[0]!;

@@ -1,4 +1,4 @@
-/** Who signs in, and which programs have keys. */
+/** Users who sign in, and keys of programs. */
 import { Needs } from "./allowed";
 import { Keys } from "./keys";
 import { Users } from "./users";

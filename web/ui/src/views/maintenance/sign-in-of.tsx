@@ -1,4 +1,4 @@
-/** Another password, badge or PIN for somebody who is a user already. */
+/** A new password, badge or PIN for an existing user. */
 import { useSignal } from "@preact/signals";
 import { connected } from "../../live";
 import { t } from "../../messages";
@@ -46,7 +46,7 @@ export function SignInOf({ users, changed }: { users: User[]; changed: () => voi
           options={own.map(({ id, name }) => [String(id), name])}
           choose={(id) => {
             chosen.value = id;
-            // what was typed was meant for the one who was chosen then
+            // the typed text was meant for the user chosen before
             password.value = badge.value = pin.value = done.value = "";
           }}
         />

@@ -1,4 +1,4 @@
-/** A table that scrolls by itself where it is wider than the page. */
+/** A table that scrolls by itself if it is wider than the page. */
 import type { ComponentChildren } from "preact";
 
 interface Props {
@@ -8,7 +8,7 @@ interface Props {
 }
 
 export function Table({ label, head, children }: Props) {
-  // where a row is shown as a card, each value has its heading beside it
+  // if a row is shown as a card, each value has its heading beside it
   const heads = Object.fromEntries(head.map((text, n) => [`--head-${n + 1}`, JSON.stringify(text)]));
   return (
     <div class="scroll" tabIndex={0} role="region" aria-label={label}>

@@ -1,4 +1,4 @@
-/** The training desk: what is wrong with the emulated machine beside what the station says. */
+/** The training desk: the error of the emulated machine beside the station's finding. */
 import { useSignal } from "@preact/signals";
 import { newKey, start } from "../../api";
 import { connected, station } from "../../live";
@@ -15,12 +15,12 @@ import { draw, repair, reveal, training } from "./calls";
 import { ChooseExercise } from "./choose-exercise";
 import { ExerciseList, Saying, wrongWith } from "./exercises";
 
-/** Exercises say nothing about a robot of the plant. */
+/** Exercises give no information about a robot of the plant. */
 const SERIAL = "TRAINING";
 
 export function TrainingPart() {
   const done = useSignal(0);
-  // asked again when a run starts or ends
+  // requested again when a run starts or ends
   const latest = `${done.value} ${station.value?.run?.id} ${station.value?.last?.id}`;
   const { value: desk, trouble } = useLoaded(latest, training).value;
   const after = async (asked: Promise<Training>) => {

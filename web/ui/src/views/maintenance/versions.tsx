@@ -1,4 +1,4 @@
-/** What a report of a fault should name. */
+/** The versions that a fault report should contain. */
 import { t } from "../../messages";
 import { useLoaded } from "../../parts/load";
 import { Pending } from "./action";

@@ -1,4 +1,4 @@
-/** What crossed the wires in a run: request, reply, and how long that took. */
+/** The wire traffic of a run: request, reply, and elapsed time. */
 import { useSignal } from "@preact/signals";
 import { fixed } from "../../format";
 import { station } from "../../live";

@@ -4,7 +4,10 @@ import { said } from "../../messages/said";
 import { adviceText } from "../../names";
 import type { Calibration } from "../../types";
 
-/** What the run promises of positions, beside what was wanted; of a check, how small a shift it finds. */
+/**
+ * The predicted position accuracy of a run, with the required one; for a check, the smallest detectable
+ * shift.
+ */
 export function Accuracy({ result: { accuracy, check, advice } }: { result: Calibration }) {
   if (!accuracy && !check) return null;
   return (
@@ -35,7 +38,7 @@ export function Accuracy({ result: { accuracy, check, advice } }: { result: Cali
   );
 }
 
-/** What would raise the accuracy: by how much, and how long it takes. */
+/** Measures to improve the accuracy, with gain and duration. */
 function AdviceTable({ advice }: { advice: Calibration["advice"] }) {
   if (advice.length === 0) return null;
   return (

@@ -1,4 +1,4 @@
-/** What the drives hold of a run's zero offsets, joint by joint, every attempt, and the way back. */
+/** The zero offsets of a run in the drives, joint by joint, every attempt, and the rollback. */
 import { rollBack } from "../../api";
 import { signed } from "../../format";
 import { connected, station } from "../../live";

@@ -1,4 +1,7 @@
-/** The colours of the error maps: one scale for both, in order of lightness, also for the colour-blind (viridis). */
+/**
+ * The colours of the error maps: one scale for both, in order of lightness, also for colour-blind users
+ * (viridis).
+ */
 
 const STOPS = [
   "#440154",
@@ -13,7 +16,7 @@ const STOPS = [
   "#fde725",
 ].map((hex) => [1, 3, 5].map((at) => Number.parseInt(hex.slice(at, at + 2), 16)));
 
-/** Of a share from 0 (dark) to 1 (light). */
+/** The colour of a share from 0 (dark) to 1 (light). */
 export function colour(share: number): string {
   const at = Math.min(Math.max(share, 0), 1) * (STOPS.length - 1);
   const k = Math.min(Math.floor(at), STOPS.length - 2);
@@ -49,7 +52,7 @@ export function scaleOf(values: number[]): Scale {
   };
 }
 
-/** From -most to +most in even steps; the middle is no difference. */
+/** From -most to +most in even steps; the middle is zero difference. */
 export function evenScale(most: number): Scale {
   const size = most > 0 ? most : 1;
   return { low: -size, high: size, share: (mm) => (mm + size) / (2 * size), ticks: [-size, 0, size] };

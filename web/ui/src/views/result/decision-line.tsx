@@ -1,4 +1,4 @@
-/** What the result decides, in large: one word with its shape, and why. */
+/** The decision of the result, in large type: one word with its shape, and the reason. */
 import { significant } from "../../format";
 import { t } from "../../messages";
 import type { Calibration } from "../../types";
@@ -16,7 +16,7 @@ export function DecisionLine({ result }: { result: Calibration }) {
   );
 }
 
-/** Which limit counted, or that there was none. */
+/** The applied limit, or that there was none. */
 export function WantedLine({ result: { accuracy, ended_at, kind } }: { result: Calibration }) {
   if (!ended_at || kind === "retract" || kind === "check") return null;
   const wanted = accuracy?.wanted_mm;

@@ -1,4 +1,4 @@
-/** What a result decides: one word, and the sentence behind it.  Never better than any part of the record. */
+/** The decision of a result: one word, and its sentence. Never better than any part of the record. */
 import { fixed, quantity } from "../../format";
 import { t } from "../../messages";
 import { capital, effectName, inSentence, shown } from "../../names";
@@ -12,7 +12,7 @@ export interface Decision {
 }
 
 const DIGITS = 3;
-/** Where the bound and the limit look the same otherwise. */
+/** More digits, if the bound and the limit look the same otherwise. */
 const MORE_DIGITS = 5;
 
 export function decisionOf(result: Calibration): Decision {
@@ -20,7 +20,10 @@ export function decisionOf(result: Calibration): Decision {
   return { look, sentence: sentenceOf(result, look) };
 }
 
-/** Whether a limit is not kept by the bound: the bound is compared, not the estimate; without a bound none is. */
+/**
+ * Whether the bound exceeds a limit: the bound is compared, not the estimate; without a bound, no limit is
+ * met.
+ */
 function missed({ state, outcome, accuracy }: Calibration): boolean {
   const wanted = accuracy?.wanted_mm;
   if (state !== "succeeded" || outcome !== "good" || wanted == null) return false;
@@ -75,7 +78,7 @@ function undecided({ reason_code, reason_params }: Calibration): string | null {
   return capital(t.result.decision.undecided(String(causes), fixed(percent, 0), String(others)));
 }
 
-/** Without the word that stands before it already. */
+/** Without the word that precedes it already. */
 function withoutWord(text: string, word: string): string {
   const [first = "", ...rest] = text.split(": ");
   return rest.length > 0 && first.toUpperCase() === word ? capital(rest.join(": ")) : text;

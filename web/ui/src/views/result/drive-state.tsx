@@ -1,4 +1,4 @@
-/** What the drives hold of a run's zero offsets, in one line. */
+/** The zero offsets of a run in the drives, in one line. */
 import { station } from "../../live";
 import { t } from "../../messages";
 import { said } from "../../messages/said";
@@ -24,7 +24,7 @@ function progress({ walk, step, steps }: Run): string {
   return t.result.step(walk ? said(walk.title) : t.shared.waiting, t.shared.stepOf(step ?? 0, steps || "?"));
 }
 
-/** What the drives hold, and whether fresh readings agreed. */
+/** The zeros in the drives, and whether fresh readings agreed. */
 export function statement({ state, text, verified }: Pick<Drives, "state" | "text" | "verified">): string {
   const shape = ALARMS.has(state) ? "▲" : verified ? "✓" : "○";
   const checked = state === "applied" ? [verified ? t.result.verified : t.result.notVerified] : [];

@@ -1,4 +1,4 @@
-/** Where the robot errs, before and after, on one scale: tap a place or move with the arrow keys to read it. */
+/** The position errors before and after, on one scale: tap a point or move with the arrow keys to read it. */
 import { useSignal } from "@preact/signals";
 import { errorMap } from "../../api";
 import { fixed, MISSING, micrometres } from "../../format";
@@ -14,7 +14,7 @@ import { ScaleBar } from "./scale-bar";
 const DIGITS = 3;
 const mm = (value: number | null | undefined) => fixed(value, DIGITS);
 
-/** Whether a run leaves something to draw. */
+/** Whether a run has data to draw. */
 export const hasMap = ({ kind, machine, verdict, zero_offsets }: Calibration) =>
   verdict !== null && zero_offsets.length > 0 && kind !== "rollback" && machine === "five-bar";
 

@@ -1,4 +1,4 @@
-/** One map of the workspace: colours, the limit as a line, fresh readings as dots, and the place that is read. */
+/** One map of the workspace: colours, the limit as a line, fresh readings as dots, and the selected point. */
 import { useRef } from "preact/hooks";
 import { fixed } from "../../format";
 import { t } from "../../messages";
@@ -35,7 +35,7 @@ export function FieldMap({ name, grid, values, scale, limit, dots = [], cursor, 
   return (
     <figure>
       <figcaption>{name}</figcaption>
-      {/* the keys are those of the pair, which has the focus */}
+      {/* the keys belong to the pair, which has the focus */}
       {/* biome-ignore lint/a11y/useKeyWithClickEvents: see above */}
       <svg
         ref={drawing}

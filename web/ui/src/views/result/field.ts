@@ -1,7 +1,7 @@
-/** Geometry of a field of values over a grid: its cells by colour, and where it crosses a limit. */
+/** Geometry of a field of values over a grid: its cells by colour, and its limit line. */
 import { colour, type Scale } from "./colours";
 
-/** One row for each y, null where there is no value. */
+/** One row for each y, null if there is no value. */
 export type Values = readonly (readonly (number | null)[])[];
 
 export interface Grid {
@@ -11,7 +11,7 @@ export interface Grid {
 
 const LEVELS = 48;
 
-/** Edges of the cells about the points; the outermost end at their points. */
+/** Edges of the cells about the points; the outermost cells end at their points. */
 export function edges(points: readonly number[]): number[] {
   const inner = points.slice(1).map((point, k) => (point + points[k]!) / 2);
   return [points[0]!, ...inner, points.at(-1)!];
@@ -35,7 +35,7 @@ export function cells({ x, y }: Grid, values: Values, scale: Scale): { fill: str
 
 const short = (value: number) => Number(value.toFixed(1));
 
-/** Where the values, linear along each side of a triangle of grid points, are equal to the limit. */
+/** Line on which the values, linear along each side of a triangle of grid points, equal the limit. */
 export function contour({ x, y }: Grid, values: Values, limit: number): string {
   const lines: string[] = [];
   for (let j = 0; j + 1 < y.length; j++) {
@@ -72,7 +72,7 @@ function crossing(triangle: Corner[]): string | null {
   return cut.length === 2 ? `M${cut[0]}L${cut[1]}` : null;
 }
 
-/** Whether a limit is kept everywhere, nowhere, or in a part; by the values there are. */
+/** Whether a limit is met everywhere, nowhere, or in a part, from the existing values. */
 export function kept(values: Values, limit: number): "everywhere" | "nowhere" | "partly" {
   const known = values.flat().filter((value) => value !== null);
   if (known.every((value) => value <= limit)) return "everywhere";
@@ -94,7 +94,7 @@ export function worst(values: Values): Cell {
   return { i: found.i, j: found.j };
 }
 
-/** The grid point next to a place. */
+/** The nearest grid point to a position. */
 export function nearest({ x, y }: Grid, at: { x: number; y: number }): Cell {
   const closest = (points: readonly number[], value: number) =>
     points.reduce(

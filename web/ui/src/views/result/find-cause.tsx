@@ -1,4 +1,4 @@
-/** From any result to the measurement sequence that finds what the model lacks: press, then confirm. */
+/** From any result to the measurement sequence that finds the missing effect: press, then confirm. */
 import { newKey, start } from "../../api";
 import { connected, station } from "../../live";
 import { t } from "../../messages";
@@ -13,7 +13,7 @@ import type { Calibration } from "../../types";
 
 export function FindCause({ result }: { result: Calibration }) {
   const { robot_serial, work_order, lack_of_fit } = result;
-  // that sentence is of the solver; what it means is said below
+  // that sentence is about the solver; its meaning is stated below
   const inside = result.reason_code === "not_identified";
   const lack = lack_of_fit && readable(lack_of_fit);
   const idle = connected.value && !station.value?.run && operator.value.trim() !== "";

@@ -5,7 +5,7 @@ import { Experiments } from "../diagnosis/experiments";
 import { MistakeInData } from "../diagnosis/mistake";
 import { SeparatingOffer } from "../diagnosis/separating";
 
-/** What a diagnosis found, in short; its own page has the charts. */
+/** The findings of a diagnosis, in short; its own page has the charts. */
 export function FoundCauses(props: {
   id: number;
   serial: string;

@@ -2,7 +2,7 @@ import { fixed, signed } from "../../format";
 import { t } from "../../messages";
 import type { Calibration } from "../../types";
 
-/** Pass by pass, how far each offset moved. */
+/** The change of each offset, pass by pass. */
 export function Iterations({ result: { iterations } }: { result: Calibration }) {
   if (!iterations.length) return null;
   return (

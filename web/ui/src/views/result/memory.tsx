@@ -13,7 +13,7 @@ import type { Calibration } from "../../types";
 
 export function Memory({ result: { memory, fleet, robot_serial } }: { result: Calibration }) {
   const forgotten = useSignal(0);
-  // asked again when a run ends: it may have left something new
+  // requested again when a run ends: it may have left new ones
   const key = `${robot_serial} ${station.value?.last?.id} ${forgotten.value}`;
   const { value } = useLoaded(key, () => robot(robot_serial)).value;
   const next = value?.memory ?? null;

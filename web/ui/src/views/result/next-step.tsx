@@ -1,4 +1,4 @@
-/** The one next step: why, and its button. */
+/** The recommended next step: reason and button. */
 import { apply, newKey, resume, rollBack, separate, start } from "../../api";
 import { connected, station } from "../../live";
 import { t } from "../../messages";
@@ -19,7 +19,7 @@ interface Props {
 
 export function NextStep({ result, experiments }: Props) {
   const { why, act, more } = nextStep(result, experiments);
-  // what is shown already is no next step
+  // a view that is already shown is not a next step
   if (act?.do === "open" && act.to === path.value) return null;
   const { text, button = "" }: { text: string; button?: string } = t.result.next[why];
   return (
@@ -42,7 +42,7 @@ export function NextStep({ result, experiments }: Props) {
           </button>
         </p>
       )}
-      {/* another step is another button: a press that was meant for one must never do the other */}
+      {/* another step is another button: a press meant for one must never trigger the other */}
       {act && act.do !== "open" && act.do !== "prepare" && (
         <Confirmed key={why} label={button} act={act} result={result} />
       )}
@@ -52,7 +52,7 @@ export function NextStep({ result, experiments }: Props) {
 
 type Moving = Exclude<Act, { do: "open" | "prepare" }>;
 
-/** The start form with what is known already; nothing moves before it is confirmed there. */
+/** The start form with the known values; nothing moves before it is confirmed there. */
 function prepare(robot: string, plan: Plan): void {
   takeSerial(robot);
   chosenPlan.value = plan;

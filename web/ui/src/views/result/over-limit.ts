@@ -1,5 +1,5 @@
 import type { Residual } from "../../types";
 
-/** A residual without a limit is over none. */
+/** A residual without a limit does not exceed it. */
 export const isOver = ({ residual_mm, limit_mm }: Residual) =>
   residual_mm !== null && limit_mm !== null && Math.abs(residual_mm) > limit_mm;

@@ -11,16 +11,19 @@ use([LineChart, ScatterChart, GridComponent, SVGRenderer]);
 
 const UM = 1000;
 
-/** Draws into `place`; returns how to take it away. */
+/** Draws into `place`; returns a function to remove the chart. */
 export function draw(place: HTMLElement, residuals: Residual[], reach?: number): () => void {
   return mount(place, residualOption(residuals, reach));
 }
 
-/** Largest residual or limit, in µm: to draw several runs on one scale. */
+/** Largest residual or limit, in µm: for drawing several runs on one scale. */
 export const reachOf = (residuals: Residual[]): number =>
   UM * Math.max(0, ...residuals.flatMap((r) => [Math.abs(r.residual_mm ?? 0), r.limit_mm ?? 0]));
 
-/** Residuals as dots, those over their limit as diamonds, the limits dashed; from -reach to reach where it is given. */
+/**
+ * Residuals as dots, those over their limit as diamonds, the limits dashed; from -reach to reach if it is
+ * given.
+ */
 export function residualOption(residuals: Residual[], reach?: number) {
   const over = ({ dataIndex }: { dataIndex: number }) => isOver(residuals[dataIndex]!);
   const limits = (sign: 1 | -1) => ({

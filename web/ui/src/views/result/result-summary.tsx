@@ -1,4 +1,4 @@
-/** The head of a result: the decision in large, the limit that counted, what the drives hold. */
+/** The head of a result: the decision in large type, the applied limit, the zeros in the drives. */
 import { dateTime, duration, MISSING } from "../../format";
 import { t } from "../../messages";
 import { methodName, planOf, runKind } from "../../names";
@@ -24,7 +24,7 @@ export function ResultSummary({ result }: { result: Calibration }) {
   );
 }
 
-/** What ran, by whom and when; with the ways to everything else of the run. */
+/** The run, its operator and time, with links to its other pages. */
 export function RunFacts({ result }: { result: Calibration }) {
   const kind = runKind(result.kind);
   const plan = planOf(result.plan);
@@ -47,7 +47,7 @@ export function RunFacts({ result }: { result: Calibration }) {
   );
 }
 
-/** From a result to everything else of its run and its robot. */
+/** Links from a result to the other pages of its run and its robot. */
 export function Ways({
   result: { id, of, kind, method, robot_serial, state, verdict, ended_at, machine },
 }: {

@@ -1,4 +1,4 @@
-/** One run: what it decides, the next step, where the robot errs; the engineer's tables folded below. */
+/** One run: its decision, the next step, the position errors; the engineer's tables folded below. */
 import { calibration, diagnosis } from "../../api";
 import { station } from "../../live";
 import { t } from "../../messages";
@@ -20,7 +20,7 @@ import { Translate } from "./translate";
 import { WeakDirection } from "./weak-direction";
 import { ZeroOffsets } from "./zero-offsets";
 
-/** `id` from the address, else the last run that ended or whose offsets were written. */
+/** `id` from the address, otherwise the last run that ended or whose offsets were written. */
 export function ResultView({ id }: { id: number | null }) {
   const last = station.value?.last;
   const shown = id ?? (last?.kind === "separate" ? last.id : (last?.of ?? last?.id)) ?? null;
@@ -39,7 +39,7 @@ function Empty({ text }: { text: string }) {
 
 function Result({ id }: { id: number }) {
   const run = station.value?.run;
-  // asked again when the run that is shown, or one that writes its offsets, makes a step or ends
+  // requested again when the displayed run, or one that writes its offsets, makes a step or ends
   const progress =
     run?.id === id || run?.of === id ? `running ${run.id} ${run.step}` : `ended ${station.value?.last?.id}`;
   const { value: result, trouble } = useLoaded(`${id} ${progress}`, () => calibration(id)).value;
@@ -47,7 +47,7 @@ function Result({ id }: { id: number }) {
   return result.method === "diagnosis" ? <Diagnosed result={result} /> : <Shown result={result} />;
 }
 
-/** With what the diagnosis found; the head is there before. */
+/** With the findings of the diagnosis; the head is shown before. */
 function Diagnosed({ result }: { result: Calibration }) {
   const { value: found, trouble } = useLoaded(`${result.id}`, () => diagnosis(result.id)).value;
   return (

@@ -5,9 +5,9 @@ import { colour, type Scale } from "./colours";
 
 const STEPS = 40;
 const WIDTH = 1000;
-/** Ticks nearer to each other than this would be printed over one another. */
+/** Ticks nearer to each other than this would overlap. */
 const APART = 0.06;
-/** From here on a mark's text stands before it: after it there is no room. */
+/** From here on a mark's text is before it: there is no space after it. */
 const RIGHT = 0.5;
 
 export function ScaleBar({ scale, limit }: { scale: Scale; limit: number | null }) {

@@ -1,4 +1,4 @@
-/** The one thing to do next, from what a run came to. */
+/** The recommended next step, from the result of a run. */
 import { fixed } from "../../format";
 import { t } from "../../messages";
 import { adviceText, readable } from "../../names";
@@ -16,19 +16,19 @@ export type Act =
 
 export interface Step {
   why: keyof typeof t.result.next;
-  /** Null where there is nothing to do. */
+  /** Null if there is nothing to do. */
   act: Act | null;
-  /** Beside what is said of every step of this kind. */
+  /** In addition to the text of every step of this kind. */
   more: string;
 }
 
 const THOROUGH: Plan = "full";
 const DIAGNOSTIC: Plan = "diagnostic";
-/** Of experiments that the station leads through. */
+/** Experiments that the station guides. */
 const PLAN_OF_EXPERIMENT: Record<string, Plan> = { second_mount: "two_mounts", joint_reference: "reference" };
 const PLANS = new Set(Object.keys(t.plans));
 
-/** The plan that carries an advice out; null where somebody has to measure something first. */
+/** The plan that implements an advice; null if a person has to measure first. */
 function planOf({ kind, joint }: Calibration["advice"][number], plan: string): Plan | null {
   if (kind === "repeat" && PLANS.has(plan)) return plan as Plan;
   if (kind === "second_mount") return "two_mounts";
@@ -40,7 +40,7 @@ const open = (why: Step["why"], to: string, more = ""): Step => ({ why, act: { d
 const start = (why: Step["why"], plan: Plan, more = ""): Step => ({ why, act: { do: "start", plan }, more });
 const nothing = (why: Step["why"], more = ""): Step => ({ why, act: null, more });
 
-/** @param experiments of the diagnosis, where there is one */
+/** @param experiments of the diagnosis, if there is one */
 export function nextStep(result: Calibration, experiments: readonly Experiment[] = []): Step {
   switch (result.state) {
     case "queued":
@@ -73,7 +73,7 @@ export function nextStep(result: Calibration, experiments: readonly Experiment[]
   }
 }
 
-/** The same once more; what belongs to another run is started from there. */
+/** The same request again; data of another run are entered there. */
 function again({ id, of, kind, plan }: Calibration): Step {
   if (kind === "gauge_study") return { why: "resume", act: { do: "resume" }, more: "" };
   if (kind === "retract") return open("again_there", "/");
@@ -128,7 +128,7 @@ function afterPass({ application }: Calibration): Step {
     : start("recalibrate", THOROUGH, readable(application.rollback_refused));
 }
 
-/** What gains most for each minute. */
+/** The advice with the largest gain per minute. */
 function raise(result: Calibration): Step {
   const [best] = result.advice;
   if (!best) return nothing("no_advice");

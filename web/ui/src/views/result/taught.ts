@@ -1,9 +1,9 @@
-/** Taught joint positions as they are typed or pasted: one a line, its name, then both angles in degrees. */
+/** Typed or pasted taught joint positions: one per line, its name, then both angles in degrees. */
 import type { TaughtPosition, TranslatedPosition } from "../../types";
 
 const HEAD = /^position\b/i;
 
-/** The positions, or the number of the first line that is none.  A line with column names may come first. */
+/** The positions, or the number of the first invalid line. A line with column names may come first. */
 export function taughtOf(text: string): { positions: TaughtPosition[]; wrong: number | null } {
   const positions: TaughtPosition[] = [];
   for (const [k, line] of text.split("\n").entries()) {

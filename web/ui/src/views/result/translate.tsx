@@ -1,4 +1,6 @@
-/** Positions taught under the zeros before this run, as the same physical positions under its zeros, and back. */
+/**
+ * Positions taught under the zeros before this run, as the same physical positions under its zeros, and back.
+ */
 import { useSignal } from "@preact/signals";
 import { translate } from "../../api";
 import { fixed } from "../../format";

@@ -3,7 +3,7 @@ import { t } from "../../messages";
 import { readable } from "../../names";
 import type { Calibration } from "../../types";
 
-/** The combination of parameters that the readings determine least, and what would help. */
+/** The combination of parameters that the readings determine least, and the remedies. */
 export function WeakDirection({ result: { weak_direction: weak } }: { result: Calibration }) {
   if (!weak?.text) return null;
   return (

@@ -45,7 +45,7 @@ export function ZeroOffsets({ result }: { result: Calibration }) {
   );
 }
 
-/** What was identified along with the offsets. */
+/** Parameters identified along with the offsets. */
 function OtherParameters({ parameters, valid }: { parameters: Quantity[]; valid: boolean }) {
   return (
     <table class={valid ? "others" : "others not-valid"}>

@@ -10,7 +10,7 @@ import { badge, makeFirst, PROVIDER, session, signIn, signInByBadge } from "../.
 const FIRST = "#first=";
 const REFUSED = "#refused=";
 
-/** Why the plant's provider has signed nobody in. */
+/** Why the plant's provider did not sign in anyone. */
 function refusedThere(): string {
   const why = location.hash.startsWith(REFUSED) ? location.hash.slice(REFUSED.length) : "";
   const known: Record<string, string> = t.signIn.refused;

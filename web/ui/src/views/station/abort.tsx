@@ -3,7 +3,7 @@ import { abort } from "../../api";
 import { connected, station } from "../../live";
 import { t } from "../../messages";
 
-/** Ends the run in progress.  Stop does the same and more; this is the quiet way. */
+/** Ends the active run. Stop does the same and more; this is the ordinary way. */
 export function AbortButton() {
   const trouble = useSignal<string | null>(null);
   const id = station.value?.run?.id ?? null;

@@ -4,10 +4,10 @@ import { t } from "../../messages";
 import { said } from "../../messages/said";
 import { useLoaded } from "../../parts/load";
 
-/** A failed check locks calibrated work; the operator must see it before anything else. */
+/** A failed check locks work with the calibration; the operator must see it before anything else. */
 export function CalibrationHolds() {
   const now = station.value;
-  // the feed has it in its snapshot only, and each run that ends may lock or unlock
+  // the feed has it only in its snapshot, and each run that ends may lock or unlock
   const { value } = useLoaded(`${now?.last?.id} ${now?.calibration?.text}`, calibrationHolds).value;
   const holds = value ?? now?.calibration;
   return (

@@ -1,11 +1,13 @@
-/** The workspace from above the table: positions planned, done and next, and where the robot stands. */
+/**
+ * The workspace from above the table: planned, completed and next positions, and the position of the robot.
+ */
 import { fixed } from "../../format";
 import { station } from "../../live";
 import { t } from "../../messages";
 import type { Run, RunStop } from "../../types";
 
 const MARGIN_MM = { left: 66, right: 30, top: 10, bottom: 30 };
-/** More positions than this are drawn smaller. */
+/** With more positions than this, they are drawn smaller. */
 const CROWDED = 12;
 
 export function WorkspaceMap({ run }: { run: Run | null }) {
@@ -65,7 +67,7 @@ export function WorkspaceMap({ run }: { run: Run | null }) {
   );
 }
 
-/** What its marks mean; beside the drawing, where each language has the room that it needs. */
+/** The meaning of its marks; beside the drawing, where each language has enough space. */
 export function MapKey() {
   return (
     <ul class="map-key" aria-hidden="true">

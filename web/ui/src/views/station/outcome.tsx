@@ -1,4 +1,4 @@
-/** How the last run ended; it stays until the next serial is scanned. */
+/** The end of the last run, shown until the next serial is scanned. */
 import { computed, signal } from "@preact/signals";
 import { station } from "../../live";
 import { t } from "../../messages";

@@ -6,10 +6,10 @@ import { t } from "../../messages";
 import { useLoaded } from "../../parts/load";
 import { plan, serial } from "./start";
 
-/** A plan is made anew for each serial: only for one that is typed to its end. */
+/** A plan is computed for each serial: only for a completely typed one. */
 const TYPED_MS = 300;
 
-/** How long the chosen plan takes and how good it gets, for a robot within its tolerances. */
+/** Duration and predicted accuracy of the chosen plan, for a robot within its tolerances. */
 export function PlanPromise() {
   const typed = serial.value.trim();
   const settled = useSignal(typed);

@@ -10,7 +10,10 @@ import { operator } from "../../operator";
 import { ConfirmedButton } from "../../parts/confirm";
 import { MotionWarning } from "../../parts/motion-warning";
 
-/** What a run that waits asks, with the field for its answer and the time that is left.  After it the robot moves. */
+/**
+ * The prompt of a waiting run, with the field for its answer and the remaining time. After it the robot
+ * moves.
+ */
 export function Prompt() {
   const run = station.value?.run;
   const prompt = run?.prompt ?? null;

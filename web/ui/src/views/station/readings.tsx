@@ -2,7 +2,7 @@ import { fixed, MISSING, micrometres, signedMicrometres } from "../../format";
 import { shownRun } from "../../live";
 import { t } from "../../messages";
 
-/** Reading by reading, the newest first, residual against its limit. */
+/** Reading by reading, newest first, residual against its limit. */
 export function Readings() {
   const readings = shownRun.value?.readings ?? [];
   return (

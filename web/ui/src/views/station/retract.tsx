@@ -6,7 +6,7 @@ import { keepOperator, operator } from "../../operator";
 import { ConfirmedButton } from "../../parts/confirm";
 import { OperatorField } from "../../parts/operator-field";
 
-/** The way back, offered while the arm stands outside its workspace. */
+/** The return into the workspace, offered while the arm is outside. */
 export function Retract() {
   const now = station.value;
   const idle = connected.value && !now?.run && operator.value.trim() !== "";

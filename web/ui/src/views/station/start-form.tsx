@@ -1,4 +1,4 @@
-/** Two steps to move the machine: Calibrate, then confirm.  A scan fills in fields; it starts nothing. */
+/** Two steps to move the machine: Calibrate, then confirm. A scan fills in fields; it starts nothing. */
 import type { Signal } from "@preact/signals";
 import type { ComponentChildren, RefObject } from "preact";
 import { useEffect, useRef } from "preact/hooks";
@@ -26,7 +26,7 @@ import {
 } from "./start";
 import { AccuracyField, References } from "./wish-fields";
 
-/** Scans that led on to what was missing. */
+/** Scans that moved the focus to the missing field. */
 let ledOn = 0;
 
 export function StartForm() {
@@ -47,13 +47,13 @@ export function StartForm() {
     ledOn = scans.value;
   }, [scans.value]);
   useEffect(() => {
-    // what had the focus may have been disabled by the run's start or end: what is typed next must not get lost
+    // the focused field may have been disabled by the run's start or end: the next input must not get lost
     if (document.activeElement === document.body || document.activeElement?.matches(":disabled")) {
       serialField.current?.focus();
     }
   }, [run?.id]);
 
-  /** Enter leads to the next field that is empty; it never starts anything. */
+  /** Enter moves to the next empty field; it never starts anything. */
   const entered = (event: SubmitEvent) => {
     event.preventDefault();
     trouble.value = null;

@@ -1,4 +1,4 @@
-/** What a start needs. */
+/** The input of a start. */
 import { computed, signal } from "@preact/signals";
 import { newKey, Refused, start } from "../../api";
 import { station } from "../../live";
@@ -11,16 +11,16 @@ import { forgetWishes, said } from "./wishes";
 export type StartField = "robot_serial" | "operator";
 
 export const serial = signal("");
-/** Null: none was chosen, the recommended one counts. */
+/** Null: none was chosen, the recommended one applies. */
 export const chosenPlan = signal<Plan | null>(null);
 export const plan = computed<Plan>(
   () => chosenPlan.value ?? (station.value?.station.recommended_plan as Plan | undefined) ?? "full",
 );
 export const trouble = signal<{ text: string; field: string | null } | null>(null);
-/** How many scans filled in a field: each one leads on to what is missing. */
+/** Number of scans that filled in a field: each one moves the focus to the missing field. */
 export const scans = signal(0);
 
-/** A scanned serial replaces what was there; what was measured at another robot does not hold for this one. */
+/** A scanned serial replaces the previous one; data measured at another robot are not valid for this one. */
 export function takeSerial(text: string): void {
   if (serial.value.trim() && serial.value.trim() !== text) forgetWishes();
   serial.value = text;
@@ -35,7 +35,7 @@ export function emptyField(): StartField | null {
   return operator.value.trim() ? null : "operator";
 }
 
-/** What has to be filled in or corrected first; null when nothing is missing. */
+/** What has to be filled in or corrected first; null if nothing is missing. */
 export function missing(): string | null {
   const field = emptyField();
   const text = field === "robot_serial" ? t.station.serialMissing : t.station.operatorMissing;
@@ -44,7 +44,7 @@ export function missing(): string | null {
   return trouble.value?.field ?? null;
 }
 
-/** As the fields are now. */
+/** The request from the present fields. */
 export const body = (): CalibrationBody => ({
   robot_serial: serial.value.trim(),
   plan: plan.value,

@@ -2,12 +2,12 @@ import { t } from "../../messages";
 import { trouble } from "./start";
 import { type Wish, wishes } from "./wishes";
 
-/** The position error that the robot may have at most; without one the tolerances decide. */
+/** The required accuracy of the robot; without one the tolerances decide. */
 export const AccuracyField = () => (
   <NumberField name="accuracy" label={t.station.accuracy} hint={t.station.optional} />
 );
 
-/** Behind a fold: few runs have any. */
+/** In a fold: few runs need them. */
 export function References() {
   return (
     <details class="references">

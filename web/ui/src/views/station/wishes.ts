@@ -1,8 +1,8 @@
-/** What may be said beside a start: the wanted accuracy, and what other instruments have measured. */
+/** Optional data of a start: the required accuracy, and measurements of other instruments. */
 import { signal } from "@preact/signals";
 import type { CalibrationBody } from "../../types";
 
-/** As typed in; all empty asks for nothing. */
+/** As typed; all empty means none. */
 export const wishes = {
   accuracy: signal(""),
   joint: signal("1"),
@@ -16,12 +16,12 @@ export type Wish = keyof typeof wishes;
 
 type Said = Pick<CalibrationBody, "until_mm" | "references">;
 
-/** References hold for one run of one robot. */
+/** References apply to one run of one robot. */
 export function forgetWishes(): void {
   for (const [name, field] of Object.entries(wishes)) field.value = name === "joint" ? "1" : "";
 }
 
-/** Names the fields that are half filled in or no numbers; null when the rest makes sense. */
+/** Names the fields that are incomplete or not numbers; null if the others are valid. */
 export function said(): { body: Said; wrong: Wish | null } {
   const body: Said = {};
   const missing = (names: Wish[]) => {
