@@ -60,7 +60,7 @@ def test_what_is_no_study(service: Service) -> None:
     ("arguments", "text"),
     [
         (["gauge-study", "1", "study.csv"], "one file, or the numbers of runs"),
-        (["gauge-study", "study.csv", "--pdf", "x.pdf"], "a file has none"),
+        (["gauge-study", "study.csv", "--pdf", "x.pdf"], "there is none for a file"),
         (["calibrate", "--study", "3x2"], "three numbers from 2 to 10"),
         (["calibrate", "--study", "3x2x2"], "--plan gauge_study"),
     ],

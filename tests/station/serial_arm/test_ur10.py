@@ -95,7 +95,7 @@ def test_diagnose_and_transfer_from_the_terminal(tmp_path: Path) -> None:
     assert page.read_text().count("<svg") > 10
     moved = CliRunner().invoke(main, ["transfer", str(LOGS / "series_b.csv"), "--model", str(model)])
     assert moved.exit_code == 0, moved.output
-    assert re.search(r"with the effects, unchanged\s+│ 0\.0\d+", moved.output)
+    assert re.search(r"with effects, unchanged\s+│ 0\.0\d+", moved.output)
     targets = tmp_path / "targets.csv"
     targets.write_text("x_mm,y_mm\n0,-700\n")
     refused = CliRunner().invoke(main, ["solve", str(targets), "--model", str(model)])
