@@ -8,6 +8,9 @@ from dataclasses import dataclass
 from station.simulation.clients import Client
 from station.simulation.witness import Witness
 
+_BEGINS = {"apply": "run.applied", "rollback": "run.rolled_back"}
+"""Audit action by kind of run. A roll-back may be answered with the application that rolled itself back."""
+
 
 @dataclass(frozen=True, slots=True, order=True)
 class Job:
@@ -59,7 +62,7 @@ class Request:
         """
         answer = self.client.send("POST", self.path, self.body, key=self.key)
         witness.answered(answer)
-        if answer.run:
+        if answer.run and _BEGINS.get(answer.body["kind"], "run.started") == self.action:
             witness.started_by(self.client.name, self.action, answer.run)
         if self.key is not None and answer.run:
             witness.started(self.key, answer.run)
