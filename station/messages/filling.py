@@ -25,7 +25,7 @@ def report_text(key: str, language: Language, **values: float | int | str) -> st
 
 def filled(template: str, params: dict[str, float | int | str], language: Language) -> str:
     """The template with its values in the format of the language. :raises KeyError: a value is missing."""
-    return template.format_map(params) if language == "en" else _Local(language).vformat(template, (), params)
+    return _Local(language).vformat(template, (), params)
 
 
 class _Local(Formatter):

@@ -13,6 +13,7 @@ from click.testing import CliRunner
 from station.cli import main
 from station.errors import InputRefused, NotApplicable, NotFound
 from station.five_bar.robot_file import Robot
+from station.messages import dependence_name
 from station.plans import make_plan
 from station.plans.diagnostic_sequence import FRESH_PLACES, diagnostic_fresh_stops
 from station.records import CalibrationResult, MeasurementSequence, PlanName, Reading, State
@@ -89,7 +90,8 @@ def test_what_the_catalogue_does_not_hold_fails_and_says_what_it_depends_on() ->
     assert result.verdict == "fail"
     assert result.diagnosis is not None
     assert result.diagnosis.hints
-    assert result.diagnosis.hints[0].depends_on in result.reason.text
+    depends_on = result.diagnosis.hints[0].depends_on
+    assert f"it depends on {dependence_name(depends_on, 'en')}" in result.reason.text
 
 
 @pytest.mark.parametrize("plan", ["paper", "rapid", "full"])
