@@ -39,18 +39,21 @@ class Pace:
 
         here, there, approach (..., 2): deg, and signs of the last motion, 0 where it does not matter.
         """
-        way = there - here
-        senses = last_senses(approach, way)
-        direct = np.abs(way).max(axis=-1)
-        detour = np.abs(way - senses * self.run_up_deg).max(axis=-1) + self.run_up_deg
-        return np.asarray(np.where(needs_run_up(senses, way, self.run_up_deg), detour, direct))
+        return self._leg(here, there, approach)[0]
 
     def duration_s(self, here: Real, there: Real, approach: Sides) -> Real:
         """(...,) duration of the motion and the reading at its end."""
+        return self._leg(here, there, approach)[1]
+
+    def _leg(self, here: Real, there: Real, approach: Sides) -> tuple[Real, Real]:
+        """(...,) travel and duration."""
         way = there - here
-        motions = 1 + needs_run_up(last_senses(approach, way), way, self.run_up_deg)
-        travel_s = self.travel_deg(here, there, approach) / self.speed_deg_s
-        return np.asarray(travel_s + motions * ARRIVAL_S + self.reading_s)
+        senses = last_senses(approach, way)
+        run_up = needs_run_up(senses, way, self.run_up_deg)
+        direct = np.abs(way).max(axis=-1)
+        detour = np.abs(way - senses * self.run_up_deg).max(axis=-1) + self.run_up_deg
+        travel_deg = np.where(run_up, detour, direct)
+        return travel_deg, travel_deg / self.speed_deg_s + (1 + run_up) * ARRIVAL_S + self.reading_s
 
     def along(self, theta_deg: Real, approach: Sides, start_deg: Real | None = None) -> tuple[Real, Real]:
         """(R,) travel and duration of each leg of a sequence theta_deg (R, 2); the first from `start_deg`.
@@ -58,7 +61,7 @@ class Pace:
         Without a start the first leg has zero length.
         """
         here = np.vstack([theta_deg[:1] if start_deg is None else start_deg, theta_deg[:-1]])
-        return self.travel_deg(here, theta_deg, approach), self.duration_s(here, theta_deg, approach)
+        return self._leg(here, theta_deg, approach)
 
 
 USUAL = Pace.of(LimitSettings())
