@@ -34,6 +34,7 @@ from station.five_bar.weak_direction import (
     describe_weak_direction,
     with_second_mount,
 )
+from station.five_bar.workspace import excess_mm
 
 __all__ = [
     "FIVE_BAR_MODEL",
@@ -63,6 +64,7 @@ __all__ = [
     "distance_by_joint",
     "distance_jacobian",
     "elbows",
+    "excess_mm",
     "forward",
     "inverse",
     "lengths",

@@ -8,18 +8,11 @@ from itertools import pairwise
 import numpy as np
 
 from station.errors import StepFailed
-from station.five_bar import Robot, Unreachable, forward
-from station.records import Angles, Complex, Real, Stop
+from station.five_bar import Robot, Unreachable, excess_mm, forward
+from station.records import Angles, Stop
 from station.settings import JointSettings, LimitSettings
 
 _POINTS_PER_LEG = 16
-
-
-def excess_mm(robot: Robot, places: Complex) -> Real:
-    """(K,) distance of positions (K,) outside the workspace; negative inside."""
-    (left, right), (low, high) = robot.workspace_x, robot.workspace_y
-    x, y = places.real, places.imag
-    return np.asarray(np.maximum.reduce([left - x, x - right, low - y, y - high]))
 
 
 def outside_text(robot: Robot, place: complex, margin_mm: float) -> str:

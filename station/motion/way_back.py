@@ -12,8 +12,7 @@ from collections.abc import Iterator
 import numpy as np
 
 from station.errors import StepFailed
-from station.five_bar import Robot, Unreachable, elbows, forward, inverse
-from station.motion.limits import excess_mm
+from station.five_bar import Robot, Unreachable, elbows, excess_mm, forward, inverse
 from station.records import Angles, Real
 
 INSET_MM = 5.0

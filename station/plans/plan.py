@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from station.errors import InputRefused
-from station.five_bar import Robot, inverse
+from station.five_bar import Robot, excess_mm, inverse
 from station.plans.duration import USUAL, Pace
 from station.plans.prediction import predict
 from station.records import Complex, PlanDocument, PlanName, PlannedStop, PlanPrediction, Real, Stop
@@ -124,13 +124,14 @@ class Plan:
 def _check_inside(name: PlanName, robot: Robot, positions: Complex) -> None:
     """:raises InputRefused: one of positions (K,) lies outside the workspace"""
     (x0, x1), (y0, y1) = robot.workspace_x, robot.workspace_y
-    for k, position in enumerate(positions.tolist(), start=1):
-        x, y = position.real, position.imag
-        if not (x0 - ROUNDING_MM <= x <= x1 + ROUNDING_MM and y0 - ROUNDING_MM <= y <= y1 + ROUNDING_MM):
-            raise InputRefused(
-                f"Position P{k} of the plan {name}, ({x:.1f}, {y:.1f}) mm, lies outside the workspace, "
-                f"x from {x0:g} to {x1:g} mm and y from {y0:g} to {y1:g} mm; use another plan for this robot."
-            )
+    outside = np.flatnonzero(~(excess_mm(robot, positions) <= ROUNDING_MM))
+    if outside.size:
+        k = int(outside[0])
+        x, y = positions[k].real, positions[k].imag
+        raise InputRefused(
+            f"Position P{k + 1} of the plan {name}, ({x:.1f}, {y:.1f}) mm, lies outside the workspace, "
+            f"x from {x0:g} to {x1:g} mm and y from {y0:g} to {y1:g} mm; use another plan for this robot."
+        )
 
 
 def make_plan(name: PlanName, robot: Robot, dtheta: Real | None = None, pace: Pace = USUAL) -> Plan:

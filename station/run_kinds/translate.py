@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from station.errors import NotApplicable
-from station.five_bar import Robot, pose, position_jacobian
+from station.five_bar import Robot, excess_mm, pose, position_jacobian
 from station.identification import zero_difference
 from station.motion import shift_of
 from station.records import Real, TaughtPosition, TranslatedPosition
@@ -117,11 +117,7 @@ def translated(
 
 
 def _within(robot: Robot, place: complex, degrees: Real, joints: Sequence[JointSettings]) -> bool:
-    (left, right), (low, high) = robot.workspace_x, robot.workspace_y
-    inside = (
-        left - MARGIN_MM <= place.real <= right + MARGIN_MM
-        and low - MARGIN_MM <= place.imag <= high + MARGIN_MM
-    )
+    inside = bool(excess_mm(robot, np.array([place]))[0] <= MARGIN_MM)
     reach = all(
         abs(float(angle) - joint.zero_at_deg) <= joint.reach_deg
         for angle, joint in zip(degrees, joints, strict=True)
