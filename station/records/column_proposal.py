@@ -29,6 +29,8 @@ from station.records.units import TO_CONTRACT, unit_in_name
 TURN = 2.0 * math.pi
 LONGEST_M = 15.0
 """A position without a larger coordinate is in metres: in millimetres machines are further away."""
+FURTHEST_M = 150.0
+"""So is one within the range of an instrument whose coordinates differ by less than LONGEST_M."""
 _MATRICES = (16, 12)
 
 
@@ -148,7 +150,8 @@ def _angle_unit(table: ForeignTable, names: Sequence[str]) -> str:
 
 
 def _length_unit(table: ForeignTable, names: Sequence[str]) -> str:
-    by_size = "m" if max(_largest(table, name) for name in names) < LONGEST_M else "mm"
+    furthest, spread = max(_largest(table, name) for name in names), max(_spread(table, n) for n in names)
+    by_size = "m" if furthest < LONGEST_M or (furthest < FURTHEST_M and spread < LONGEST_M) else "mm"
     own = names[0].startswith(("tracker_", "range_")) and names[0].endswith("_mm")
     return by_size if own else _unit(table, names[0], "mm") or by_size
 
@@ -175,6 +178,11 @@ def _counts(table: ForeignTable, name: str) -> bool:
 
 def _largest(table: ForeignTable, name: str) -> float:
     return max((abs(value) for value in _values(table, name)), default=0.0)
+
+
+def _spread(table: ForeignTable, name: str) -> float:
+    values = _values(table, name)
+    return max(values) - min(values)
 
 
 def _values(table: ForeignTable, name: str) -> list[float]:

@@ -77,7 +77,8 @@ def read_foreign(
     width = len(body[0][1]) if body else 0
     names, units = _names(above, width) if header is not False else ((), ())
     empty = {i for i in range(width) if not any(row[i] for _, row in body) and not (names and names[i])}
-    kept = [i for i in range(width) if i not in empty]
+    twice = _repeated(names, [row for _, row in body])
+    kept = [i for i in range(width) if i not in empty | twice]
     signs = signs_of((cell for _, row in body for cell in row), decimal)
     return ForeignTable(
         source,
@@ -124,6 +125,15 @@ def _names(above: list[Numbered], width: int) -> tuple[tuple[str, ...], tuple[st
     if len(fitting) > 1 and all(unit_in(cell) or not cell.strip("[]()- ") for cell in fitting[-1]):
         units = tuple(unit_in(cell) for cell in fitting.pop())
     return (tuple(fitting[-1]) if fitting else ()), units
+
+
+def _repeated(names: tuple[str, ...], rows: list[list[str]]) -> set[int]:
+    """Columns that have name and cells of an earlier one: exports repeat a selected channel."""
+    return {
+        i
+        for i, name in enumerate(names)
+        if name and (first := names.index(name)) < i and all(row[i] == row[first] for row in rows)
+    }
 
 
 def _fitted(row: list[str], width: int) -> list[str]:

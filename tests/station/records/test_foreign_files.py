@@ -135,6 +135,24 @@ def test_every_way_to_write_a_log_gives_the_same_readings(content: bytes) -> Non
     assert m.tracker == pytest.approx(PLACES, abs=1e-4)
 
 
+def test_a_column_that_an_export_repeats_is_taken_once() -> None:
+    rows = [f"{k};0,{k}1;0,{k}2;0,{k}3;{k},5;{k},6;{k},7;0,{k}1" for k in range(1, 9)]
+    table = read_foreign("\n".join(["Nr;q1;q2;q3;x;y;z;q1", *rows]).encode(), "twice.csv")
+    assert table.header == ("Nr", "q1", "q2", "q3", "x", "y", "z")
+    other = [row[:-1] + "9" for row in rows]
+    assert read_foreign("\n".join(["Nr;q1;q2;q3;x;y;z;q1", *other]).encode(), "twice.csv").header[-1] == "q1"
+
+
+def test_metres_are_recognised_far_from_the_instrument() -> None:
+    rows = [f"{k},0.{k}1,0.{k}2,0.{k}3,-16.{k},7.{k},28.{k}" for k in range(1, 9)]
+    table = read_foreign("\n".join(["seq,q1,q2,q3,x,y,z", *rows]).encode(), "far.csv")
+    assert 'tracker_mm = {columns = ["x", "y", "z"], unit = "m"}' in proposed_map(table)
+    # in mm the same place differs by more than any arm in metres does
+    rows = [f"{k},0.{k}1,0.{k}2,0.{k}3,-16{k},7{k},28{k}" for k in range(1, 9)]
+    table = read_foreign("\n".join(["seq,q1,q2,q3,x,y,z", *rows]).encode(), "near.csv")
+    assert 'tracker_mm = {columns = ["x", "y", "z"], unit = "mm"}' in proposed_map(table)
+
+
 def test_a_spreadsheet_says_when() -> None:
     assert read(spreadsheet()).t_s == pytest.approx([3 * k + k % 2 for k in range(9)])
 
