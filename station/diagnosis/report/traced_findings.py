@@ -135,7 +135,8 @@ class TracedFindings(Findings):
 
         Both are relative to the last model, the best available description of the machine.
         """
-        return position_errors(self.diagnosis.base, self.diagnosis.last, self._last_sd_factor)
+        d = self.diagnosis
+        return position_errors(d.base, d.last, self._last_sd_factor, d.fresh)
 
     @cached_property
     def true_position_errors(self) -> tuple[PositionError, PositionError] | None:

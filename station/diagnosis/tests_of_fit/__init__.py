@@ -11,6 +11,7 @@ from station.diagnosis.tests_of_fit.cross_validation import (
     left_without,
     predicted_by_others,
     without_a_quarter,
+    without_neighbours,
 )
 from station.diagnosis.tests_of_fit.smooth_departures import (
     Departure,
@@ -56,4 +57,5 @@ __all__ = [
     "turned",
     "whitened_residual",
     "without_a_quarter",
+    "without_neighbours",
 ]

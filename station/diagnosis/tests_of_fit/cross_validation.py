@@ -35,13 +35,27 @@ def folds(m: Measurements) -> Index:
 
     Each set-up is dealt out separately, so that none is missing on one side.
     """
+    return np.asarray(_blocks(m)[0] % FOLDS)
+
+
+def without_neighbours(found: Fit) -> Real:
+    """(R,) mm, measured less predicted by a fit without the block of neighbours; in long logs, the fold."""
+    mechanism = found.model.mechanism
+    m = mechanism.measurements
+    block, setup = _blocks(m)
+    group = folds(m) if len(m) >= LONG else block + setup * (int(block.max()) + 1)
+    return held_out_folds(found.solution, group[mechanism.reading_of_row]) * found.row_sd
+
+
+def _blocks(m: Measurements) -> tuple[Index, Index]:
+    """(K,) number of each reading's block of neighbours within its set-up, and (K,) the set-up."""
     out = np.zeros(len(m), dtype=np.intp)
     for s in range(len(m.setups)):
         own = np.flatnonzero(m.setup_index == s)
         _, first, place = np.unique(m.position[own], return_index=True, return_inverse=True)
         block = min(BLOCK, max(1, len(own) // (FOLDS * BLOCKS_A_FOLD)))
-        out[own] = first[place] // block % FOLDS
-    return out
+        out[own] = first[place] // block
+    return out, m.setup_index
 
 
 def without_a_quarter(m: Measurements) -> tuple[Measurements, Measurements]:
