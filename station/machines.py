@@ -205,6 +205,16 @@ def read_log(
         if np.isnan(readings.distance).any():
             raise InputRefused(f"{source}: row 1: column range_mm is missing; distances were asked for.")
         readings = replace(readings, tracker=None)
+    earlier = np.flatnonzero(np.diff(readings.t_s) < 0.0) + 1
+    if earlier.size:
+        log.warning(
+            "%s: t_s decreases at %d of %d rows, first at reading %s; the order of t_s is used, not that "
+            "of the rows.",
+            source,
+            len(earlier),
+            len(readings),
+            readings.ids[int(earlier[0])],
+        )
     return with_guesses(readings)
 
 

@@ -6,14 +6,23 @@ It is used for arms; a five-bar is diagnosed with the set of its explanations (`
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from station.diagnosis.decision import GOOD_SHARE, Decision, StageFigures, decide
 from station.diagnosis.readiness import check_enough, checked_fresh
-from station.diagnosis.search import Hint, Stage, Trace, hints, long_trace, trace, with_alias
+from station.diagnosis.search import (
+    Hint,
+    Stage,
+    Trace,
+    gross_readings,
+    hints,
+    long_trace,
+    trace,
+    with_alias,
+)
 from station.diagnosis.tests_of_fit import (
     Confirmation,
     WhitenedResidual,
@@ -120,13 +129,13 @@ def traced(
     if fresh is not None:
         fresh = checked_fresh(mechanism, fresh)
     effects = effects_of(mechanism) if effects is None else effects
-    kept = measurements
-    found = _trace(mechanism, effects)
-    left_out = found.left_out
+    gross = gross_readings(mechanism, tolerance_prior(mechanism))
+    kept = _without(measurements, gross)
+    found = _trace(mechanism.of(kept) if gross else mechanism, effects)
+    left_out = (*gross, *found.left_out)
     while found.outliers and len(left_out) < MOST_LEFT_OUT * len(measurements):
         left_out = (*left_out, *found.outliers)
-        named = {o.reading for o in found.outliers}
-        kept = kept.take(np.array([i not in named for i in kept.ids]))
+        kept = _without(kept, found.outliers)
         found = _trace(mechanism.of(kept), effects)
     checks: tuple[Confirmation, ...] = ()
     if fresh is not None:
@@ -147,13 +156,18 @@ def traced(
     )
 
 
+def _without(measurements: Measurements, off: Sequence[Outlier]) -> Measurements:
+    named = {o.reading for o in off}
+    return measurements.take(np.array([i not in named for i in measurements.ids]))
+
+
 def _confirmed(found: Trace, fresh: Measurements) -> tuple[Trace, tuple[Confirmation, ...]]:
     """Every stage against the fresh readings; they also decide between undecided causes."""
     base = found.stages[0].fit
     mechanism = base.model.mechanism
     checks = tuple(_check(base, stage, fresh) for stage in found.stages)
     if not found.findings or not found.adequate or checks[-1].confirmed or is_long(mechanism):
-        return found, checks
+        return _supported(found, checks)
     for at, finding in enumerate(found.findings):
         for alias in finding.aliases:
             try:
@@ -163,7 +177,15 @@ def _confirmed(found: Trace, fresh: Measurements) -> tuple[Trace, tuple[Confirma
             check = _check(base, other.stages[-1], fresh)
             if other.adequate and check.confirmed:
                 return other, (*(_check(base, stage, fresh) for stage in other.stages[:-1]), check)
-    return found, checks
+    return _supported(found, checks)
+
+
+def _supported(found: Trace, checks: tuple[Confirmation, ...]) -> tuple[Trace, tuple[Confirmation, ...]]:
+    """Without the last effects, if the fresh readings are predicted no better with them."""
+    count = len(checks)
+    while count > 1 and checks[count - 1].rms_mm >= checks[count - 2].rms_mm:
+        count -= 1
+    return replace(found, stages=found.stages[:count], findings=found.findings[: count - 1]), checks[:count]
 
 
 def _check(base: Fit, stage: Stage, fresh: Measurements) -> Confirmation:

@@ -15,15 +15,23 @@ from typing import ClassVar
 import numpy as np
 
 from station.mechanism import Conditions, Observation
-from station.records import Flags, Index, Quantity, Real
+from station.records import Flags, Index, Motion, Quantity, Real
 
 
 @dataclass(frozen=True)
 class Acts:
-    """Where an effect acts: on joint (index), else on lengths (parameter name: mm), else on the reading."""
+    """Where an effect acts: on joint (index), on lengths (parameter name: mm), on all joints along their
+    motion, else on the reading.
+    """
 
     joint: int | None = None
     lengths: Mapping[str, float] | None = None
+    motion: Motion | None = None
+
+    @property
+    def turns(self) -> bool:
+        """Whether it changes joint angles."""
+        return self.joint is not None or self.motion is not None
 
 
 ON_READING = Acts()
@@ -142,6 +150,8 @@ def weight(acts: Acts, at: Observation, names: tuple[str, ...]) -> Real:
     """(R,) effect of one unit of a basis on each row of a prediction, mm."""
     if acts.joint is not None:
         return at.by_joint[:, acts.joint]
+    if acts.motion is not None:
+        return at.by_motion[acts.motion]
     if acts.lengths is not None:
         strain = sum(at.by_parameter[:, names.index(n)] * mm for n, mm in acts.lengths.items())
         return np.asarray(strain)

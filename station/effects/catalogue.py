@@ -10,6 +10,7 @@ from station.effects.compliance import Compliance
 from station.effects.count_slip import CountSlip
 from station.effects.cyclic import EncoderEccentricity, GearCyclic
 from station.effects.gear_curve import GearCurve
+from station.effects.lag import Delay, JointLag, Lag
 from station.effects.lengths import JointClearance, LinkLength
 from station.effects.scale import ScaleBow, ScaleCyclic, ScaleGain, ScaleHysteresis
 from station.effects.time import Drift, ThermalGrowth, ThermalLinks
@@ -43,13 +44,13 @@ def arm_catalogue(
     timed: the log contains the time of each reading; warmed: it contains temperatures. sliding: joints that
     slide; effects in degrees do not apply to them.
     """
-    effects = [e for e in (*PER_JOINT, GearCurve) if timed or e is not CountSlip]
+    effects = [e for e in (*PER_JOINT, GearCurve, JointLag) if timed or e is not CountSlip]
     at_joints = tuple(
         effect(joint)
         for effect in effects
         for joint in range(1, joints + 1)
-        if joint not in sliding or effect is TransmissionGain
+        if joint not in sliding or effect in (TransmissionGain, JointLag)
     )
     growth = (ThermalLinks(), *((ThermalGrowth(),) if by_range else ())) if timed or warmed else ()
     drift = (Drift(),) if timed and by_range else ()
-    return (*at_joints, *growth, *((ScaleGain(),) if by_range else ()), *drift)
+    return (*at_joints, Lag(), Delay(timed=timed), *growth, *((ScaleGain(),) if by_range else ()), *drift)

@@ -12,7 +12,15 @@ from station.fitting.accuracy import (
     position_error_summary,
     rms_and_max,
 )
-from station.fitting.least_squares import BLIND, NotConvergedError, Prior, Residuals, Solution, solve
+from station.fitting.least_squares import (
+    BLIND,
+    MAX_STEPS,
+    NotConvergedError,
+    Prior,
+    Residuals,
+    Solution,
+    solve,
+)
 from station.fitting.linear import positive, solved
 from station.fitting.noise import (
     FEWEST_REPEATS,
@@ -38,6 +46,7 @@ from station.fitting.separability import describe_separability
 __all__ = [
     "BLIND",
     "FEWEST_REPEATS",
+    "MAX_STEPS",
     "MINIMUM_DOF",
     "REFUSED_P",
     "ErrorFields",

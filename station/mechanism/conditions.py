@@ -50,6 +50,10 @@ class Conditions:
     """(K, n) sign of the load along each distal link: +1 in tension."""
     load: tuple[Real, ...]
     """(K, q) per joint: gravity's moment about it, one column for each mass, 1 when horizontal."""
+    step: Real | None = None
+    """(K, n) motion of each joint from the previous reading, rad; None if it is of no interest."""
+    speed: Real | None = None
+    """(K, n) speed of each joint as it was read, rad/s, if it moved from reading to reading."""
 
     def __len__(self) -> int:
         return len(self.t_s)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
+from types import MappingProxyType
 from typing import Literal, NamedTuple
 
-from station.records import Real
+from station.records import Motion, Real
 
 Role = Literal["zero_offset", "geometry", "mechanism", "placement", "reading_offset"]
 """The owner of a parameter: a joint's zero, the robot, the measuring mechanism, the placement of robot and
@@ -40,3 +42,5 @@ class Observation(NamedTuple):
     """(R, P)"""
     by_joint: Real
     """(R, n) mm/rad"""
+    by_motion: Mapping[Motion, Real] = MappingProxyType({})
+    """(R,) mm for a unit of the motion of all joints, where the mechanism knows it."""

@@ -10,7 +10,7 @@ import numpy as np
 from scipy.linalg import block_diag
 
 from station.effects import Acts, Effect, signature
-from station.fitting import Prior, Solution, solve
+from station.fitting import MAX_STEPS, Prior, Solution, solve
 from station.mechanism import Conditions, Mechanism, Observation, Reference
 from station.records import Index, Real
 
@@ -90,19 +90,21 @@ class Model:
         value, columns = at.value, [at.by_parameter]
         for term, basis, a in zip(self.terms, bases, amplitudes, strict=True):
             column = signature(term.acts, basis, at, self.names, rows)
-            if term.acts.joint is None:
+            if not term.acts.turns:
                 value = value + column @ a
             columns.append(column)
-        return Observation(value, np.hstack(columns), at.by_joint)
+        return Observation(value, np.hstack(columns), at.by_joint, at.by_motion)
 
     def turned(self, x: Real, bases: list[Real]) -> Real:
         """(K, n) joint angles including the effects on joints, rad."""
         theta = self.mechanism.theta
-        if any(term.acts.joint is not None for term in self.terms):
+        if any(term.acts.turns for term in self.terms):
             theta = theta.copy()
             for term, basis, a in zip(self.terms, bases, self._split(x), strict=True):
                 if term.acts.joint is not None:
                     theta[:, term.acts.joint] += basis @ a
+                elif term.acts.motion is not None:
+                    theta += (basis @ a)[:, None] * self.mechanism.measurements.motion(term.acts.motion)
         return theta
 
     def _split(self, x: Real) -> list[Real]:
@@ -175,7 +177,13 @@ def is_long(mechanism: Mechanism) -> bool:
     return len(mechanism.row_sd) > (LONG_ROWS if mechanism.needs_repeats else LONG_WITHOUT_REPEATS)
 
 
-def fit(model: Model, base_prior: Prior, row_sd: Real, start: Real | None = None) -> Fit:
+def fit(
+    model: Model,
+    base_prior: Prior,
+    row_sd: Real,
+    start: Real | None = None,
+    most_steps: int = MAX_STEPS,
+) -> Fit:
     """Fit all unknowns of a model from `start`; by default from the start of the mechanism, without effects.
 
     :raises NotConvergedError: the fit does not converge.
@@ -193,9 +201,9 @@ def fit(model: Model, base_prior: Prior, row_sd: Real, start: Real | None = None
             J /= row_sd[:, None]  # in place: for a long log it is large
             return (at.value - measured) / row_sd, J
 
-        solution = solve(residuals, x, prior)
+        solution = solve(residuals, x, prior, most_steps)
         x = solution.x
-        if not model.terms:
+        if not model.terms or not solution.complete:
             break
         before = model.observe(x, bases).value
         bases = model.bases(model.conditions(x[: model.base_size]))

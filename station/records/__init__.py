@@ -98,7 +98,7 @@ from station.records.measurement_file import (
     readings_to_csv,
     recorded_columns,
 )
-from station.records.measurements import Measurements, from_readings, number
+from station.records.measurements import MOTIONS, Measurements, Motion, from_readings, number
 from station.records.names import checked_name, checked_serial
 from station.records.people import (
     STATION,
@@ -191,6 +191,7 @@ __all__ = [
     "LIMIT_SDS",
     "MIXTURE_SCHEMA",
     "MODEL_SCHEMA",
+    "MOTIONS",
     "STATION",
     "TIME",
     "Accuracy",
@@ -283,6 +284,7 @@ __all__ = [
     "MistakeRecord",
     "MixtureDocument",
     "ModelDocument",
+    "Motion",
     "MountingError",
     "NoiseOfReadings",
     "Outcome",

@@ -11,6 +11,7 @@ from typing import Annotated, Literal
 from pydantic import ConfigDict, Field
 
 from station.records.accuracy import PositionError, WeakDirection
+from station.records.measurements import Motion
 from station.records.phrases import Phrase
 from station.records.quantity import Quantity
 from station.records.record import Record
@@ -175,7 +176,9 @@ class TermOfModel(_Finite):
     """Label in the catalogue."""
     on_joint: Annotated[int, Field(ge=1)] | None
     on_lengths: dict[str, float] | None
-    """mm per unit of strength; if this and the joint are null, it acts on the reading."""
+    """mm per unit of strength."""
+    on_motion: Motion | None = None
+    """Along the motion of all joints; if this, lengths and joint are null, it acts on the reading."""
     hidden: dict[str, float]
     amplitudes: Annotated[tuple[float, ...], Field(min_length=1)]
 

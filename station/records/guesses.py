@@ -8,6 +8,7 @@ import numpy as np
 
 from station.messages import Language, certificate_text, report_text
 from station.records.measurements import Measurements
+from station.records.motion_between import order_of_time, speeds, steps
 from station.records.types import Index, Real
 
 STILL_RAD = 1e-4
@@ -26,13 +27,18 @@ def with_guesses(m: Measurements) -> Measurements:
     """The same readings, with missing approaches and positions inferred and marked as guessed."""
     guessed = []
     m = replace(m, theta=_unwrapped(m.theta))
+    timed = not counts_rows(m.t_s)
+    m = replace(m, step=steps(m), speed=speeds(m, m.t_s if timed else np.arange(len(m), dtype=float)))
     if not m.approach.any():
-        m = replace(m, approach=_approaches(m.theta))
+        order = order_of_time(m)
+        approach = np.empty_like(m.approach)
+        approach[order] = _approaches(m.theta[order])
+        m = replace(m, approach=approach)
         guessed.append("approach")
     if len(np.unique(m.position)) == len(m):
         m = replace(m, position=_places(m.theta))
         guessed.append("position")
-    if counts_rows(m.t_s):
+    if not timed:
         guessed.append(TIME)
     return replace(m, guessed=tuple(guessed))
 

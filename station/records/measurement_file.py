@@ -195,8 +195,6 @@ def _measurements(table: Table, columns: Columns) -> Measurements:
         raise table.refuse(
             int(backwards[0]) + 1, "t_s", "time runs backwards; put the rows in the order they were measured."
         )
-    if backwards.size:
-        log.warning("%s: time runs backwards at row %d.", table.source, table.lines[int(backwards[0]) + 1])
     joints = np.column_stack([table.numbers(name) for name in columns.theta])
     mount, mounts = number(table.text("mount") if table.has("mount") else [""] * len(ids))
     setup, setups = number(table.text("setup") if table.has("setup") else [""] * len(ids))

@@ -8,7 +8,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from typing import Any
+from typing import Any, Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,10 @@ from numpy.typing import NDArray
 from station.records.reading import Reading
 from station.records.scale_resolution import scale_resolution_mm
 from station.records.types import Flags, Index, Real
+
+Motion = Literal["step", "speed"]
+"""From the previous reading, or through a reading."""
+MOTIONS: tuple[Motion, ...] = get_args(Motion)
 
 
 @dataclass(frozen=True)
@@ -56,6 +60,13 @@ class Measurements:
     omitted, and retained by `take`, so that excluding a reading does not change another's history.
     """
 
+    step: Real | None = None
+    """(K, n) motion of each joint from the previous reading in time, 0 if unknown; of an arm's log, and
+    retained by `take`, as is
+    """
+    speed: Real | None = None
+    """(K, n) speed of each joint between the neighbouring readings, rad/s (rad per row without times)."""
+
     def __post_init__(self) -> None:
         if self.came_from is None:
             here = np.column_stack([self.theta, self.distance])
@@ -78,6 +89,11 @@ class Measurements:
             if isinstance(value := getattr(self, f.name), np.ndarray)
         }
         return replace(self, ids=tuple(self.ids[k] for k in index), **taken)
+
+    def motion(self, kind: Motion) -> Real:
+        """(K, n) step or speed; 0 if unknown."""
+        known = self.step if kind == "step" else self.speed
+        return np.zeros_like(self.theta) if known is None else known
 
     @property
     def setup_index(self) -> Index:

@@ -14,15 +14,20 @@ import numpy as np
 from station.errors import InputRefused
 from station.fitting import NotConvergedError, Prior, solve
 from station.mechanism import Conditions, Observation, Parameter, Reference, temperature_rise
-from station.records import Complex, Index, Measurements, Real
+from station.records import MOTIONS, Complex, Index, Measurements, Motion, Real
 from station.serial_arm.dh import LINK_ERRORS, MM, Reach, reach
 from station.serial_arm.placement import DEGREES, Placement
 from station.serial_arm.robot_file import ARM_MODEL, Arm
+from station.serial_arm.suspected import wrong_entry
 
 METRES = 0.02
 """Maximum length of an arm, in metres, that contains every target."""
 MISFIT = 0.03
 """Misfit over the arm's length beyond which angles and positions belong to different machines."""
+UNKNOWN_ENTRY = (
+    "; check the robot file (a_mm, d_mm, alpha_deg, offset_deg, convention), the unit of the readings, and "
+    "sign and order of the joints."
+)
 _OTHERS = LINK_ERRORS[1:]
 """Errors of a link beside the zero offset of its joint; for a sliding joint the zero is along z,"""
 _OTHERS_SLIDING = ("theta", *LINK_ERRORS[2:])
@@ -130,10 +135,10 @@ class SerialArm:
                 "(`station columns` proposes one, for `--columns`)."
             )
         if not off < MISFIT * size:
+            entry = wrong_entry(self.robot, m, off, lambda arm, read: SerialArm(arm, read)._nominal_misfit())
             raise InputRefused(
                 f"Angles and readings do not belong together: half of the readings are {off:.0f} mm or more "
-                f"off an arm of {size:.0f} mm; check the robot file (a_mm, d_mm, alpha_deg, offset_deg, "
-                "convention), the unit of the readings, and sign and order of the joints."
+                f"off an arm of {size:.0f} mm{entry or UNKNOWN_ENTRY}"
             )
 
     def _nominal_misfit(self) -> float:
@@ -169,7 +174,7 @@ class SerialArm:
             rho = np.linalg.norm(lam, axis=1)
             along = lam / rho[:, None]
             by_parameter = np.hstack([np.einsum("ki,kip->kp", along, own), place.of_setups(-along)])
-            return Observation(rho, by_parameter, by_parameter[:, :n])
+            return Observation(rho, by_parameter, by_parameter[:, :n], self._by_motion(by_parameter[:, :n]))
         arm, by_setup = np.empty((count, 3)), np.empty((count, 3, 6))
         by_setup[:, :, :3] = np.eye(3)
         for s, rows in enumerate(place.rows):
@@ -179,7 +184,12 @@ class SerialArm:
             by_setup[rows, :, 3:] = np.stack([np.cross(axis, arm[rows]) for axis in axes], axis=2)
         by_parameter = np.concatenate([own, place.of_setups(by_setup)], axis=2).reshape(3 * count, -1)
         seen = setups[place.setup, :3] + arm
-        return Observation(seen.ravel(), by_parameter, by_parameter[:, :n])
+        by_joint = by_parameter[:, :n]
+        return Observation(seen.ravel(), by_parameter, by_joint, self._by_motion(by_joint))
+
+    def _by_motion(self, by_joint: Real) -> dict[Motion, Real]:
+        m, rows = self.measurements, self.reading_of_row
+        return {kind: np.sum(by_joint * m.motion(kind)[rows], axis=1) for kind in MOTIONS}
 
     def conditions(self, p: Real, reference: Reference, *, first: bool) -> Conditions:
         """The conditions of the readings; there is no slider, and `first` makes no difference."""
@@ -204,6 +214,8 @@ class SerialArm:
             lengths={name: float(mm) for name, mm in lengths.items() if mm},
             pull=np.zeros_like(theta),
             load=self._load(theta),
+            step=m.motion("step"),
+            speed=m.motion("speed"),
         )
 
     def implausible(self, p: Real) -> str:

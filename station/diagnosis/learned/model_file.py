@@ -72,6 +72,7 @@ def model_document(
                 effect=term.effect.label,
                 on_joint=None if term.acts.joint is None else term.acts.joint + 1,
                 on_lengths=None if term.acts.lengths is None else dict(term.acts.lengths),
+                on_motion=term.acts.motion,
                 hidden=dict(term.hidden),
                 amplitudes=tuple(fit.amplitudes(k)[0].tolist()),
             )
@@ -191,5 +192,5 @@ def _term(part: TermOfModel, effects: Sequence[Effect], source: str) -> Term:
     effect = next((e for e in effects if e.label == part.effect), None)
     if effect is None:
         raise InputRefused(f"Model {source}: [model.terms] effect {part.effect!r} is not in the catalogue.")
-    acts = Acts(None if part.on_joint is None else part.on_joint - 1, part.on_lengths)
+    acts = Acts(None if part.on_joint is None else part.on_joint - 1, part.on_lengths, part.on_motion)
     return Term(effect, part.hidden, acts, len(part.amplitudes))

@@ -30,6 +30,8 @@ HOPEFUL = 0.02
 """Unless it leaves only this share: a large effect is not quite linear."""
 MOST_ALTERNATIVES = 6
 MOST_POLISHING = 8
+MOST_STEPS = 40
+"""Steps of a fit with a candidate: one that needs more does not suit the readings."""
 TRIED_TOGETHER = 2 * MOST_ALTERNATIVES
 """Number of candidates compared for an effect to be added; if none helps, the same number after them."""
 HELPFUL = 0.995
@@ -147,7 +149,7 @@ def _with_candidate(scan: Scan, candidate: Candidate, prior: Prior) -> Fit:
     current = scan.fit
     model = replace(current.model, terms=(*current.model.terms, candidate.term()))
     # not from the current fit: without the effect the base parameters may be far off
-    return fit(model, prior, current.row_sd)
+    return fit(model, prior, current.row_sd, most_steps=MOST_STEPS)
 
 
 def _reconsidered(
@@ -290,8 +292,11 @@ def _add(
     _, winner, better = fits[0]
     unit = _noise_square(better.cost, better.dof - winner.size)
     aliases: dict[tuple[str, int | None], Term] = {}
+    # where the model does not fit yet, a cost says too much: of one joint, left-out readings decide as well
+    most_mm = left_out_rms(better) / HELPFUL
     for _, c, refit in fits[1:]:
-        if (refit.cost - better.cost) / unit < ALIAS + 2.0 * (winner.freedom - c.freedom):
+        as_good = (refit.cost - better.cost) / unit < ALIAS + 2.0 * (winner.freedom - c.freedom)
+        if as_good or (c.effect.joint == winner.effect.joint and left_out_rms(refit) < most_mm):
             aliases.setdefault(c.term().key, c.term())
     aliases.pop(winner.term().key, None)
     return Finding(winner.term(), winner.p_value, tuple(aliases.values())), better

@@ -123,3 +123,40 @@ def test_readings_that_an_effect_moves_are_no_reason_to_refuse_a_log() -> None:
     assert fit.outliers == ()
     assert not fit.adequate
     assert fit.sd_factor > 2.0
+
+
+def test_one_gross_reading_of_a_short_log_is_named_though_a_plain_fit_bends_to_it() -> None:
+    arm = random_arm(UR_LIKE, 31)
+    arm.noise_mm = 0.005
+    m = arm.log(random_poses(6, 50, 31, 60.0), 31)
+    assert m.tracker is not None
+    tracker = m.tracker.copy()
+    tracker[18] += [12.0, -35.0, -14.0]
+    result = traced(arm.robot, replace(m, tracker=tracker))
+    assert [o.reading for o in result.outliers] == [19]
+    assert result.trace.adequate
+
+
+def test_the_error_predicted_on_a_path_is_that_of_the_stretches_left_out() -> None:
+    """A pose between two others of the path is predicted too well; a stretch without readings is not."""
+    ratios = []
+    for seed in range(4):
+        arm = random_arm(UR_LIKE, 40 + seed)
+        t = np.arange(70.0)
+        rates = np.random.default_rng(seed).uniform(0.05, 0.25, 6)
+        poses = np.sin(np.outer(t, rates) + np.arange(6))
+        result = TracedFindings(traced(arm.robot, *without_a_quarter(arm.log(poses, seed))))
+        left_out = result.stages[-1].confirm_rms_mm
+        assert left_out is not None
+        ratios.append(result.position_errors[1].rms / left_out)
+    assert 1 / 1.5 < np.exp(np.mean(np.log(ratios))) < 1.5
+
+
+def test_an_effect_that_fresh_readings_do_not_support_is_not_reported() -> None:
+    """The fresh readings come from a machine without the effect."""
+    arm = random_arm(UR_LIKE, 51, j2=ripple(0.01, 20.0))
+    learned = arm.log(random_poses(6, 110, 51), 51)
+    arm.effects = {}
+    result = TracedFindings(traced(arm.robot, learned, arm.log(random_poses(6, 40, 52), 52)))
+    assert result.effects == ()
+    assert result.decision.confirmed is not True

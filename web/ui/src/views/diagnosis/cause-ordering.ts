@@ -11,6 +11,8 @@ const OF_EFFECT: Record<string, string[]> = {
   transmission_gain: ["joint{joint}"],
   compliance: ["joint{joint}", POSITION],
   count_slip: ["time"],
+  lag: ["order"],
+  delay: ["order"],
   link_length: [POSITION],
   scale_gain: ["travel"],
   scale_bow: ["travel"],
