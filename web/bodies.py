@@ -24,6 +24,7 @@ from station.records import (
     LARGEST_ID,
     AnyReference,
     CalibrationSummary,
+    Measured,
     MemorySummary,
     Positive,
     Reading,
@@ -76,6 +77,10 @@ Plan = Annotated[
 ]
 
 
+LONGEST_MAP = 20_000
+"""Characters of a column map."""
+
+
 class Body(StrictNumbers):
     """A request body: unknown fields are refused."""
 
@@ -121,6 +126,17 @@ class DatasetFields(Body):
     )
     operator: Name = "REST"
     work_order: Name | None = None
+    columns: str | None = Field(
+        default=None,
+        max_length=LONGEST_MAP,
+        description="column map (TOML) of a file from other software, as `station columns` proposes it",
+    )
+    measured: Measured = Field(
+        default="position", description="which measurement to use if the log of an arm contains both"
+    )
+    hold_out: bool = Field(
+        default=False, description="hold a quarter of an arm's log out of the fit and test the causes with it"
+    )
 
 
 class ApplyBody(Body):

@@ -12,7 +12,7 @@ from station.run_kinds import (  # noqa: F401 - they register themselves
     separate,
 )
 from station.run_kinds.adaptive import adaptive_run, fit_in_sequence, memory_test
-from station.run_kinds.arm_log import ArmLog, import_log, import_measured
+from station.run_kinds.arm_log import ArmLog, Sent, import_log, import_measured
 from station.run_kinds.calibrate import measured_and_verified
 from station.run_kinds.check import check_run
 from station.run_kinds.diagnose import diagnosed, diagnostic
@@ -33,6 +33,7 @@ __all__ = [
     "Continued",
     "JointStudied",
     "RunKind",
+    "Sent",
     "Start",
     "StationGauge",
     "Upload",

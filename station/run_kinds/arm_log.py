@@ -6,10 +6,13 @@ import json
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass, replace
 
+from pydantic import JsonValue
+
 from station.diagnosis import Findings, diagnose, findings_of, page, residuals, without_a_quarter
 from station.errors import InputRefused, NotFound
 from station.machines import read_log, robot_of
 from station.records import (
+    FIVE_BAR,
     STATION,
     Actor,
     CalibrationRequest,
@@ -19,9 +22,12 @@ from station.records import (
     ImportedLog,
     KeptLog,
     LogDocuments,
+    LogPart,
+    Measured,
     Measurements,
     Residual,
     Submitted,
+    translated,
 )
 from station.run_kinds.diagnose import METHOD, stage_accuracy
 from station.run_kinds.import_file import MOST_READINGS, Upload, import_dataset
@@ -40,6 +46,32 @@ class ArmLog:
     """Whether a quarter of the file confirms the model learned from the other readings."""
 
 
+@dataclass(frozen=True, slots=True)
+class Sent:
+    """A file of either kind of machine as it was sent, and how to read it."""
+
+    file: Upload
+    fresh: Upload | None = None
+    mapping: ColumnMap | None = None
+    """Column map of a file from other software."""
+    measured: Measured = "position"
+    hold_out: bool = False
+
+    def kept(self, part: LogPart, upload: Upload) -> KeptLog:
+        """One of the files, as the history keeps it."""
+        return KeptLog(part, upload.name, upload.content, self._columns, self.measured)
+
+    def translated(self, upload: Upload) -> Upload:
+        """One of the files with the columns of a five-bar's measurement file."""
+        if self.mapping is None:
+            return upload
+        return Upload(upload.name, translated(upload.content, self.mapping, FIVE_BAR, upload.name).content)
+
+    @property
+    def _columns(self) -> str:
+        return "" if self.mapping is None else self.mapping.model_dump_json(exclude_defaults=True)
+
+
 def import_log(
     store: Store,
     request: CalibrationRequest,
@@ -55,9 +87,7 @@ def import_log(
     :raises KeyReused: the key was used for another request or other files.
     """
     files = [part for part in (log.file, log.fresh) if part is not None]
-    request = replace(
-        request, metadata={part.part: {"name": part.name, "sha256": part.sha256} for part in files}
-    )
+    request = replace(request, metadata={part.part: _described(part, log) for part in files})
     body_hash = request_hash(request)
     if idempotency_key is not None:
         known = store.find_key(idempotency_key, body_hash)
@@ -81,8 +111,7 @@ def import_log(
 def import_measured(
     store: Store,
     request: CalibrationRequest,
-    learned: Upload,
-    fresh: Upload | None,
+    sent: Sent,
     *,
     idempotency_key: str | None = None,
     by: Actor = STATION,
@@ -94,16 +123,33 @@ def import_measured(
     """
     arm = _kept_arm(store, request.robot_serial)
     if arm is None:
+        if sent.hold_out:
+            raise InputRefused("`hold_out` is for logs of arms; a five-bar needs fresh readings.")
+        learned = sent.translated(sent.file)
+        fresh = None if sent.fresh is None else sent.translated(sent.fresh)
         return import_dataset(store, request, learned, fresh, idempotency_key=idempotency_key, by=by)
-    file = KeptLog("file", learned.name, learned.content)
-    judging = None if fresh is None else KeptLog("fresh", fresh.name, fresh.content)
+    file = sent.kept("file", sent.file)
+    judging = None if sent.fresh is None else sent.kept("fresh", sent.fresh)
     rows = sum(log.content.count(b"\n") for log in (file, judging) if log is not None)
     if rows > 2 * MOST_READINGS:
         raise InputRefused(
-            f"{learned.name}: {rows} rows; over the network at most {2 * MOST_READINGS} of an arm are "
+            f"{sent.file.name}: {rows} rows; over the network at most {2 * MOST_READINGS} of an arm are "
             "diagnosed at once. Import larger logs with `station import`."
         )
-    return import_log(store, request, ArmLog(arm, file, judging), idempotency_key=idempotency_key, by=by)
+    log = ArmLog(arm, file, judging, sent.hold_out)
+    return import_log(store, request, log, idempotency_key=idempotency_key, by=by)
+
+
+def _described(part: KeptLog, log: ArmLog) -> dict[str, JsonValue]:
+    """What a repeated request must have in common, beside the robot and the person."""
+    out: dict[str, JsonValue] = {"name": part.name, "sha256": part.sha256}
+    if part.columns:
+        out["columns"] = part.columns
+    if part.measured != "position":
+        out["measured"] = part.measured
+    if log.hold_out:
+        out["hold_out"] = True
+    return out
 
 
 def _kept_arm(store: Store, serial: str) -> Arm | None:

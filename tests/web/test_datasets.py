@@ -294,3 +294,34 @@ def test_the_log_of_an_arm_is_imported_once_its_robot_file_is_kept(service: Serv
     assert service.client.get(f"{address}/separating").json()["refused"]
     # and the rig does not start a run of it
     assert service.start(robot_serial="A6").status_code == 409
+
+
+MAP = """
+decimal = ","
+[columns]
+theta_deg = {columns = ["q1", "q2", "q3", "q4", "q5", "q6"], unit = "rad"}
+tracker_mm = {columns = ["x", "y", "z"], unit = "m"}
+"""
+
+
+def test_the_log_of_an_arm_from_other_software_is_imported_with_a_column_map(service: Service) -> None:
+    arm = random_arm(UR_LIKE, 32)
+    m = arm.log(random_poses(6, 60, 32), 32)
+    assert m.tracker is not None
+    rows = np.column_stack([m.theta, m.tracker / 1000.0]).tolist()
+    lines = [
+        "q1;q2;q3;q4;q5;q6;x;y;z",
+        *(";".join(f"{x:.9f}" for x in row).replace(".", ",") for row in rows),
+    ]
+    content = "\n".join(lines).encode()
+    service.client.put("/api/v1/robots/A6", json=arm.robot.to_json())
+    who: dict[str, Any] = {"robot_serial": "A6", "operator": "ada"}
+    assert "station columns" in problem_of(send(service, content, **who), 422)["detail"]
+    answer = send(service, content, columns=MAP, hold_out="true", **who)
+    assert answer.status_code == 201
+    diagnosis = service.client.get(f"{answer.headers['location']}/diagnosis").json()
+    assert diagnosis["verdict"] == "adequate"
+    assert diagnosis["confirmed"] is True
+    assert service.client.get(f"{answer.headers['location']}/readings.csv").content == content
+    wrong = send(service, content, columns="[columns]\ntheta_deg = 1.5", **who)
+    assert "Column map" in problem_of(wrong, 422)["detail"]

@@ -11,8 +11,8 @@ from fastapi.exceptions import RequestValidationError
 from pydantic import ValidationError
 
 from station.people import Permission
-from station.records import Actor, CalibrationRequest, CalibrationSummary
-from station.run_kinds import import_measured
+from station.records import Actor, CalibrationRequest, CalibrationSummary, ColumnMap
+from station.run_kinds import Sent, import_measured
 from web.aside import aside
 from web.bodies import DatasetFields
 from web.guarded import Router, needs
@@ -46,18 +46,24 @@ async def import_measurement_file(
 
     A CSV body, or a form with `file` and, to confirm the cause, `fresh`: readings taken afterwards at other
     positions. Only a result confirmed by fresh readings is a pass. A refused file leaves no data. The log of
-    a serial arm needs the arm's robot file, stored with `PUT /robots/{serial}` before.
+    a serial arm needs the arm's robot file, stored with `PUT /robots/{serial}` before. A file from other
+    software, also a spreadsheet, needs a column map, as text in `columns`.
     """
     sent = await uploaded(request, *FILES)
     fields = _with(query, sent.fields)
+    mapping = None if fields.columns is None else ColumnMap.parse(fields.columns.encode())
 
     def work() -> CalibrationSummary:
         with _one_at_a_time:
             submitted = import_measured(
                 runtime.store,
-                CalibrationRequest(kind="import", **fields.model_dump()),
-                sent.files["file"],
-                sent.files.get("fresh"),
+                CalibrationRequest(
+                    kind="import",
+                    robot_serial=fields.robot_serial,
+                    operator=fields.operator,
+                    work_order=fields.work_order,
+                ),
+                Sent(sent.files["file"], sent.files.get("fresh"), mapping, fields.measured, fields.hold_out),
                 idempotency_key=idempotency_key,
                 by=by,
             )
