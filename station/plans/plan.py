@@ -81,7 +81,8 @@ class Plan:
     @cached_property
     def predicted(self) -> PlanPrediction:
         """The predicted accuracy of the stops, and their duration."""
-        accuracy = predict(self.robot, np.array([complex(*stop.target_mm) for stop in self.stops]))
+        places = np.array([complex(*stop.target_mm) for stop in self.stops])
+        accuracy = predict(self.robot, places, self.pace.samples)
         travel_deg, duration_s = self.pace.along(
             np.array([stop.theta_deg for stop in self.stops]),
             np.array([stop.approach for stop in self.stops]),

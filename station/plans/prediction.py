@@ -12,9 +12,12 @@ FLAT_PRIOR_SD_MM = 1e4
 """Prior of an unknown reading offset while designing."""
 
 
-def predict(robot: Robot, places: Complex) -> PlanPrediction:
-    """Predicted accuracy from one reading at each of positions (K,), by specification."""
-    mechanism = measured_at(robot, places)
+def predict(robot: Robot, places: Complex, samples: int = 1) -> PlanPrediction:
+    """Predicted accuracy from one reading at each of positions (K,), by specification.
+
+    :param samples: number of samples of the head in the mean of a reading
+    """
+    mechanism = measured_at(robot, places, samples)
     rows = information_rows(mechanism)
     covariance = np.linalg.inv(known_beforehand(mechanism) + rows.T @ rows)
     mean = mechanism.start
@@ -46,7 +49,7 @@ def zeros_only(mechanism: FiveBar, covariance: Real) -> Real:
     return left
 
 
-def measured_at(robot: Robot, places: Complex) -> FiveBar:
+def measured_at(robot: Robot, places: Complex, samples: int = 1) -> FiveBar:
     """The mechanism as if readings had been taken at these positions."""
     count = len(places)
     return FiveBar(
@@ -59,7 +62,7 @@ def measured_at(robot: Robot, places: Complex) -> FiveBar:
             distance=np.zeros(count),
             position=np.arange(count),
             mount=np.zeros(count, dtype=np.intp),
-            samples=np.ones(count, dtype=np.intp),
+            samples=np.full(count, samples, dtype=np.intp),
         ),
     )
 

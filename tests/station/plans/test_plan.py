@@ -11,6 +11,7 @@ from station.errors import InputRefused
 from station.five_bar import Robot
 from station.plans import PLANS, PlanDesign, each_once, make_plan, register
 from station.plans.boundary import on_the_boundary
+from station.plans.duration import Pace
 from station.run_kinds import RUN_KINDS, kind_of_plan
 
 ROBOT = Robot.default()
@@ -52,3 +53,12 @@ def test_every_stop_lies_in_the_workspace(name: str) -> None:
         x, y = stop.target_mm
         assert x0 <= x <= x1
         assert y0 <= y <= y1
+
+
+def test_the_predicted_accuracy_counts_the_samples_of_a_reading() -> None:
+    """The mean of more samples is less noisy, and takes longer; the positions stay."""
+    few, many = (make_plan("paper", ROBOT, pace=Pace(30.0, 0.5, 0.1 * n, samples=n)) for n in (1, 100))
+    assert few.stops == many.stops
+    assert many.predicted.common_sd_deg < few.predicted.common_sd_deg
+    assert many.predicted.position_error_mm.rms < few.predicted.position_error_mm.rms
+    assert many.predicted.duration_s > few.predicted.duration_s
