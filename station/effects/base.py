@@ -72,6 +72,8 @@ class Effect(ABC):
     """Whether one place of action can have it more than once, with other hidden parameters."""
     by_approach: ClassVar[bool] = False
     """Whether its effect on the arm depends on the sense of the joint's last motion."""
+    rare: ClassVar[bool] = False
+    """Whether it is reported only where no other effect of its joint predicts left-out readings as well."""
     local: ClassVar[bool] = False
     """Whether it is undefined at angles that its joint has not visited."""
     bounds: ClassVar[Bounds] = {}

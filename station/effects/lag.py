@@ -44,13 +44,14 @@ class Lag(Effect):
 
 
 class JointLag(JointEffect):
-    """The same of one joint."""
+    """The same of one joint; a reading that is taken too early lags in all of them."""
 
     id = Lag.id
     physics = Lag.physics
     remedy = Lag.remedy
     experiment = Lag.experiment
     bounds = Lag.bounds
+    rare = True
 
     def variants(self, c: Conditions) -> Variants | None:
         if c.step is None or not c.step[:, self.index].any():

@@ -289,6 +289,7 @@ def _add(
     if not fits:
         return None
     fits.sort(key=lambda item: item[0])
+    fits = _common_first(fits)
     _, winner, better = fits[0]
     unit = _noise_square(better.cost, better.dof - winner.size)
     aliases: dict[tuple[str, int | None], Term] = {}
@@ -300,6 +301,22 @@ def _add(
             aliases.setdefault(c.term().key, c.term())
     aliases.pop(winner.term().key, None)
     return Finding(winner.term(), winner.p_value, tuple(aliases.values())), better
+
+
+_Refit = tuple[float, Candidate, Fit]
+
+
+def _common_first(fits: list[_Refit]) -> list[_Refit]:
+    """Best first; a rare effect gives way to another of its joint that predicts left-out readings as well."""
+    _, winner, better = fits[0]
+    if not winner.effect.rare:
+        return fits
+    most_mm = left_out_rms(better) / HELPFUL
+    for item in fits[1:]:
+        effect = item[1].effect
+        if effect.joint == winner.effect.joint and not effect.rare and left_out_rms(item[2]) < most_mm:
+            return [item, *(other for other in fits if other is not item)]
+    return fits
 
 
 def _noise_square(cost: float, dof: int) -> float:

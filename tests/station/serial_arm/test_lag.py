@@ -57,7 +57,8 @@ def test_steps_of_one_size_leave_lag_and_play_undecided() -> None:
     poses[:, 1] = np.where(np.arange(160) % 2, 0.4, -0.4)
     arm = random_arm(UR_LIKE, 4, j2=play)
     (effect,) = judged(arm.robot, arm.log(poses, 4)).effects
-    assert {effect.label, *effect.alias_labels} >= {"backlash of joint 2", "lag of joint 2"}
+    assert effect.label == "backlash of joint 2"  # the more common one
+    assert "lag of joint 2" in effect.alias_labels
 
 
 @pytest.mark.parametrize("late_ms", [8.0, -8.0])
