@@ -159,4 +159,4 @@ def test_an_effect_that_fresh_readings_do_not_support_is_not_reported() -> None:
     arm.effects = {}
     result = TracedFindings(traced(arm.robot, learned, arm.log(random_poses(6, 40, 52), 52)))
     assert result.effects == ()
-    assert result.decision.confirmed is not True
+    assert result.decision.verdict == "unexplained"
