@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from station.records.phrases import Phrase
 from station.records.record import Record
 
 
@@ -66,6 +67,8 @@ class Remedy(Record):
     """A measurement that would determine a weak direction, and the zero offsets' standard uncertainty."""
 
     text: str
+    said: Phrase | None = None
+    """The text by its code, for other languages; null in documents of older versions."""
     sd_deg: float
 
 
@@ -74,10 +77,16 @@ class WeakDirection(Record):
 
     singular_ratio: float | None = None
     text: str = ""
+    said: Phrase | None = None
+    """The text by its code, for other languages; null in documents of older versions."""
     sd_deg: float | None = None
     """Standard uncertainty of the zero offsets along it."""
     blind: tuple[str, ...] = ()
     """Directions that no reading can determine."""
+    blind_said: tuple[Phrase, ...] = ()
+    """The same by their codes."""
     remedies: tuple[Remedy, ...] = ()
     remedy: str | None = None
     """The best of them in words."""
+    remedy_said: Phrase | None = None
+    """The same by its code."""

@@ -166,6 +166,8 @@ class ResultParts(Record):
     """References from other instruments, and how well they agree with the other data."""
     lack_of_fit: str | None = None
     """The misfit of the model; null if it fits or was not tested."""
+    lack_of_fit_reason: Reason | None = None
+    """The same by its code, for other languages; null in results of older versions, too."""
     findings: tuple[Finding, ...] = ()
     """Effects that the model lacked, strongest first."""
 

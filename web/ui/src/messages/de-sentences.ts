@@ -1,8 +1,5 @@
 /** Sentences that the station produces in English only: numbers are {}, in order. */
-import ofDiagnoses from "../../../../station/messages/de-sentences.json";
-
 export const sentences: Record<string, string> = {
-  ...ofDiagnoses,
   // zeros in the drives
   "The drives hold the old zero offsets.": "Die Antriebe haben die alten Nullpunkte.",
   "The drives hold these zero offsets.": "Die Antriebe haben diese Nullpunkte.",

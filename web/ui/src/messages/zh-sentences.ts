@@ -1,8 +1,5 @@
 /** Sentences that the station produces in English only: numbers are {}, in order. */
-import ofDiagnoses from "../../../../station/messages/zh-sentences.json";
-
 export const sentences: Record<string, string> = {
-  ...ofDiagnoses,
   // zeros in the drives
   "The drives hold the old zero offsets.": "驱动器中为旧零点。",
   "The drives hold these zero offsets.": "驱动器中为这些零点。",
