@@ -111,9 +111,9 @@ def test_a_phrase_has_a_capital_if_it_is_a_whole_sentence() -> None:
 def test_an_effect_has_its_name_in_a_sentence() -> None:
     labels = "gear_cyclic curve of joint 1 and unnamed error by place and no effect"
     assert labels_in_words(labels, "en") == (
-        "gear ripple curve of joint 1 and unnamed error by position and no effect"
+        "gear ripple curve of joint 1, unnamed error by position and no effect"
     )
-    assert labels_in_words(labels, "de").startswith("Getriebewelligkeit, Kurve von Gelenk 1 und unbenannter ")
+    assert labels_in_words(labels, "de").startswith("Getriebewelligkeit, Kurve von Gelenk 1, unbenannter ")
     refuted = because(
         "unexplained_refuted", causes="gear_cyclic of joint 1", share_percent=4.0, depends_on="time"
     )

@@ -80,6 +80,6 @@ function undecided({ reason_code, reason_params }: Calibration): string | null {
 
 /** Without the word that precedes it already. */
 function withoutWord(text: string, word: string): string {
-  const [first = "", ...rest] = text.split(": ");
-  return rest.length > 0 && first.toUpperCase() === word ? capital(rest.join(": ")) : text;
+  const [, first = "", rest = ""] = /^(.*?)(?:: |：)(.*)$/s.exec(text) ?? [];
+  return first.toUpperCase() === word ? capital(rest) : text;
 }
