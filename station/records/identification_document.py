@@ -55,6 +55,8 @@ class GateOfMemory(Record):
     used: bool
     p_value: float
     text: str
+    said: Phrase | None = None
+    """The text by its code, for other languages; null in documents of older versions."""
 
 
 class Convergence(Record):

@@ -1,6 +1,6 @@
 """What the station takes and answers.  Made by `make reference`; do not edit.
 
-From schemas with SHA-256 2e7a3d9b5685b0e89b5cddceb11459cd180fa8342cfc301994fea6d2e837a6e2.
+From schemas with SHA-256 2eeaa57f64e10af8eba864b4d7958de73920197e5eacc7a6387f5a4d059ed320.
 """
 
 from __future__ import annotations
@@ -124,6 +124,11 @@ class AccuracyReached(BaseModel):
     Why no further readings were taken.
     """
 
+    stopped_because_said: Phrase | None
+    """
+    The same by its code, for other languages; null in results of older versions, too.
+    """
+
 
 class Advice(BaseModel):
     """
@@ -223,6 +228,11 @@ class MemoryUse(BaseModel):
     """
 
     text: str
+    said: Phrase | None
+    """
+    The text by its code, for other languages; null in records of older versions.
+    """
+
     from_calibration: int
     age_days: float | None
 

@@ -2,7 +2,7 @@
 import { identified } from "./identifiers";
 import { t } from "./messages";
 import { template } from "./messages/phrases";
-import { capital, readable } from "./names";
+import { capital, readable, withNames } from "./names";
 import { formatted, type Params, type Value } from "./template";
 import type { Phrase } from "./types";
 
@@ -21,9 +21,12 @@ interface Told {
 }
 
 /**
- * A text of the station in the page's language; from an older version, or until the phrases are loaded, its
+ * A text of the station in the page's language, as in the middle of a sentence; from an older version, or until the phrases are loaded, its
  * English sentence.
  */
+export const toldInside = ({ text, said }: Told) => (said && phraseText(said)) ?? withNames(text);
+
+/** The same for the beginning of one. */
 export const told = ({ text, said }: Told) => capital((said && phraseText(said)) ?? readable(text));
 
 function part({ code, params }: Phrase): string | null {

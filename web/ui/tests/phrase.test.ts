@@ -56,6 +56,13 @@ describe("a text with a code", () => {
     expect((await inLanguage("zh")).phraseText(phrase("residual_time"))).toBe("残差随时间变化。");
   });
 
+  it("is as it is in the middle of a sentence", async () => {
+    const { told, toldInside } = await inLanguage("de");
+    const ended = { text: "the plan has ended", said: phrase("plan_ended") };
+    expect([toldInside(ended), told(ended)]).toEqual(["der Plan ist zu Ende", "Der Plan ist zu Ende"]);
+    expect(toldInside({ ...ended, said: null })).toBe("the plan has ended");
+  });
+
   it("has display names for identifiers within it", async () => {
     const { phraseText } = await inLanguage("de");
     const tied = phrase("looks_like", { parameter: "dtheta1", looks_like: "rMx, rMy" });

@@ -14,6 +14,7 @@ const accuracy = (bound_95_mm: number | null, wanted_mm: number | null) => ({
   wanted_mm,
   reached: null,
   stopped_because: null,
+  stopped_because_said: null,
 });
 
 describe("the decision", () => {
