@@ -72,7 +72,7 @@ def test_backlash_is_named_and_fresh_readings_confirm_it() -> None:
     # a defect was found: the robot may not be used as it is
     assert (result.verdict, result.outcome) == ("fail", "repair")
     assert result.reason.code == "explained_confirmed"
-    assert result.reason.text.startswith("backlash of joint 1 explained 9")
+    assert result.reason.text.startswith("Backlash of joint 1 explained 9")
     (finding,) = result.findings
     (width,) = finding.parameters
     assert abs(width.value - 0.02) < 4 * width.sd
