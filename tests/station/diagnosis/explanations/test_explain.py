@@ -54,6 +54,27 @@ def test_a_clear_play_is_named_and_confirmed() -> None:
     assert within(found, 3.0)
 
 
+@pytest.mark.parametrize("per_rev", [8.3, 20.0, 41.7])
+def test_a_large_ripple_is_one_ripple_at_its_own_frequency(per_rev: float) -> None:
+    """A frequency that is a twentieth of a search step off leaves enough for a second ripple beside it."""
+    found = explained(2, effect(kind="gear_cyclic", joint=1, amplitude_deg=0.03, per_rev=per_rev))
+    assert found.decision.verdict == "explained"
+    assert found.decision.confirmed is True
+    (finding,) = found.findings
+    sizes = {q.name: q.value for q in finding.parameters}
+    assert sizes["per_rev"] == pytest.approx(per_rev, abs=0.02)
+    assert sizes["amplitude_deg"] == pytest.approx(0.03, rel=0.02)
+
+
+def test_a_large_error_is_not_beaten_by_itself_and_a_useless_one() -> None:
+    """Settled, it loses what the tangent promised; sets that were not settled keep nothing of that either."""
+    wave = effect(kind="scale_cyclic", amplitude_mm=0.0469, period_mm=5.3069, phase_deg=200.0)
+    found = explained(105, wave)
+    assert found.decision.verdict == "explained"
+    assert [f.part.effect for f in found.findings] == ["scale_cyclic"]
+    assert found.statements.unnamed < 0.03
+
+
 def test_one_wrong_ratio_is_the_gain_of_both_joints() -> None:
     gain = {"kind": "transmission_gain", "ppm": 1e4}
     found = explained(3, effect(**gain, joint=1), effect(**gain, joint=2))
