@@ -13,7 +13,7 @@ from station.people.keys import new_secret, secret_hash
 from station.people.passwords import hashed_password, matches
 from station.people.roles import ALLOWED, Permission, allowed_roles
 from station.people.tries import Tries
-from station.records import Actor, Role, SignedIn, User
+from station.records import Actor, Role, SignedIn, User, account_key
 from station.store import Store
 
 KEY_PREFIX = "fbs_"
@@ -116,7 +116,9 @@ class Access:
         :raises NotSignedIn: name or password is wrong; the error does not state which
         :raises TooManyTries:
         """
-        return self._sign_in(f"name {name.casefold()}", address, password, "Name or password is wrong.", name)
+        return self._sign_in(
+            f"name {account_key(name)}", address, password, "Name or password is wrong.", name
+        )
 
     def sign_in_by_badge(self, badge: str, pin: str, address: str) -> tuple[str, User]:
         """The same with a badge and its PIN."""
@@ -189,6 +191,8 @@ class Access:
         with self._hashing:
             if self._first is None or not hmac.compare_digest(self._first, secret_hash(secret)):
                 raise NotSignedIn("This link was used already or is not this station's; start it again.")
+            if self._store.administrator_known():  # made at the terminal since; the link may be in a log
+                raise NotSignedIn("There is an administrator already, who can add users.")
             role: Role = "administrator"
             by = Actor(name=name, via="terminal")
             user = self._store.add_user(by, name, role, password_hash=hashed_password(password))

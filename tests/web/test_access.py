@@ -193,6 +193,31 @@ def test_the_first_administrator_comes_in_by_a_link_that_works_once(closed: Serv
     assert closed.client.app.state.access.offer_first_administrator() is None  # type: ignore[attr-defined]
 
 
+def test_the_link_ends_with_an_administrator_of_the_terminal(closed: Service) -> None:
+    secret = closed.client.app.state.access.offer_first_administrator()  # type: ignore[attr-defined]
+    body = {"secret": secret, "name": "Eve", "password": PASSWORD}
+    closed.runtime.store.add_user(ROOT, "Ada", "administrator", password_hash=HASHED)
+    assert "an administrator already" in refusal(closed.client.post(f"{SESSION}/first", json=body))[1]
+    assert [user.name for user in closed.runtime.store.users()] == ["Ada"]
+
+
+@pytest.mark.parametrize("name", ["\u00d6D\u00d6N", "\u00f6d\u00f6n", "O\u0308do\u0308n", " \uff2fdon "])
+def test_a_name_is_typed_as_it_comes(closed: Service, name: str) -> None:
+    """In other case, composed by another keyboard, in full width: one account, and its tries are counted."""
+    stored = "Odon" if "\uff2f" in name else "\u00d6d\u00f6n"
+    closed.runtime.store.add_user(ROOT, stored, "operator", password_hash=HASHED)
+    assert sign_in(closed, name).json()["name"] == stored
+    for typed in (name, stored, name, stored, name):
+        assert sign_in(closed, typed, "wrong horse").status_code == 401
+    assert sign_in(closed, stored, "wrong horse").status_code == 429
+
+
+def test_a_stop_by_somebody_with_a_broken_line_in_the_name(service: Service) -> None:
+    service.client.post("/api/v1/stop", headers={"X-Operator": "eve%0d%0a2026-11-28 Stop by%E2%80%AE ada"})
+    (entry,) = service.client.get("/api/v1/audit").json()["items"]
+    assert entry["who"] == r"eve\r\n2026-11-28 Stop by\u202e ada"
+
+
 def test_the_live_feed_asks_too_and_ends_with_the_session(
     ada: Service, monkeypatch: pytest.MonkeyPatch
 ) -> None:

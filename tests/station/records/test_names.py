@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from station.errors import InputRefused
-from station.records import checked_name, checked_serial, harmless
+from station.records import account_key, checked_account, checked_name, checked_serial, harmless, one_line
 
 
 @pytest.mark.parametrize(
@@ -46,6 +46,41 @@ def test_other_serials_are_refused_in_one_sentence(serial: str, what: str) -> No
 def test_names_with_control_characters_are_refused(name: str) -> None:
     with pytest.raises(InputRefused, match="control character"):
         checked_name(name)
+
+
+@pytest.mark.parametrize(
+    ("name", "taken"),
+    [
+        ("line  4", "line 4"),
+        ("\uff21\uff44\uff41", "Ada"),
+        ("O\u0308do\u0308n", "\u00d6d\u00f6n"),
+        ("\u674e Li", "\u674e Li"),
+        ("\u0411\u043e\u0440\u0438\u0441", "\u0411\u043e\u0440\u0438\u0441"),
+    ],
+)
+def test_names_of_accounts_have_one_form(name: str, taken: str) -> None:
+    assert checked_account(name) == taken
+    assert account_key(name) == account_key(taken.upper()) == account_key(taken)
+
+
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [
+        ("A\u0501a", "Cyrillic and Latin"),
+        ("\u0391da", "Greek and Latin"),
+        ("Ad\u200ba", "invisible"),
+        ("Ad\u202ea", "invisible"),
+        ("\ufdfa" * 4, "72 characters"),
+        (" ", "0 characters"),
+    ],
+)
+def test_names_of_accounts_that_look_like_others_are_refused(name: str, why: str) -> None:
+    with pytest.raises(InputRefused, match=why):
+        checked_account(name)
+
+
+def test_a_line_stays_one_line() -> None:
+    assert one_line("Ada\n2026 \x1b[2J\u2028\u202e \u738b") == r"Ada\n2026 \x1b[2J\u2028\u202e" + " \u738b"
 
 
 def test_names_of_people_are_taken() -> None:
