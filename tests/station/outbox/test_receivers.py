@@ -5,6 +5,8 @@ from __future__ import annotations
 import base64
 import csv
 import json
+import logging
+import re
 import shutil
 import socket
 import subprocess
@@ -23,13 +25,15 @@ from paho.mqtt.enums import CallbackAPIVersion
 from pydantic import ValidationError
 from standardwebhooks import Webhook as PublicWebhook
 
+from station.cli.machine_options import logging_to
 from station.errors import InputRefused
-from station.outbox import Refused
+from station.outbox import Courier, Refused, couriers
 from station.outbox.folder import Folder
 from station.outbox.mqtt import Mqtt
 from station.outbox.webhook import Webhook
 from station.records import Event, uid7
-from station.settings import FolderSettings, MqttSettings, WebhookSettings
+from station.settings import FolderSettings, MqttSettings, OutboxSettings, WebhookSettings
+from station.store import Store
 
 SECRET = "whsec_" + base64.b64encode(bytes(range(32))).decode()
 EVENT = Event(
@@ -102,6 +106,40 @@ def test_a_webhook_without_a_good_secret_or_over_plain_http_is_refused(tmp_path:
             Webhook(WebhookSettings(url=local, secret_file=file))
     with pytest.raises(ValidationError, match="plain http"):
         WebhookSettings(url="http://mes.example/", secret_file=file)
+
+
+def test_a_token_in_an_address_is_sent_and_not_shown(
+    store: Store, secret_file: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    with web_server(400) as (url, taken), logging_to(tmp_path / "home", terminal=logging.INFO):
+        webhook = Webhook(WebhookSettings(url=f"{url}&sig=hush", secret_file=secret_file, events=("alarm",)))
+        courier = Courier(store, webhook, OutboxSettings())
+        courier.step()
+        store.announce("alarm", {"text": "test"})
+        courier.step()
+    assert len(taken) == 1
+    (delivery,) = store.deliveries()
+    name = f"webhook {url.partition('?')[0]}"
+    assert (delivery.receiver, delivery.state) == (name, "refused")
+    log = (tmp_path / "home/station.log").read_text()
+    assert f"{name} refuses event 1" in log
+    assert "hush" not in log + capfd.readouterr().err
+
+
+def test_two_receivers_of_one_name_are_refused(store: Store, secret_file: Path) -> None:
+    """They would share a queue, and each would miss what the other takes."""
+    hook = {"url": "https://mes.example/hook", "secret_file": secret_file}
+    for twins, name in (
+        ({"webhook": [hook, {**hook, "url": f"{hook['url']}?a=1"}]}, "webhook https://mes.example/hook;"),
+        ({"mqtt": [{"url": f"mqtt://b:{port}", "topic": "t"} for port in (1, 2)]}, "mqtt t at b;"),
+        ({"folder": [{"path": "f", "format": kind} for kind in ("csv", "json")]}, "folder f;"),
+    ):
+        settings = OutboxSettings.model_validate(twins)
+        with (
+            pytest.raises(InputRefused, match=f"2 receivers called {re.escape(name)}"),
+            couriers(store, settings),
+        ):
+            pass
 
 
 def test_a_folder_holds_one_file_an_event_however_often_it_comes(tmp_path: Path) -> None:
