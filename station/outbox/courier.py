@@ -87,9 +87,9 @@ class Courier:
         return self._store.expire(self.receiver.name, oldest, self._settings.keep)
 
     def _run(self) -> None:
-        self.receiver.start()
         wait_s = 0.0
         while not self._closing.wait(wait_s):
+            self.receiver.report_running()
             try:
                 wait_s = self.step()
             except StoreUnavailable as error:

@@ -58,7 +58,7 @@ class Webhook:
         self._key = secret_of(settings.secret_file)
         self._clock, self._trust = clock, ssl.create_default_context()
 
-    def start(self) -> None:
+    def report_running(self) -> None:
         """Nothing to do."""
 
     def deliver(self, event: Event) -> str:

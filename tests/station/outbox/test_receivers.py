@@ -29,7 +29,7 @@ from station.cli.machine_options import logging_to
 from station.errors import InputRefused
 from station.outbox import Courier, Refused, couriers
 from station.outbox.folder import Folder
-from station.outbox.mqtt import Mqtt
+from station.outbox.mqtt import EXPIRES_S, REPEAT_S, Mqtt
 from station.outbox.webhook import Webhook
 from station.records import Event, uid7
 from station.settings import FolderSettings, MqttSettings, OutboxSettings, WebhookSettings
@@ -161,13 +161,13 @@ def free_port() -> int:
 
 
 @contextmanager
-def broker(port: int, folder: Path) -> Iterator[None]:
+def broker(port: int, folder: Path, more: str = "allow_anonymous true\n") -> Iterator[None]:
     """A real mosquitto that listens on loopback alone."""
     program = shutil.which("mosquitto") or shutil.which("mosquitto", path="/usr/sbin")
     if program is None:
         pytest.skip("mosquitto is not installed")
     config = folder / "mosquitto.conf"
-    config.write_text(f"listener {port} 127.0.0.1\nallow_anonymous true\n")
+    config.write_text(f"listener {port} 127.0.0.1\n{more}")
     process = subprocess.Popen([program, "-c", str(config)], stderr=subprocess.DEVNULL)
     try:
         deadline = time.monotonic() + LIMIT_S
@@ -188,6 +188,7 @@ class Listener:
 
     def __init__(self, port: int) -> None:
         self.heard: list[tuple[str, str, str | None]] = []
+        self.expiries: list[int | None] = []
         self._news, self._subscribed = threading.Condition(), threading.Event()
         self._client = mqtt.Client(CallbackAPIVersion.VERSION2, protocol=mqtt.MQTTv5)
         self._client.on_message = self._on_message
@@ -200,6 +201,7 @@ class Listener:
     def _on_message(self, _client: Any, _data: Any, message: mqtt.MQTTMessage) -> None:
         ids = dict(getattr(message.properties, "UserProperty", []))
         with self._news:
+            self.expiries.append(getattr(message.properties, "MessageExpiryInterval", None))
             self.heard.append(
                 (message.topic.removeprefix("plant/station/"), message.payload.decode(), ids.get("id"))
             )
@@ -218,7 +220,7 @@ def test_a_broker_is_told_across_its_restart_and_knows_when_the_station_is_gone(
     port = free_port()
     station = Mqtt(MqttSettings(url=f"mqtt://127.0.0.1:{port}", topic="plant/station"))
     with broker(port, tmp_path):
-        station.start()
+        station.report_running()
         listener = Listener(port)
         listener.wait(1)
         assert station.deliver(EVENT) == "acknowledged"
@@ -239,4 +241,49 @@ def test_a_broker_is_told_across_its_restart_and_knows_when_the_station_is_gone(
         listener.wait(3)
         assert listener.heard[2][:2] == ("state", "offline")
         listener.close()
+        station.close()
+
+
+def test_online_is_repeated_and_expires_and_offline_stays(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A station that dies while the broker is down leaves no last will, only an `online` that expires."""
+    monkeypatch.setattr("station.outbox.mqtt.REPEAT_S", 0.0)
+    port = free_port()
+    station = Mqtt(MqttSettings(url=f"mqtt://127.0.0.1:{port}", topic="plant/station"))
+    with broker(port, tmp_path):
+        listener = Listener(port)
+        station.report_running()
+        listener.wait(1)
+        station.report_running()
+        listener.wait(2)
+        station.close()
+        listener.wait(3)
+        listener.close()
+    assert [payload for _, payload, _ in listener.heard] == ["online", "online", "offline"]
+    *online, offline = listener.expiries
+    assert all(seconds is not None and 0 < seconds <= EXPIRES_S for seconds in online)
+    assert offline is None
+    assert REPEAT_S < EXPIRES_S / 2
+
+
+def test_an_event_that_the_broker_does_not_accept_is_not_delivered(tmp_path: Path) -> None:
+    """MQTT 5 acknowledges it with a reason, for instance that the topic is not permitted."""
+    (tmp_path / "acl").write_text("topic readwrite other/#\n")
+    # started as root, it would become another user, who cannot read this folder: `user root`
+    port = free_port()
+    station = Mqtt(MqttSettings(url=f"mqtt://127.0.0.1:{port}", topic="plant/station"))
+    with broker(port, tmp_path, f"user root\nallow_anonymous true\nacl_file {tmp_path / 'acl'}\n"):
+        with pytest.raises(Refused, match="Not authorized"):
+            station.deliver(EVENT)
+        station.close()
+
+
+def test_a_broker_that_lets_nobody_in_says_why(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr("station.outbox.mqtt.TIMEOUT_S", 1.0)
+    port = free_port()
+    station = Mqtt(MqttSettings(url=f"mqtt://ada:wrong@127.0.0.1:{port}", topic="plant/station"))
+    with broker(port, tmp_path, "allow_anonymous false\n"):
+        with pytest.raises(OSError, match="refuses the connection: Not authorized"):
+            station.deliver(EVENT)
         station.close()
