@@ -1,6 +1,6 @@
 """What the station takes and answers.  Made by `make reference`; do not edit.
 
-From schemas with SHA-256 e7b98d159b3ae7234738c6b82557c9f10c934b3a29a7a768ae38b6b092f70bc1.
+From schemas with SHA-256 782f6829391fd3e142ea6a3433a538ef600c3d93764a13d41700fdde7a3d4dbe.
 """
 
 from __future__ import annotations
@@ -480,7 +480,7 @@ class CalibrationSummary(BaseModel):
 
 class Event(BaseModel):
     """
-    An event; `n` increases from 1 without gaps, `uid` is the same at every delivery.
+    An event; `n` increases from 1, `uid` is the same at every delivery.
     """
 
     n: int
