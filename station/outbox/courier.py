@@ -70,7 +70,7 @@ class Courier:
         except Exception as error:  # noqa: BLE001 - whatever goes wrong on the way, it is tried again
             wait_s = min(2.0**delivery.tries, LONGEST_WAIT_S)
             log.warning("%s: event %d is tried again in %g s: %s", name, event.n, wait_s, error)
-            detail = f"{type(error).__name__}: {error}"[:300]
+            detail = (str(error) or type(error).__name__)[:300]
             self._store.postpone(delivery.id, self._now() + timedelta(seconds=wait_s), detail)
         else:
             self._store.settle(delivery.id, "delivered", said[:300])

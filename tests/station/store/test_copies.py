@@ -74,6 +74,12 @@ def test_a_restore_is_one_command(tmp_path: Path) -> None:
     assert interrupted == f"Run {under_way} was active at the time of the backup; it is now interrupted."
     assert restored == f"Restored {home / 'station.db'}; its newest run is {under_way}."
     with closing(Store(home / "station.db")) as store:
+        newest = store.audit()[0]
+        assert (newest.action, newest.subject, newest.via) == (
+            "history.restored",
+            "backup monday.db",
+            "terminal",
+        )
         assert [run.state for run in store.calibrations().items] == ["interrupted", "aborted"]
         assert store.summary(done).state == "aborted"
         again = store.summary(run_in(store, serial="R3"))
