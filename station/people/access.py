@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hmac
+import logging
 import time
 from collections.abc import Callable
 from datetime import UTC, datetime
@@ -15,6 +16,8 @@ from station.people.roles import ALLOWED, Permission, allowed_roles
 from station.people.tries import Tries
 from station.records import Actor, Role, SignedIn, User, account_key
 from station.store import Store
+
+log = logging.getLogger(__name__)
 
 KEY_PREFIX = "fbs_"
 """Identifies the purpose of a key that is found in a text."""
@@ -136,6 +139,8 @@ class Access:
         )
         if not self._matches(secret, kept.secret_hash if kept else None) or kept is None:
             self._tries.failed(*counted)
+            # without name and badge: a password may have been typed into the wrong field
+            log.warning("A sign-in from %s was refused: %s", address, wrong)
             raise NotSignedIn(wrong)
         self._tries.succeeded(who)  # not the address: the owner of an account could try others' from there
         return self._begin(kept.user), kept.user

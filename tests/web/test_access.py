@@ -5,6 +5,7 @@ from __future__ import annotations
 from contextlib import ExitStack
 from datetime import UTC, datetime, timedelta
 from typing import Any
+from unittest.mock import Mock
 
 import pytest
 from fastapi.testclient import TestClient
@@ -102,6 +103,17 @@ def test_a_cookie_that_was_signed_out_elsewhere_says_so(ada: Service) -> None:
 
 def test_wrong_name_and_wrong_password_cannot_be_told_apart(ada: Service) -> None:
     assert refusal(sign_in(ada, "ada", "wrong password")) == refusal(sign_in(ada, "eve", "wrong password"))
+
+
+def test_a_refused_sign_in_is_in_the_log_with_its_address(
+    ada: Service, caplog: pytest.LogCaptureFixture
+) -> None:
+    sign_in(ada, "hush", "hush")
+    ada.client.post(SESSION, json={"badge": "hush", "pin": "0000"})
+    assert [record.message for record in caplog.records if record.name == access.__name__] == [
+        "A sign-in from testclient was refused: Name or password is wrong.",
+        "A sign-in from testclient was refused: Badge or PIN is wrong.",
+    ]
 
 
 def test_badge_and_pin(ada: Service) -> None:
@@ -337,10 +349,11 @@ def test_with_tls_no_other_host_can_set_a_session(ada: Service) -> None:
 
 def test_a_key_that_expires_ends_the_live_feed(closed: Service, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(live, "LOOK_EVERY_S", 0.02)
-    soon = datetime.now(UTC) + timedelta(seconds=1)
-    headers = closed.key("viewer", "old", expires_at=soon)
+    later = datetime.now(UTC) + timedelta(hours=1)
+    headers = closed.key("viewer", "old", expires_at=later)
     with closed.client.websocket_connect("/api/v1/live", headers=headers) as feed:
         assert feed.receive_json()["type"] == "snapshot"
+        monkeypatch.setattr(access, "datetime", Mock(now=Mock(return_value=later + timedelta(seconds=1))))
         with pytest.raises(WebSocketDisconnect) as ended:
             while True:
                 feed.receive_json()

@@ -79,7 +79,7 @@ function UserRow({ user, change, removed }: RowProps) {
       <td class="text">
         <p>{user.disabled ? m.disabled : m.enabled}</p>
         {user.disabled ? (
-          <>
+          <div class="actions">
             <ActionButton label={m.enableOf(user.name)} act={() => change(user.id, { disabled: false })}>
               {m.enable}
             </ActionButton>
@@ -90,7 +90,7 @@ function UserRow({ user, change, removed }: RowProps) {
             >
               {m.removeText(user.name)}
             </ConfirmedButton>
-          </>
+          </div>
         ) : (
           <ConfirmedButton
             label={m.disableOf(user.name)}
