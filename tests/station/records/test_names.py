@@ -88,7 +88,10 @@ def test_names_of_people_are_taken() -> None:
         assert checked_name(name) == name
 
 
-@pytest.mark.parametrize("cell", ["=1+1", "+cmd|' /C calc'!A0", "-2+3", "@SUM(A1)", "\t=1", "\r=1"])
+@pytest.mark.parametrize(
+    "cell",
+    ["=1+1", "+cmd|' /C calc'!A0", "-2+3", "@SUM(A1)", "\t=1", "\r=1", "\n=1", "\uff1d1+1", "\uff20A1"],
+)
 def test_formulas_become_text(cell: str) -> None:
     assert harmless(cell) == f"'{cell}"
 
