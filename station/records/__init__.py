@@ -99,7 +99,7 @@ from station.records.measurement_file import (
     recorded_columns,
 )
 from station.records.measurements import Measurements, from_readings, number
-from station.records.names import checked_name, checked_serial
+from station.records.names import account_key, checked_account, checked_name, checked_serial, one_line
 from station.records.people import (
     STATION,
     Actor,
@@ -363,8 +363,10 @@ __all__ = [
     "Workspace",
     "ZeroOffset",
     "ZeroWrite",
+    "account_key",
     "approaches",
     "because",
+    "checked_account",
     "checked_name",
     "checked_serial",
     "content_of",
@@ -375,6 +377,7 @@ __all__ = [
     "harmless",
     "inside_visited",
     "number",
+    "one_line",
     "parse_measurements",
     "parse_readings",
     "phrase",

@@ -1,6 +1,6 @@
 """What the station takes and answers.  Made by `make reference`; do not edit.
 
-From schemas with SHA-256 2eeaa57f64e10af8eba864b4d7958de73920197e5eacc7a6387f5a4d059ed320.
+From schemas with SHA-256 2974c42bbeea04c577cec9cef0d6715fe4fa44742321573f8d7fd35cebe482f7.
 """
 
 from __future__ import annotations
@@ -504,7 +504,7 @@ class CalibrationSummary(BaseModel):
 
 class Event(BaseModel):
     """
-    An event; `n` increases from 1 without gaps, `uid` is the same at every delivery.
+    An event; `n` increases from 1, `uid` is the same at every delivery.
     """
 
     n: int
