@@ -24,6 +24,7 @@ from pydantic_core import ErrorDetails
 from drivers.driver import DriverSettings
 from drivers.scaling import JointScaling
 from drivers.strict_numbers import StrictNumbers
+from station.credentials import without_credentials
 from station.errors import InputRefused
 from station.interlock_settings import InterlockSettings
 from station.records import EventType, ScaleCertificate, content_of, said, sections_of_toml
@@ -430,6 +431,8 @@ def _sentence(error: ErrorDetails, inside: tuple[int | str, ...] = ()) -> str:
     if error["type"] == "missing":
         return f"{where} is missing."
     given = error["input"]
+    if isinstance(given, str) and loc[0] == "outbox":
+        given = without_credentials(given)
     value = f" (given: {given!r})" if not isinstance(given, dict) else ""
     return f"{where}: {message}{value}.".removeprefix(": ")
 

@@ -26,6 +26,7 @@ from station.records import (
     CalibrationSummary,
     Measured,
     MemorySummary,
+    Phrase,
     Positive,
     Reading,
     Record,
@@ -253,7 +254,8 @@ class Solution(Record):
     """Joint commands in the drives' nominal frame, one for each target, in order."""
 
     commands: list[JointCommand]
-    range: str = Field(description="what the model was learned on")
+    range: str = Field(description="the ranges of the joints that the model was learned on, and its effects")
+    range_said: Phrase = Field(description="the same by its code, for other languages")
     confirmed: bool | None = Field(description="false: fresh readings refuted the model; null: never asked")
 
 

@@ -18,6 +18,8 @@ from web.problems import problem
 LOOPBACK = ("127.0.0.1", "localhost", "::1")
 SAFE_METHODS = ("GET", "HEAD", "OPTIONS")
 POLICY_VIOLATION = 1008
+CLOSE = {"Connection": "close"}
+"""What follows a refused request on its connection is not read as another one."""
 _NETLOC = re.compile(r"[\w.\-]+(:\d+)?|\[[0-9a-f:.]+\](:\d+)?", re.ASCII)
 
 
@@ -71,9 +73,13 @@ class Borders:
             await receive()
             await send({"type": "websocket.close", "code": POLICY_VIOLATION, "reason": refused[1][:120]})
         else:
-            await problem(refused[0], refused[1], kind=refused[2])(scope, receive, send)
+            status, text, kind = refused
+            await problem(status, text, kind=kind, headers=CLOSE)(scope, receive, send)
 
     def _refused(self, scope: Scope, headers: Headers) -> tuple[int, str, str] | None:
+        # a proxy and this server could disagree where such a request ends (RFC 9112, section 6.1)
+        if "content-length" in headers and "transfer-encoding" in headers:
+            return 400, "Send either Content-Length or Transfer-Encoding.", "ambiguous"
         host = headers.get("host", "").lower()
         # a browser always sends the host; a probe with HTTP/1.0 need not
         if "host" in headers and not self._ours(host, scope):
@@ -96,11 +102,11 @@ class Borders:
         """True unless a browser states that another site's page sends the request."""
         if headers.get("sec-fetch-site", "none") not in ("none", "same-origin"):
             return False
-        origin = headers.get("origin")
-        if origin is None:
+        origins = headers.getlist("origin")
+        if not origins:
             return True
-        site = urlsplit(origin)
-        if site.scheme not in ("http", "https"):
+        site = urlsplit(origins[0])
+        if len(origins) > 1 or site.scheme not in ("http", "https"):
             return False
         # a proxy may have changed `Host`; the public host name is declared then
         return site.netloc.lower() == host or site.netloc.lower() in self._declared

@@ -14,7 +14,7 @@ from starlette.requests import HTTPConnection
 
 from station.errors import NotSignedIn, StoreUnavailable
 from station.people import Access, Permission
-from station.records import Actor
+from station.records import Actor, one_line
 from web.aside import aside
 from web.cookies import sent_session, sent_sessions
 from web.problems import documented
@@ -115,7 +115,7 @@ def bearer(connection: HTTPConnection) -> str | None:
 
 def named(connection: HTTPConnection) -> str | None:
     """The name in `X-Operator`, which counts only if nobody can sign in."""
-    return unquote(connection.headers.get("x-operator", ""))[:64].strip() or None
+    return one_line(unquote(connection.headers.get("x-operator", "")))[:64].strip() or None
 
 
 def at_the_panel(connection: HTTPConnection) -> bool:

@@ -111,7 +111,7 @@ class _Now(Collector):
         age = GaugeMetricFamily("station_delivery_age_seconds", "Oldest that waits.", labels=("receiver",))
         try:
             for waiting in store.backlogs():
-                label = (waiting.receiver.partition("?")[0],)  # a query may contain a token
+                label = (waiting.receiver,)
                 backlog.add_metric(label, waiting.count)
                 age.add_metric(label, max(0.0, time.time() - waiting.oldest_at.timestamp()))
             up.add_metric((), 1)

@@ -28,18 +28,19 @@ from station.diagnosis import (
     diagnose,
     findings_of,
     page,
-    range_text,
+    range_said,
     read_model,
     read_part,
     read_targets,
     shown,
     solve_targets,
+    stage_name,
     transfer,
     without_a_quarter,
 )
 from station.five_bar import Robot
 from station.machines import AnyRobot, read_readings, read_robot, robot_of
-from station.messages import LANGUAGES, Language
+from station.messages import LANGUAGES, Language, effect_name, labels_in_words
 from station.records import (
     ColumnMap,
     Measured,
@@ -135,7 +136,7 @@ def solve_command(targets: Path, model_file: Path, csv_file: Path | None) -> Non
         write_text(csv_file, text)
     else:
         click.echo(text, nl=False)
-    click.echo(range_text(model), err=True)
+    click.echo(range_said(model).text(), err=True)
     if model.confirmed is False:
         click.echo("Fresh readings contradict this model: expect larger errors than it states.", err=True)
 
@@ -205,7 +206,7 @@ def _print(findings: Findings) -> None:
         console.print(guesses_in_words(findings.measurements))
     _print_position_errors(console, findings)
     for hint in findings.hints:
-        console.print(f"Hint: {hint.text} ({100 * hint.strength:.0f} %)")
+        console.print(f"Hint: {hint.said.text()} ({100 * hint.strength:.0f} %)")
     for outlier in findings.outliers:
         console.print(f"Left out: reading {outlier.reading}, {outlier.reason}.")
 
@@ -213,20 +214,23 @@ def _print(findings: Findings) -> None:
 def _print_causes(console: Console, findings: Findings) -> None:
     for found in findings.effects:
         sizes = ", ".join(f"{q.name} {shown(q)}" for q in found.parameters)
-        console.print(f"[bold]{found.label}[/bold]: {sizes}; {100 * found.share:.0f} % of the residual")
+        name = effect_name(found.label, "en")
+        console.print(f"[bold]{name}[/bold]: {sizes}; {100 * found.share:.0f} % of the residual")
         if found.probability is not None:
             console.print(f"  Probability {100 * found.probability:.0f} %.")
         if found.aliases:
-            others = ", ".join(found.alias_labels)
-            console.print(f"  Cannot be distinguished from {others}. To distinguish: {found.experiment}")
-        if remedy := found.advice():
-            console.print(f"  {remedy}")
+            others = ", ".join(labels_in_words(label, "en") for label in found.alias_labels)
+            experiment = found.experiment.text()
+            console.print(f"  Cannot be distinguished from {others}. To distinguish: {experiment}")
+        if found.remedy is not None:
+            console.print(f"  {found.remedy.text()}")
     if findings.decision.verdict not in ("adequate", "explained"):
         for one in findings.explanations:
             labels = " and ".join(effect.label for effect in one.effects) or "no effect"
-            console.print(f"Explanation, {100 * one.probability:.0f} %: {labels}")
-    for experiment in findings.experiments:
-        console.print(f"{100 * experiment.decides:.0f} % probable to decide: {experiment.text}")
+            named = labels_in_words(labels, "en")
+            console.print(f"Explanation, {100 * one.probability:.0f} %: {named}")
+    for rated in findings.experiments:
+        console.print(f"{100 * rated.decides:.0f} % probable to decide: {rated.text}")
     if findings.mistake is not None:
         console.print(f"Mistake: {findings.mistake.text}")
 
@@ -238,7 +242,8 @@ def _errors(findings: Findings) -> Table:
         column.justify = "right"
     for s in findings.stages:
         sizes_mm = (s.fit_rms_mm, s.holdout_rms_mm, s.holdout_max_mm, s.confirm_rms_mm, s.confirm_max_mm)
-        table.add_row(s.model, str(s.unknowns), *("" if v is None else f"{v * 1e3:.2f}" for v in sizes_mm))
+        sizes_um = ("" if v is None else f"{v * 1e3:.2f}" for v in sizes_mm)
+        table.add_row(stage_name(s.model, "en"), str(s.unknowns), *sizes_um)
     return table
 
 

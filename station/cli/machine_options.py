@@ -15,10 +15,19 @@ import click
 
 from station.cli.files import file_path
 from station.errors import InputRefused
+from station.records import one_line
 from station.settings import Settings, load_settings
 
 _FORMAT = "%(asctime)s %(levelname)s %(name)s: %(message)s"
 _LOG_BYTES, _LOG_FILES = 2_000_000, 5
+
+
+class _OneLine(logging.Formatter):
+    """A message stays on its line: names and answers from outside must not look like further entries."""
+
+    def formatMessage(self, record: logging.LogRecord) -> str:  # noqa: N802 - the library's name
+        record.message = one_line(record.message)
+        return super().formatMessage(record)
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,8 +84,9 @@ def logging_to(home: Path, *, terminal: int) -> Iterator[None]:
     screen.setLevel(terminal)
     root = logging.getLogger()
     root.setLevel(logging.INFO)
+    logging.getLogger("httpx2").setLevel(logging.WARNING)  # it logs whole addresses, with their tokens
     for handler in (file, screen):
-        handler.setFormatter(logging.Formatter(_FORMAT))
+        handler.setFormatter(_OneLine(_FORMAT))
         root.addHandler(handler)
     try:
         yield

@@ -13,7 +13,7 @@ from station.cli.kept import at_terminal, config_option, kept, open_or_begin
 from station.cli.listing import print_list
 from station.errors import InputRefused
 from station.people import ROLES, Administration, NewUser, UserChange, hashed_password
-from station.records import AuditEntry, PersonName, Role, csv_text
+from station.records import AuditEntry, PersonName, Role, account_key, csv_text, said
 
 _NAME: TypeAdapter[str] = TypeAdapter(PersonName)
 _ALL = 1_000_000
@@ -111,7 +111,7 @@ def change_user(home: Path, name: str, role: Role | None, disable: bool | None, 
 def remove_user(home: Path, name: str, erase: bool, config: Path | None) -> None:
     """Remove a user and end the user's sessions."""
     with kept(home, config, writing=True) as store:
-        known = any(user.name.casefold() == name.casefold() for user in store.users())
+        known = any(account_key(user.name) == account_key(name) for user in store.users())
         if known or not erase:
             store.remove_user(at_terminal(), store.user(name))
         if erase:
@@ -217,9 +217,9 @@ def _checked(name: str) -> str:
     try:
         return _NAME.validate_python(name)
     except ValidationError as error:
-        raise InputRefused(
-            f"The name {name!r} cannot be used: 1 to 64 letters, digits, blanks and . @ + - _."
-        ) from error
+        why = said(error.errors()[0])
+        text = f"The name {name!r} cannot be used: 1 to 64 letters, digits, blanks and . @ + - _. {why}."
+        raise InputRefused(f"{text.rstrip('.')}.") from error
 
 
 def _secret(what: str, from_input: bool) -> str:

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import click
 
-from station.cli.kept import config_option
+from station.cli.kept import at_terminal, config_option
 from station.service import holding
 from station.settings import database_path, load_settings
 from station.store import Store, restore
@@ -23,6 +23,7 @@ def restore_command(home: Path, file: Path, config: Path | None) -> None:
     with holding(home):
         aside = restore(file, path)
         with closing(Store(path)) as store:
+            store.record(at_terminal(), "history.restored", f"backup {file.name}")
             interrupted = store.interrupt_unfinished()
             newest = store.last_on_rig()
     if aside is not None:

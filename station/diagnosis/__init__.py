@@ -10,7 +10,7 @@ from station.diagnosis.learned import (
     commands_csv,
     learned_model,
     model_document,
-    range_text,
+    range_said,
     read_model,
     read_part,
     read_targets,
@@ -32,6 +32,7 @@ from station.diagnosis.report import (
     residuals,
     run_source,
     shown,
+    stage_name,
 )
 from station.diagnosis.search import Scan
 from station.diagnosis.separating import Experiment, experiment
@@ -71,7 +72,7 @@ __all__ = [
     "learned_model",
     "model_document",
     "page",
-    "range_text",
+    "range_said",
     "read_model",
     "read_part",
     "read_targets",
@@ -79,6 +80,7 @@ __all__ = [
     "run_source",
     "shown",
     "solve_targets",
+    "stage_name",
     "targets_of",
     "traced",
     "transfer",

@@ -5,16 +5,15 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cache
 
-from station.effects import five_bar_catalogue
-from station.messages import explanation
-from station.records import EffectName
+from station.effects import Effect, five_bar_catalogue
+from station.records import EffectName, Phrase, phrase
 
 PartKey = tuple[str, int | None, str | None]
 
 ENTRY = {
-    "transmission_gain": " The same is seen where `[joints] ratio` or `counts_per_rev` is wrong: check both.",
-    "link_length": " The same is seen where the robot file has a wrong length: compare it with the drawing.",
-    "scale_gain": " The same is seen where the readout has a wrong factor: check its setting.",
+    "transmission_gain": phrase("check_ratio"),
+    "link_length": phrase("check_length"),
+    "scale_gain": phrase("check_scale_factor"),
 }
 """A wrong entry of the same size as a real defect."""
 
@@ -24,22 +23,22 @@ class Naming:
     """The texts about one effect."""
 
     label: str
-    physics: str
-    remedy: str
-    experiment: str
+    physics: Phrase
+    remedy: Phrase
+    experiment: Phrase
 
 
 MOUNTING = Naming(
     "thermal_growth of the mounting",
-    "The mounting of scale or mechanism moves when it becomes warm.",
-    "Let the machine warm up before it is measured; check the mounting of scale and mechanism.",
-    "Repeat the measurement sequence warm, with the temperature recorded.",
+    phrase("mounting_growth_physics"),
+    phrase("mounting_growth_remedy"),
+    phrase("mounting_growth_experiment"),
 )
 READING_STEP = Naming(
     "reading_step",
-    "The readout or its mounting jumped: all readings from one on are off by the same amount.",
-    "Check the mounting of head and scale and the readout's supply, then measure again.",
-    "Read the first positions again: the step stays, at every position alike.",
+    phrase("reading_step_physics"),
+    phrase("reading_step_remedy"),
+    phrase("reading_step_experiment"),
 )
 DEPENDENCES = {
     "joint1": "of joint 1",
@@ -49,8 +48,6 @@ DEPENDENCES = {
     "time": "over time",
     "approach": "by approach",
 }
-UNNAMED_REMEDY = "No entry of the catalogue has this shape; look at the residual, and at what moves with it."
-UNNAMED_EXPERIMENT = "Measure again with something changed: the payload, the mounting point, the speed."
 
 
 def named(key: PartKey, depends_on: str | None = None) -> Naming:
@@ -58,7 +55,8 @@ def named(key: PartKey, depends_on: str | None = None) -> Naming:
     effect, joint, part = key
     if effect == "unnamed":
         label = f"unnamed error {DEPENDENCES[depends_on or 'reading']}"
-        return Naming(label, explanation("effects", "unnamed"), UNNAMED_REMEDY, UNNAMED_EXPERIMENT)
+        texts = phrase("unnamed_physics"), phrase("unnamed_remedy"), phrase("unnamed_experiment")
+        return Naming(label, *texts)
     if effect == "reading_step":
         return READING_STEP
     if part == "mounting":
@@ -89,7 +87,9 @@ def part_of(key: PartKey) -> str | None:
 
 @cache
 def _catalogue() -> dict[str, Naming]:
-    return {
-        e.label: Naming(e.label, e.physics, e.remedy + ENTRY.get(e.id, ""), e.experiment)
-        for e in five_bar_catalogue()
-    }
+    return {e.label: Naming(e.label, e.physics, _remedy(e), e.experiment) for e in five_bar_catalogue()}
+
+
+def _remedy(effect: Effect) -> Phrase:
+    entry = ENTRY.get(effect.id)
+    return effect.remedy if entry is None else phrase("sentences", first=effect.remedy, second=entry)

@@ -9,14 +9,14 @@ import numpy as np
 
 from station.effects.base import Acts, Bounds, JointEffect, Variants, one, scaled
 from station.mechanism import Conditions
-from station.records import Quantity, Real
+from station.records import Quantity, Real, phrase
 
 
 class Backlash(JointEffect):
     id = "backlash"
-    physics = "The arm lags by half the play in the sense of the joint's last motion."
-    remedy = "Adjust or replace the reducer, or approach every position from the same side."
-    experiment = "Read the same positions from the other side."
+    physics = phrase("backlash_physics")
+    remedy = phrase("backlash_remedy")
+    experiment = phrase("backlash_experiment")
     by_approach = True
     bounds: ClassVar[Bounds] = {"width_deg": (0.0, 1.0)}
 

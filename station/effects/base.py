@@ -15,7 +15,7 @@ from typing import ClassVar
 import numpy as np
 
 from station.mechanism import Conditions, Observation
-from station.records import Flags, Index, Motion, Quantity, Real
+from station.records import Flags, Index, Motion, Phrase, Quantity, Real
 
 
 @dataclass(frozen=True)
@@ -63,10 +63,10 @@ class Effect(ABC):
     """One entry of the catalogue, at one place of action on the machine."""
 
     id: ClassVar[str]
-    physics: ClassVar[str]
+    physics: ClassVar[Phrase]
     """One sentence."""
-    remedy: ClassVar[str]
-    experiment: ClassVar[str]
+    remedy: ClassVar[Phrase]
+    experiment: ClassVar[Phrase]
     """The experiment that distinguishes it from its aliases."""
     repeats: ClassVar[bool] = False
     """Whether one place of action can have it more than once, with other hidden parameters."""

@@ -10,7 +10,8 @@ import numpy as np
 from station.effects.base import Acts, Bounds, JointEffect, Variants, scaled
 from station.errors import InputRefused
 from station.mechanism import Conditions
-from station.records import Quantity, Real
+from station.messages import effect_name
+from station.records import Quantity, Real, phrase
 
 SPREAD_RAD = 1e-3
 """Initial scatter of the sag under each of several masses."""
@@ -18,9 +19,9 @@ SPREAD_RAD = 1e-3
 
 class Compliance(JointEffect):
     id = "compliance"
-    physics = "The arm sags under gravity, most when it is horizontal; a recorded payload adds to it."
-    remedy = "Stiffen the drive train or compensate for the torque in the controller."
-    experiment = "Repeat the measurement sequence with a payload on the platform."
+    physics = phrase("compliance_physics")
+    remedy = phrase("compliance_remedy")
+    experiment = phrase("compliance_experiment")
     bounds: ClassVar[Bounds] = dict.fromkeys(
         ("deg_at_horizontal", "deg_at_horizontal_per_kg", "deg_at_full_reach"), (0.0, 1.0)
     )
@@ -40,7 +41,8 @@ class Compliance(JointEffect):
         if "by_payload" not in hidden:
             return sag
         if c.payload_kg is None:
-            raise InputRefused(f"{self.label} was learned on payloads: a column payload_kg is needed.")
+            name = effect_name(self.label, "en")
+            raise InputRefused(f"{name} was learned on payloads: a column payload_kg is needed.")
         return np.hstack([sag, sag * c.payload_kg[:, None]])
 
     def quantities(

@@ -9,7 +9,7 @@ import numpy as np
 
 from station.effects.base import Acts, Bounds, JointEffect, Variants, scaled
 from station.mechanism import Conditions
-from station.records import Quantity, Real
+from station.records import Quantity, Real, phrase
 
 EDGE = 2
 """A step with fewer readings on one side is treated as outliers."""
@@ -21,9 +21,9 @@ MOST_MOMENTS = 200
 
 class CountSlip(JointEffect):
     id = "count_slip"
-    physics = "A belt jumped, a coupling slipped or counts were lost: a step from one moment on."
-    remedy = "Tighten coupling or belt, check the encoder cable, then calibrate again."
-    experiment = "Read the first positions again: the step stays."
+    physics = phrase("count_slip_physics")
+    remedy = phrase("count_slip_remedy")
+    experiment = phrase("count_slip_experiment")
     bounds: ClassVar[Bounds] = {"step_deg": (-5.0, 5.0)}
 
     def variants(self, c: Conditions) -> Variants | None:

@@ -9,7 +9,7 @@ import numpy as np
 
 from station.effects.base import Acts, Bounds, JointEffect, Variants, amplitude_and_phase
 from station.mechanism import Conditions
-from station.records import Quantity, Real
+from station.records import Quantity, Real, phrase
 
 SAME_STOP_RAD = 1e-3
 LEAST_STEP_RAD = 20.0 * SAME_STOP_RAD
@@ -51,9 +51,9 @@ def fastest_seen(angle: Real) -> float:
 
 class EncoderEccentricity(JointEffect):
     id = "encoder_eccentricity"
-    physics = "An encoder disc off its centre errs once a turn of the joint."
-    remedy = "Re-centre or replace the encoder, or keep the term in the controller's model."
-    experiment = "Read over a wider range of the joint, or from a second mount of the mechanism."
+    physics = phrase("encoder_eccentricity_physics")
+    remedy = phrase("encoder_eccentricity_remedy")
+    experiment = phrase("encoder_eccentricity_experiment")
     bounds: ClassVar[Bounds] = {"amplitude_deg": (0.0, 1.0)}
 
     def variants(self, c: Conditions) -> Variants | None:
@@ -68,9 +68,9 @@ class EncoderEccentricity(JointEffect):
 
 class GearCyclic(JointEffect):
     id = "gear_cyclic"
-    physics = "Teeth and bearings of motor and reducer repeat their error n times a turn of the joint."
-    remedy = "Check the reducer stage that turns n times a joint turn, or keep the term in the model."
-    experiment = "Read finely over two or three periods of the joint angle."
+    physics = phrase("gear_cyclic_physics")
+    remedy = phrase("gear_cyclic_remedy")
+    experiment = phrase("gear_cyclic_experiment")
     bounds: ClassVar[Bounds] = {"amplitude_deg": (0.0, 0.5)}
 
     repeats = True

@@ -9,7 +9,7 @@ import numpy as np
 from station.effects.base import Acts, JointEffect, Variants
 from station.effects.cyclic import fastest_seen, waves
 from station.mechanism import Conditions
-from station.records import Index, Quantity, Real
+from station.records import Index, Quantity, Real, phrase
 
 HIGHEST = 64
 """Maximum number of cycles per turn."""
@@ -31,11 +31,9 @@ class GearCurve(JointEffect):
     """As `gear_cyclic` with all cycles at once; the size of the amplitudes in each octave is learned too."""
 
     id = "gear_cyclic"
-    physics = (
-        "Flexspline, teeth, bearings and encoder repeat their errors in many cycles a turn of the joint."
-    )
-    remedy = "Keep the curve in the model; check the reducer of the joint if it is larger than its sisters'."
-    experiment = "Turn the joint alone through its range in fine steps."
+    physics = phrase("gear_curve_physics")
+    remedy = phrase("gear_curve_remedy")
+    experiment = phrase("gear_curve_experiment")
     local = True
     covers = ("gear_cyclic", "encoder_eccentricity")
 

@@ -10,7 +10,7 @@ import numpy as np
 from station.effects.base import Acts, Bounds, Effect, JointEffect, Variants, one, scaled
 from station.errors import InputRefused
 from station.mechanism import Conditions
-from station.records import Quantity, Real
+from station.records import Quantity, Real, phrase
 
 IN_ROWS = "in_rows"
 """Hidden parameter of a delay that was learned without times."""
@@ -22,11 +22,9 @@ class Lag(Effect):
     """A share of the motion from the previous pose, the same for all joints."""
 
     id = "lag"
-    physics = (
-        "Angles and reading are not of the same moment: a share of the last motion is missing in one of them."
-    )
-    remedy = "Wait longer at each pose, and record angles and reading at the same moment."
-    experiment = "Measure some poses again after a longer wait: the error becomes smaller."
+    physics = phrase("lag_physics")
+    remedy = phrase("lag_remedy")
+    experiment = phrase("lag_experiment")
     bounds: ClassVar[Bounds] = {"lag_percent": (-50.0, 50.0)}
 
     def variants(self, c: Conditions) -> Variants | None:
@@ -68,9 +66,9 @@ class Delay(Effect):
     """A time between angles and reading, while the arm moves on from reading to reading."""
 
     id = "delay"
-    physics = "Angles and readings of the moving arm were recorded with a delay between them."
-    remedy = "Synchronise the clocks of controller and instrument, or measure at standstill."
-    experiment = "Record the same path at half the speed: the error becomes half as large."
+    physics = phrase("delay_physics")
+    remedy = phrase("delay_remedy")
+    experiment = phrase("delay_experiment")
     bounds: ClassVar[Bounds] = {"delay_ms": (-5_000.0, 5_000.0), "delay_percent": (-100.0, 100.0)}
 
     def __init__(self, *, timed: bool) -> None:

@@ -8,14 +8,14 @@ import numpy as np
 
 from station.effects.base import Acts, JointEffect, Variants, one, scaled
 from station.mechanism import Conditions
-from station.records import Quantity, Real
+from station.records import Quantity, Real, phrase
 
 
 class LinkLength(JointEffect):
     id = "link_length"
-    physics = "A link is longer or shorter than its tolerance allows."
-    remedy = "Measure the link; correct the robot file or replace the link."
-    experiment = "Measure the link, or repeat the sequence from a second mount of the mechanism."
+    physics = phrase("link_length_physics")
+    remedy = phrase("link_length_remedy")
+    experiment = phrase("link_length_experiment")
 
     def __init__(self, joint: int, link: str) -> None:
         super().__init__(joint)
@@ -39,9 +39,9 @@ class LinkLength(JointEffect):
 
 class JointClearance(JointEffect):
     id = "joint_clearance"
-    physics = "The pin of a passive joint lies on the side to which the load pulls it."
-    remedy = "Replace the bearing of the passive joint."
-    experiment = "Repeat the measurement sequence with the load on the platform reversed."
+    physics = phrase("joint_clearance_physics")
+    remedy = phrase("joint_clearance_remedy")
+    experiment = phrase("joint_clearance_experiment")
 
     def variants(self, c: Conditions) -> Variants | None:
         link = f"l{self.joint}"

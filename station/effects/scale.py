@@ -9,14 +9,14 @@ import numpy as np
 from station.effects.base import ON_READING, Effect, Variants, amplitude_and_phase, one, scaled
 from station.effects.cyclic import OVERSAMPLING, wave, waves
 from station.mechanism import Conditions
-from station.records import Flags, Quantity, Real
+from station.records import Flags, Quantity, Real, phrase
 
 
 class ScaleGain(Effect):
     id = "scale_gain"
-    physics = "The scale's graduation is too long or too short."
-    remedy = "Set the readout's linear compensation, or replace the scale."
-    experiment = "Compare the scale with a gauge block or an interferometer."
+    physics = phrase("scale_gain_physics")
+    remedy = phrase("scale_gain_remedy")
+    experiment = phrase("scale_gain_experiment")
 
     def variants(self, c: Conditions) -> Variants | None:
         return one(ON_READING, c.travel)
@@ -29,9 +29,9 @@ class ScaleGain(Effect):
 
 class ScaleBow(Effect):
     id = "scale_bow"
-    physics = "A bent guide tilts the slider: the error grows with the square of the travel."
-    remedy = "Align the guide rods; check that nothing forces the scale."
-    experiment = "Compare the scale with an interferometer over its travel."
+    physics = phrase("scale_bow_physics")
+    remedy = phrase("scale_bow_remedy")
+    experiment = phrase("scale_bow_experiment")
 
     REACH_MM = 100.0
     """Travel from the middle at which the size is stated, about the limit of the workspace."""
@@ -58,9 +58,9 @@ class ScaleBow(Effect):
 
 class ScaleCyclic(Effect):
     id = "scale_cyclic"
-    physics = "The graduation, its interpolation or a rolling element repeats along the travel."
-    remedy = "Clean and realign the head; check what has this period (graduation, rolling element, screw)."
-    experiment = "Read finely over two or three periods of travel, or start at another point of the scale."
+    physics = phrase("scale_cyclic_physics")
+    remedy = phrase("scale_cyclic_remedy")
+    experiment = phrase("scale_cyclic_experiment")
 
     repeats = True
     SHORTEST_MM = 0.4
@@ -95,9 +95,9 @@ class ScaleCyclic(Effect):
 
 class ScaleHysteresis(Effect):
     id = "scale_hysteresis"
-    physics = "Head or slider hang back: the reading depends on the sense of the slider's last motion."
-    remedy = "Check the head's coupling and the friction of the slider."
-    experiment = "Reach the same position once with the slider moving up and once moving down."
+    physics = phrase("scale_hysteresis_physics")
+    remedy = phrase("scale_hysteresis_remedy")
+    experiment = phrase("scale_hysteresis_experiment")
 
     def variants(self, c: Conditions) -> Variants | None:
         if len(np.unique(c.slider_direction[c.slider_direction != 0])) < 2:

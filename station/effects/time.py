@@ -10,14 +10,14 @@ import numpy as np
 from station.effects.base import ON_READING, Acts, Bounds, Effect, Variants, one, scaled
 from station.errors import InputRefused
 from station.mechanism import Conditions
-from station.records import Quantity, Real
+from station.records import Quantity, Real, phrase
 
 
 class Drift(Effect):
     id = "drift"
-    physics = "The reading wanders in proportion to time."
-    remedy = "Let readout and machine warm up; check the mounting of scale and base."
-    experiment = "Stand still at one position and read for as long as the measurement sequence took."
+    physics = phrase("drift_physics")
+    remedy = phrase("drift_remedy")
+    experiment = phrase("drift_experiment")
 
     def variants(self, c: Conditions) -> Variants | None:
         return one(ON_READING, c.t_s)
@@ -30,9 +30,9 @@ class Drift(Effect):
 
 class ThermalGrowth(Effect):
     id = "thermal_growth"
-    physics = "Links or scale grow as the machine warms up."
-    remedy = "Warm up before calibrating, or compensate for the recorded temperature."
-    experiment = "Repeat the measurement sequence warm, with the temperature recorded."
+    physics = phrase("thermal_growth_physics")
+    remedy = phrase("thermal_growth_remedy")
+    experiment = phrase("thermal_growth_experiment")
     bounds: ClassVar[Bounds] = {
         "links_um_per_m_per_K": (0.0, 40.0),
         "scale_um_per_m_per_K": (-40.0, 40.0),
@@ -65,7 +65,7 @@ class ThermalGrowth(Effect):
         course = c.temperature_rise if "tau_s" not in hidden else _warming(c.t_s, hidden["tau_s"])
         if course is None:
             raise InputRefused(
-                "thermal_growth was learned on temperatures: a column temperature_c is needed."
+                "Thermal growth was learned on temperatures: a column temperature_c is needed."
             )
         return (course * (c.travel if "scale" in hidden else 1.0))[:, None]
 
@@ -101,7 +101,7 @@ class ThermalLinks(ThermalGrowth):
         course = c.temperature_rise if "tau_s" not in hidden else _warming(c.t_s, hidden["tau_s"])
         if course is None:
             raise InputRefused(
-                "thermal_growth was learned on temperatures: a column temperature_c is needed."
+                "Thermal growth was learned on temperatures: a column temperature_c is needed."
             )
         return course[:, None]
 

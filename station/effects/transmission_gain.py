@@ -7,14 +7,14 @@ from typing import ClassVar
 
 from station.effects.base import Acts, Bounds, JointEffect, Variants, one, scaled
 from station.mechanism import Conditions
-from station.records import Quantity, Real
+from station.records import Quantity, Real, phrase
 
 
 class TransmissionGain(JointEffect):
     id = "transmission_gain"
-    physics = "The joint turns more or less than counted, in proportion to the angle from the drive's zero."
-    remedy = "Correct the drive's ratio or pulses per turn."
-    experiment = "Turn the joint through its whole range against an inclinometer."
+    physics = phrase("transmission_gain_physics")
+    remedy = phrase("transmission_gain_remedy")
+    experiment = phrase("transmission_gain_experiment")
     bounds: ClassVar[Bounds] = {"ppm": (-12_000.0, 12_000.0)}
 
     def variants(self, c: Conditions) -> Variants | None:

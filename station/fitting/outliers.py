@@ -17,7 +17,7 @@ from scipy.special import ndtri
 from station.errors import InputRefused
 from station.fitting.least_squares import Solution
 from station.mechanism import Mechanism, axis_of_row
-from station.records import Index, Measurements, OutlierNote, Real
+from station.records import Index, Measurements, OutlierNote, Phrase, Real, phrase
 
 SIGNIFICANCE = 1e-3
 """Level for the whole set of readings (Bonferroni)."""
@@ -40,12 +40,20 @@ class Outlier:
     times_sd: float
 
     @property
+    def said(self) -> Phrase:
+        """The reason to exclude it."""
+        return phrase("off_by", off_um=self.residual_mm * 1e3, times=self.times_sd)
+
+    @property
     def reason(self) -> str:
-        return f"off by {self.residual_mm * 1e3:.0f} um, {self.times_sd:.0f} times the scatter of the others"
+        """The same in English."""
+        return self.said.text()
 
     def record(self) -> OutlierNote:
         """The outlier as documents contain it."""
-        return OutlierNote(reading=self.reading, residual_mm=self.residual_mm, reason=self.reason)
+        return OutlierNote(
+            reading=self.reading, residual_mm=self.residual_mm, reason=self.reason, said=self.said
+        )
 
 
 Fit = Callable[[Real], Solution]

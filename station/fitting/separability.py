@@ -15,7 +15,7 @@ from scipy.linalg import qr
 
 from station.fitting.least_squares import Solution
 from station.mechanism import Mechanism
-from station.records import Real, WeakDirection
+from station.records import Phrase, Real, WeakDirection, phrase
 
 TIED = 1.0
 """Information of the readings over that of the tolerance, below which the tolerance dominates."""
@@ -35,10 +35,11 @@ class Tied:
     """Parameters with the same effect, most similar first; empty: it has no effect on the readings at all."""
 
     @property
-    def text(self) -> str:
+    def said(self) -> Phrase:
+        """The parameter with those that it cannot be distinguished from."""
         if not self.looks_like:
-            return f"{self.name} (not seen at all)"
-        return f"{self.name} (looks like {', '.join(self.looks_like)})"
+            return phrase("not_seen", parameter=self.name)
+        return phrase("looks_like", parameter=self.name, looks_like=", ".join(self.looks_like))
 
 
 def describe_separability(
@@ -54,12 +55,18 @@ def describe_separability(
     sd = np.degrees(np.sqrt(np.diag(solution.covariance)[:joints])) * sd_factor
     seen = [k for k in range(joints) if f"dtheta{k + 1}" not in names]
     weakest = max(seen, key=lambda k: sd[k], default=None)
-    text = "no zero offset is determined" if weakest is None else f"dtheta{weakest + 1}"
+    zero = (
+        phrase("no_zero_offset") if weakest is None else phrase("parameter", parameter=f"dtheta{weakest + 1}")
+    )
+    said = phrase("held_by_tolerances", zero=zero, tied=len(tied), parameters=len(mechanism.parameters))
+    blind = tuple(t.said for t in tied)
     return WeakDirection(
         singular_ratio=float(solution.singular_values[-1] / solution.singular_values[0]),
-        text=f"{text}; {len(tied)} of {len(mechanism.parameters)} parameters are held by tolerances alone",
+        text=said.text(),
+        said=said,
         sd_deg=float(sd.max() if weakest is None else sd[weakest]),
-        blind=tuple(t.text for t in tied),
+        blind=tuple(one.text() for one in blind),
+        blind_said=blind,
     )
 
 

@@ -14,16 +14,12 @@ import numpy as np
 
 from station.five_bar.error_model import KEPT, distance_jacobian, pose
 from station.five_bar.mechanism import FiveBar
-from station.records import Real, Remedy, WeakDirection
+from station.records import Phrase, Real, Remedy, WeakDirection, phrase
 
 if TYPE_CHECKING:  # modules that list runs need robot files, but no solver, which takes long to load
     from station.fitting import Solution
 
-BLIND = (
-    "base joints and mechanism shifted together sideways",
-    "base joints and mechanism shifted together in height",
-    "the whole robot turned about the mechanism's joint on the base",
-)
+BLIND = (phrase("blind_sideways"), phrase("blind_height"), phrase("blind_turned"))
 KNOWN_DRM_SD_MM = 0.02
 """Uncertainty that a careful measurement of the mechanism achieves."""
 SECOND_MOUNT_MM = 200.0
@@ -58,14 +54,19 @@ def describe_weak_direction(
         solution.covariance[:size, :size] * sd_factor**2,
     )
     found = remedies(fit)
-    best = min(found, key=lambda remedy: remedy.sd_deg)
+    said = _words(fit)
+    best, sd_deg = min(found, key=lambda one: one[1])
+    advice = phrase("with_sd", remedy=best, sd_deg=sd_deg)
     return WeakDirection(
         singular_ratio=singular_ratio(fit),
-        text=_words(fit),
+        text=said.text(),
+        said=said,
         sd_deg=common_sd_deg(fit.covariance),
-        blind=BLIND,
-        remedies=found,
-        remedy=f"{best.text} (sd {best.sd_deg:.3f} deg)",
+        blind=tuple(one.text() for one in BLIND),
+        blind_said=BLIND,
+        remedies=tuple(Remedy(text=said.text(), said=said, sd_deg=sd_deg) for said, sd_deg in found),
+        remedy=advice.text(),
+        remedy_said=advice,
     )
 
 
@@ -81,25 +82,25 @@ def singular_ratio(fit: Posterior) -> float:
     return float(sigma[-1] / sigma[0])
 
 
-def _words(fit: Posterior) -> str:
+def _words(fit: Posterior) -> Phrase:
     """The description, from the principal axis of the zero offsets' posterior and its correlations."""
     C = fit.covariance
     axis = np.linalg.eigh(C[:2, :2])[1][:, -1]
     together = axis[0] * axis[1] > 0
-    arms = "both arms together" if together else "one arm against the other"
+    arms = phrase("arms_together") if together else phrase("arms_against")
     prior_sd = np.array([p.prior_sd for p in fit.mechanism.parameters])
     sd = np.sqrt(np.diag(C))
     along = (C[:, :2] @ axis) / (sd * np.sqrt(axis @ C[:2, :2] @ axis))
     side, height = abs(along[10]), abs(along[11])
     undecided = (sd[10:12] > 0.02 * prior_sd[10:12]) & (np.array([side, height]) > 0.5)
     if undecided[0] and side >= height:
-        return f"{arms} with a sideways error of the mechanism"
+        return phrase("arms_with_sideways", arms=arms)
     if undecided[1]:
-        return f"{arms} with an error of the mechanism along its height"
+        return phrase("arms_with_height", arms=arms)
     return arms
 
 
-def remedies(fit: Posterior) -> tuple[Remedy, ...]:
+def remedies(fit: Posterior) -> tuple[tuple[Phrase, float], ...]:
     """Measurements that would determine the weak direction, with the resulting sd of the common mode."""
     finite = np.isfinite(np.diag(fit.covariance))
     information = np.linalg.inv(fit.covariance[np.ix_(finite, finite)])
@@ -107,13 +108,10 @@ def remedies(fit: Posterior) -> tuple[Remedy, ...]:
     for axis in (10, 11):
         known[axis, axis] += 1.0 / KNOWN_DRM_SD_MM**2
     return (
-        Remedy(
-            text=f"measure the mechanism's mounting error to {KNOWN_DRM_SD_MM} mm",
-            sd_deg=common_sd_deg(np.linalg.inv(known)),
-        ),
-        Remedy(
-            text=f"repeat the sequence with the mechanism mounted {SECOND_MOUNT_MM:.0f} mm aside",
-            sd_deg=common_sd_deg(with_second_mount(fit.mechanism, fit.row_sd, fit.dtheta, information)),
+        (phrase("measure_mounting", mm=KNOWN_DRM_SD_MM), common_sd_deg(np.linalg.inv(known))),
+        (
+            phrase("mount_aside", mm=SECOND_MOUNT_MM),
+            common_sd_deg(with_second_mount(fit.mechanism, fit.row_sd, fit.dtheta, information)),
         ),
     )
 

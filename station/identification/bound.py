@@ -7,9 +7,9 @@ import numpy as np
 from station.fitting import expected_largest_error_bound, largest_error_bounds
 from station.five_bar import FiveBar
 from station.identification.estimate import Identification
-from station.records import AccuracyReached, CalibrationResult, Real, because
+from station.records import AccuracyReached, CalibrationResult, Phrase, Real, because, phrase
 
-PLAN_ENDED = "the plan has ended"
+PLAN_ENDED = phrase("plan_ended")
 GEOMETRY = slice(2, 10)
 """Indices of the geometry among the unknowns."""
 LEARNED = 8
@@ -50,7 +50,7 @@ def accuracy_of(
     found: Identification[FiveBar],
     wanted_mm: float | None,
     *,
-    stopped: str = PLAN_ENDED,
+    stopped: Phrase = PLAN_ENDED,
     zeros: Real | None = None,
 ) -> AccuracyReached:
     """The predicted accuracy of a fit, with the required accuracy."""

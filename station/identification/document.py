@@ -18,6 +18,7 @@ from station.records import (
     PredictedAccuracy,
     ResidualSummary,
     ZeroOffset,
+    phrase,
 )
 
 
@@ -85,9 +86,5 @@ def position_error_map(found: Identification[AnyMechanism]) -> tuple[PositionErr
 
 def gate_record(gate: Gate) -> GateOfMemory:
     """In words."""
-    text = (
-        "geometry and mechanism as earlier calibrations found them"
-        if gate.used
-        else "not used: it contradicts the new readings; has the mechanism been remounted?"
-    )
-    return GateOfMemory(used=gate.used, p_value=gate.p_value, text=text)
+    said = phrase("memory_used") if gate.used else phrase("memory_contradicted")
+    return GateOfMemory(used=gate.used, p_value=gate.p_value, text=said.text(), said=said)

@@ -132,7 +132,13 @@ def without_jump(result: CalibrationResult, robot: Robot, readings: Sequence[Rea
         return result
     first = readings[jump.index]
     reason = jump.reason(first.reading, first.position)
-    changed = {"verdict": "fail", "outcome": "unexplained", "reason": reason, "lack_of_fit": reason.text}
+    changed = {
+        "verdict": "fail",
+        "outcome": "unexplained",
+        "reason": reason,
+        "lack_of_fit": reason.text,
+        "lack_of_fit_reason": reason,
+    }
     return result.model_copy(update=changed)
 
 

@@ -158,6 +158,7 @@ def _result(
         residuals=_residuals(fit, readings, mechanism),
         references=fit.references,
         lack_of_fit=misfit.text if misfit else None,
+        lack_of_fit_reason=misfit,
     )
 
 
@@ -178,13 +179,15 @@ def not_identified(refusal: str) -> CalibrationResult:
 
     The station took them itself: the model lacks an effect, or the robot file is of another machine.
     """
+    reason = because("not_identified", text=refusal)
     return CalibrationResult(
         verdict="fail",
         outcome="failed",
-        reason=because("not_identified", text=refusal),
+        reason=reason,
         method="measurement model",
         zero_offsets=(),
         lack_of_fit=refusal,
+        lack_of_fit_reason=reason,
     )
 
 

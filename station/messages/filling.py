@@ -2,58 +2,82 @@
 
 from __future__ import annotations
 
-import re
+from collections.abc import Callable, Mapping
 from string import Formatter
 from typing import Any
 
-from station.messages.sentences import in_words, labels_in_words, number_in_words
-from station.messages.texts import Language, dependence_name, reason_template, report_template
+from station.messages.locales import number_in_words
+from station.messages.texts import (
+    Language,
+    dependence_name,
+    display_name,
+    labels_in_words,
+    parameter_name,
+    reason_template,
+    report_template,
+    templates,
+)
 
-_SHARE = re.compile(r"(?P<labels>.+) \((?P<percent>\d+) %\)")
-"""An explanation among others in a reason: `backlash of joint 1 and drift (12 %)`."""
+Values = Mapping[str, float | int | str]
 
 
-def reason_text(code: str, params: dict[str, float | int | str], language: Language = "en") -> str:
+def reason_text(code: str, params: Values, language: Language = "en") -> str:
     """A reason as a sentence. :raises KeyError: the code is unknown, or a parameter is missing."""
-    return filled(reason_template(code, language), params, language)
+    template = reason_template(code, language)
+    text = _filled(template, params, language)
+    # a text at the start is a sentence as it was written, for instance with the name of a file
+    return capital(text) if template.startswith("{causes}") else text
+
+
+def phrase_text(code: str, params: Values, language: Language = "en") -> str:
+    """A phrase by its code. :raises KeyError: the code is unknown, or a parameter is missing."""
+    return _filled(templates(language, "phrases")[code], params, language)
 
 
 def report_text(key: str, language: Language, **values: float | int | str) -> str:
     """A label or sentence of the report on a diagnosis.  :raises KeyError:"""
-    return filled(report_template(key, language), values, language)
+    return _filled(report_template(key, language), values, language)
 
 
-def filled(template: str, params: dict[str, float | int | str], language: Language) -> str:
-    """The template with its values in the format of the language. :raises KeyError: a value is missing."""
+def capital(text: str) -> str:
+    """The text as it starts a sentence."""
+    return text[:1].upper() + text[1:]
+
+
+def _filled(template: str, params: Values, language: Language) -> str:
     return _Local(language).vformat(template, (), params)
 
 
 class _Local(Formatter):
-    """Numbers, identifiers and English sentences in the form of the language."""
+    """Numbers and identifiers in the form of the language."""
 
     def __init__(self, language: Language) -> None:
         self._language: Language = language
 
     def get_value(self, key: int | str, args: Any, kwargs: Any) -> Any:
         value = kwargs[key]
-        if not isinstance(value, str):
-            return value
-        if key == "depends_on":
-            return dependence_name(value, self._language)
-        if key in ("causes", "unnamed"):
-            return labels_in_words(value, self._language)
-        if key == "others":
-            between = report_template("between", self._language)
-            return between.join(map(self._share, value.split(", ")))
-        return in_words(value, self._language)
-
-    def _share(self, text: str) -> str:
-        found = _SHARE.fullmatch(text)
-        if found is None:
-            return in_words(text, self._language)
-        labels = labels_in_words(found["labels"], self._language)
-        return report_template("share_of", self._language).format(labels=labels, percent=found["percent"])
+        named = _IDENTIFIERS.get(str(key))
+        return named(value, self._language) if named and isinstance(value, str) else value
 
     def format_field(self, value: Any, format_spec: str) -> str:
         text: str = super().format_field(value, format_spec)
         return number_in_words(text, self._language) if isinstance(value, float) else text
+
+
+def _parameters(ids: str, language: Language) -> str:
+    """Parameters by their symbols, as in the tables; by their names where the language has no such tables."""
+    if language == "en":
+        return ids
+    return report_template("between", language).join(parameter_name(id, language) for id in ids.split(", "))
+
+
+_IDENTIFIERS: dict[str, Callable[[str, Language], str]] = {
+    "alternative": dependence_name,
+    "causes": labels_in_words,
+    "depends_on": dependence_name,
+    "looks_like": _parameters,
+    "parameter": _parameters,
+    "plan": lambda id, language: display_name("plans", id, language),
+    "unnamed": labels_in_words,
+}
+"""Values that are identifiers, by their name in the templates."""

@@ -19,6 +19,11 @@ def local_number(value: float, digits: int, language: Language) -> str:
     if float(text) == 0.0:
         text = text.removeprefix("-")
     text = text.replace("-", "\N{MINUS SIGN}")
+    return number_in_words(text, language)
+
+
+def number_in_words(text: str, language: Language) -> str:
+    """A formatted number, with the decimal sign of the language."""
     return text.replace(".", ",") if language in DECIMAL_COMMA else text
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+from collections.abc import Sequence
 from functools import cache
 from importlib.resources import files
 from typing import Literal, get_args
@@ -33,8 +34,8 @@ def _texts(language: Language) -> dict[str, dict[str, _Entry]]:
 
 
 @cache
-def templates(language: Language, of: Literal["phrases", "report", "sentences"]) -> dict[str, str]:
-    """The templates of one file, by code; sentences by their English form."""
+def templates(language: Language, of: Literal["phrases", "report"]) -> dict[str, str]:
+    """The templates of one file, by code."""
     content: dict[str, str] = json.loads(
         files("station.messages").joinpath(f"{language}-{of}.json").read_text(encoding="utf-8")
     )
@@ -88,11 +89,11 @@ def dependence_name(id: str, language: Language) -> str:
 
 
 def effect_name(label: str, language: Language) -> str:
-    """The name of an effect by its label, for instance `backlash of joint 1`."""
+    """The name of an effect by its label, for instance `backlash of joint 1`; also of an unnamed one."""
     known = _LABEL.fullmatch(label)
     entry = _texts(language)["effects"].get(known["effect"]) if known else None
     if known is None or entry is None:
-        return label
+        return _open_name("labels", label, language)
     name = _name(entry)
     if known["curve"]:
         name = certificate_text("curve", language).format(effect=name)
@@ -101,6 +102,25 @@ def effect_name(label: str, language: Language) -> str:
     if part := known["part"] or known["link"]:
         return certificate_text("of_part", language).format(effect=name, part=part_name(part, language))
     return name
+
+
+def labels_in_words(labels: str, language: Language) -> str:
+    """Effects by their labels with "and" between them, for the middle of a sentence."""
+    return both(
+        [_in_sentence(effect_name(label, language), language) for label in labels.split(" and ")], language
+    )
+
+
+def both(parts: Sequence[str], language: Language) -> str:
+    """Parts of a sentence as a list that ends with "and"."""
+    *others, last = parts
+    first = report_template("between", language).join(others)
+    return certificate_text("and", language).join([first, last]) if others else last
+
+
+def _in_sentence(name: str, language: Language) -> str:
+    """German nouns keep their capital; so do abbreviations."""
+    return name[:1].lower() + name[1:] if language == "en" and not name[1:2].isupper() else name
 
 
 def _text(group: str, key: str, language: Language) -> str:

@@ -7,13 +7,14 @@ receiver refuses permanently, and too old or too many ones, are marked and do no
 from __future__ import annotations
 
 import logging
-from collections.abc import Callable, Iterator
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import ExitStack, contextmanager
 from datetime import UTC, datetime, timedelta
 from threading import Event as Flag
 from threading import Thread
 
-from station.errors import StoreUnavailable
+from station.errors import InputRefused, StoreUnavailable
 from station.outbox.folder import Folder
 from station.outbox.mqtt import Mqtt
 from station.outbox.receiver import Receiver, Refused
@@ -69,7 +70,7 @@ class Courier:
         except Exception as error:  # noqa: BLE001 - whatever goes wrong on the way, it is tried again
             wait_s = min(2.0**delivery.tries, LONGEST_WAIT_S)
             log.warning("%s: event %d is tried again in %g s: %s", name, event.n, wait_s, error)
-            detail = f"{type(error).__name__}: {error}"[:300]
+            detail = (str(error) or type(error).__name__)[:300]
             self._store.postpone(delivery.id, self._now() + timedelta(seconds=wait_s), detail)
         else:
             self._store.settle(delivery.id, "delivered", said[:300])
@@ -86,9 +87,9 @@ class Courier:
         return self._store.expire(self.receiver.name, oldest, self._settings.keep)
 
     def _run(self) -> None:
-        self.receiver.start()
         wait_s = 0.0
         while not self._closing.wait(wait_s):
+            self.receiver.report_running()
             try:
                 wait_s = self.step()
             except StoreUnavailable as error:
@@ -109,14 +110,28 @@ class Courier:
 
 @contextmanager
 def couriers(store: Store, settings: OutboxSettings) -> Iterator[None]:
-    """One for each receiver of the station file.  :raises InputRefused: a secret cannot be used."""
+    """One for each receiver of the station file.
+
+    :raises InputRefused: a secret cannot be used, or two receivers cannot be told apart.
+    """
     receivers: list[Receiver] = [
         *(Webhook(one) for one in settings.webhook),
         *(Folder(one) for one in settings.folder),
         *(Mqtt(one) for one in settings.mqtt),
     ]
+    _refuse_twins(receiver.name for receiver in receivers)
     with ExitStack() as working:
         for receiver in receivers:
             store.enqueue(receiver.name, receiver.events)
             working.enter_context(Courier(store, receiver, settings).working())
         yield
+
+
+def _refuse_twins(names: Iterable[str]) -> None:
+    """Two of one name would take each other's events.  :raises InputRefused:"""
+    for name, count in Counter(names).items():
+        if count > 1:
+            raise InputRefused(
+                f"The station file has {count} receivers called {name}; give each its own address, topic or"
+                " folder. The query of an address does not count."
+            )

@@ -23,7 +23,7 @@ class Folder:
         self.events: tuple[str, ...] = settings.events
         self._folder, self._format = settings.path, settings.format
 
-    def start(self) -> None:
+    def report_running(self) -> None:
         """Nothing to do."""
 
     def deliver(self, event: Event) -> str:

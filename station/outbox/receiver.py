@@ -24,8 +24,11 @@ class Receiver(Protocol):
     def events(self) -> tuple[str, ...]:
         """Types of event for this receiver."""
 
-    def start(self) -> None:
-        """Report that the station is running, if the receiver supports it; never waits, never fails."""
+    def report_running(self) -> None:
+        """Report that the station is running, if the receiver supports it.
+
+        Called at the start and at intervals; never waits, never fails.
+        """
 
     def deliver(self, event: Event) -> str:
         """Deliver an event; returns the answer of the receiver.

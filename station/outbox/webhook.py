@@ -51,13 +51,14 @@ class Webhook:
 
     def __init__(self, settings: WebhookSettings, *, clock: Callable[[], float] = time.time) -> None:
         """:raises InputRefused: its secret cannot be used."""
-        self.name = f"webhook {settings.url}"
+        # a query may contain a token: the name is shown, logged and stored
+        self.name = f"webhook {settings.url.partition('?')[0]}"
         self.events: tuple[str, ...] = settings.events
         self._url = settings.url
         self._key = secret_of(settings.secret_file)
         self._clock, self._trust = clock, ssl.create_default_context()
 
-    def start(self) -> None:
+    def report_running(self) -> None:
         """Nothing to do."""
 
     def deliver(self, event: Event) -> str:

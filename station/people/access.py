@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hmac
+import logging
 import time
 from collections.abc import Callable
 from datetime import UTC, datetime
@@ -13,8 +14,10 @@ from station.people.keys import new_secret, secret_hash
 from station.people.passwords import hashed_password, matches
 from station.people.roles import ALLOWED, Permission, allowed_roles
 from station.people.tries import Tries
-from station.records import Actor, Role, SignedIn, User
+from station.records import Actor, Role, SignedIn, User, account_key
 from station.store import Store
+
+log = logging.getLogger(__name__)
 
 KEY_PREFIX = "fbs_"
 """Identifies the purpose of a key that is found in a text."""
@@ -116,7 +119,9 @@ class Access:
         :raises NotSignedIn: name or password is wrong; the error does not state which
         :raises TooManyTries:
         """
-        return self._sign_in(f"name {name.casefold()}", address, password, "Name or password is wrong.", name)
+        return self._sign_in(
+            f"name {account_key(name)}", address, password, "Name or password is wrong.", name
+        )
 
     def sign_in_by_badge(self, badge: str, pin: str, address: str) -> tuple[str, User]:
         """The same with a badge and its PIN."""
@@ -134,6 +139,8 @@ class Access:
         )
         if not self._matches(secret, kept.secret_hash if kept else None) or kept is None:
             self._tries.failed(*counted)
+            # without name and badge: a password may have been typed into the wrong field
+            log.warning("A sign-in from %s was refused: %s", address, wrong)
             raise NotSignedIn(wrong)
         self._tries.succeeded(who)  # not the address: the owner of an account could try others' from there
         return self._begin(kept.user), kept.user
@@ -189,6 +196,8 @@ class Access:
         with self._hashing:
             if self._first is None or not hmac.compare_digest(self._first, secret_hash(secret)):
                 raise NotSignedIn("This link was used already or is not this station's; start it again.")
+            if self._store.administrator_known():  # made at the terminal since; the link may be in a log
+                raise NotSignedIn("There is an administrator already, who can add users.")
             role: Role = "administrator"
             by = Actor(name=name, via="terminal")
             user = self._store.add_user(by, name, role, password_hash=hashed_password(password))

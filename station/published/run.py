@@ -32,12 +32,16 @@ from station.records import (
     WeakDirection,
     because,
     from_readings,
+    phrase,
     residual_rows,
 )
 
 MU_0_DEG = 0.1
 """Threshold of eq. 32 (section 6.2)."""
 MAX_PASSES = 8
+WEAK = phrase("arms_with_sideways", arms=phrase("arms_together"))
+"""The direction that this model determines least: its four unknowns contain no other."""
+REMEDY = phrase("measure_mounting_or_plan", plan="full")
 
 
 class PublishedRun:
@@ -151,9 +155,11 @@ class PublishedRun:
             ),
             weak_direction=WeakDirection(
                 singular_ratio=float(sigma[-1] / sigma[0]),
-                text="both arms together with a sideways error of the mechanism",
+                text=WEAK.text(),
+                said=WEAK,
                 sd_deg=common_sd_deg(covariance),
-                remedy="measure the mechanism's mounting error, or use the plan `full`",
+                remedy=REMEDY.text(),
+                remedy_said=REMEDY,
             ),
             before=Accuracy(
                 reading_rms_mm=self._raw_rms,
@@ -166,6 +172,7 @@ class PublishedRun:
             iterations=tuple(self._iterations),
             residuals=residual_rows(self._readings, residual, limit),
             lack_of_fit=misfit.text if misfit else None,
+            lack_of_fit_reason=misfit,
         )
 
     def _propagate(self, mechanism: FiveBar) -> tuple[Real, Real]:

@@ -99,7 +99,7 @@ from station.records.measurement_file import (
     recorded_columns,
 )
 from station.records.measurements import MOTIONS, Measurements, Motion, from_readings, number
-from station.records.names import checked_name, checked_serial
+from station.records.names import account_key, checked_account, checked_name, checked_serial, one_line
 from station.records.people import (
     STATION,
     Actor,
@@ -365,8 +365,10 @@ __all__ = [
     "Workspace",
     "ZeroOffset",
     "ZeroWrite",
+    "account_key",
     "approaches",
     "because",
+    "checked_account",
     "checked_name",
     "checked_serial",
     "content_of",
@@ -377,6 +379,7 @@ __all__ = [
     "harmless",
     "inside_visited",
     "number",
+    "one_line",
     "parse_measurements",
     "parse_readings",
     "phrase",

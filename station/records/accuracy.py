@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from station.records.phrases import Phrase
 from station.records.record import Record
 
 
@@ -31,10 +32,12 @@ class AccuracyReached(Record):
     """Whether `bound_95_mm` meets the requirement; null without one."""
     stopped_because: str | None = None
     """Why no further readings were taken."""
+    stopped_because_said: Phrase | None = None
+    """The same by its code, for other languages; null in results of older versions, too."""
 
     @classmethod
     def of(
-        cls, by_drives_mm: float | None, by_model_mm: float | None, wanted_mm: float | None, stopped: str
+        cls, by_drives_mm: float | None, by_model_mm: float | None, wanted_mm: float | None, stopped: Phrase
     ) -> AccuracyReached:
         """A bound that is not finite becomes null and meets no requirement."""
         finite_mm = by_drives_mm if by_drives_mm is not None and math.isfinite(by_drives_mm) else None
@@ -45,7 +48,8 @@ class AccuracyReached(Record):
             bound_95_model_mm=model_mm,
             wanted_mm=wanted_mm,
             reached=reached,
-            stopped_because=stopped,
+            stopped_because=stopped.text(),
+            stopped_because_said=stopped,
         )
 
 
@@ -66,6 +70,8 @@ class Remedy(Record):
     """A measurement that would determine a weak direction, and the zero offsets' standard uncertainty."""
 
     text: str
+    said: Phrase | None = None
+    """The text by its code, for other languages; null in documents of older versions."""
     sd_deg: float
 
 
@@ -74,10 +80,16 @@ class WeakDirection(Record):
 
     singular_ratio: float | None = None
     text: str = ""
+    said: Phrase | None = None
+    """The text by its code, for other languages; null in documents of older versions."""
     sd_deg: float | None = None
     """Standard uncertainty of the zero offsets along it."""
     blind: tuple[str, ...] = ()
     """Directions that no reading can determine."""
+    blind_said: tuple[Phrase, ...] = ()
+    """The same by their codes."""
     remedies: tuple[Remedy, ...] = ()
     remedy: str | None = None
     """The best of them in words."""
+    remedy_said: Phrase | None = None
+    """The same by its code."""

@@ -67,7 +67,11 @@ class Finding(EffectName):
     alias_set: tuple[EffectName, ...]
     """The effect and those that these readings cannot distinguish from it."""
     remedy: str
+    remedy_said: Phrase | None = None
+    """The remedy by its code, for other languages; null where there is none, and in older documents."""
     separating_experiment: str | None = None
+    separating_experiment_said: Phrase | None = None
+    """The same by its code."""
 
 
 class JointCurve(Record):
@@ -106,6 +110,8 @@ class Dependence(Record):
     strength: float
     """Share of the residual's sum of squares that it accounts for, 0 to 1."""
     text: str
+    said: Phrase | None = None
+    """The text by its code, for other languages; null in documents of older versions."""
 
 
 class SmallestVisible(EffectName):
@@ -117,6 +123,8 @@ class SmallestVisible(EffectName):
     """Null if these readings cannot detect the effect at all."""
     unit: str | None
     text: str
+    said: Phrase | None = None
+    """The text by its code, for other languages; null where it is empty, and in older documents."""
 
 
 class ExplainedEffect(EffectName):
@@ -141,6 +149,8 @@ class ExperimentRecord(Record):
 
     kind: str
     text: str
+    said: Phrase | None = None
+    """The text by its code, for other languages; null in documents of older versions."""
     decides: float
     """Probability that it decides between the explanations."""
 
@@ -151,7 +161,7 @@ class MistakeRecord(Record):
     kind: str
     text: str
     said: Phrase | None = None
-    """The text by its codes, for other languages; none in documents of older versions."""
+    """The text by its code, for other languages; null in documents of older versions."""
     rows: tuple[int | str, ...]
 
 
@@ -310,6 +320,8 @@ class DiagnosisDocument(Record):
     invisible: tuple[SmallestVisible, ...]
     outliers: tuple[int | str, ...]
     outlier_reasons: tuple[str, ...] = ()
+    outlier_reasons_said: tuple[Phrase, ...] = ()
+    """The reasons by their codes, for other languages; none in documents of older versions."""
     fresh_outliers: tuple[int | str, ...] = ()
     explanations: tuple[ExplanationRecord, ...] = ()
     """All explanations with a probability of 0.01 or more, most probable first; none in schema 1."""

@@ -14,7 +14,7 @@ DeliveryState = Literal["waiting", "delivered", "refused", "expired"]
 
 
 class Event(Record):
-    """An event; `n` increases from 1 without gaps, `uid` is the same at every delivery."""
+    """An event; `n` increases from 1, `uid` is the same at every delivery."""
 
     n: int
     uid: str

@@ -8,6 +8,7 @@ from pydantic import Field
 
 from station.records.accuracy import PositionError, WeakDirection
 from station.records.diagnosis_document import DataSource, NoiseOfReadings
+from station.records.phrases import Phrase
 from station.records.quantity import Quantity
 from station.records.record import Record
 from station.records.references import ReferenceUse
@@ -20,6 +21,8 @@ class OutlierNote(Record):
     reading: int | str
     residual_mm: float
     reason: str
+    said: Phrase | None = None
+    """The reason by its code, for other languages; null in documents of older versions."""
 
 
 class ResidualSummary(Record):
@@ -52,6 +55,8 @@ class GateOfMemory(Record):
     used: bool
     p_value: float
     text: str
+    said: Phrase | None = None
+    """The text by its code, for other languages; null in documents of older versions."""
 
 
 class Convergence(Record):

@@ -10,6 +10,8 @@ LONGEST = 64
 _BETWEEN = ".-_/"
 _INVISIBLE = ("Cc", "Cs", "Zl", "Zp")
 """Categories of control characters, halves of UTF-16 pairs, line and paragraph separators."""
+_ALIKE = frozenset({"Latin", "Cyrillic", "Greek", "Armenian"})
+"""Scripts with letters that look the same; names in other scripts often contain Latin letters."""
 
 
 def checked_serial(text: str) -> str:
@@ -41,6 +43,37 @@ def checked_name(text: str) -> str:
         if unicodedata.category(c) in _INVISIBLE:
             raise InputRefused(f"Name {shown(text)} holds the control character {shown(c)}; leave it out.")
     return text
+
+
+def checked_account(text: str) -> str:
+    """The name of a user or a key, in the form in which two names that look the same are the same.
+
+    :raises InputRefused: it is too long then, has invisible characters, or looks like another one.
+    """
+    name = _plain(text)
+    if not name or len(name) > LONGEST:
+        raise InputRefused(f"Name {shown(text)} has {len(name)} characters; use 1 to {LONGEST}.")
+    for c in name:
+        if unicodedata.category(c) in (*_INVISIBLE, "Cf"):
+            raise InputRefused(f"Name {shown(text)} holds the invisible character {shown(c)}; leave it out.")
+    scripts = sorted({_script(c) for c in name if c.isalpha()} & _ALIKE)
+    if len(scripts) > 1:
+        raise InputRefused(f"Name {shown(text)} mixes letters of {' and '.join(scripts)}; use one script.")
+    return name
+
+
+def account_key(name: str) -> str:
+    """Equal for names that are the same account: in any case, composed or not, of any width."""
+    return _plain(_plain(name).casefold())
+
+
+def one_line(text: str) -> str:
+    """The text with its control and invisible characters as escapes."""
+    return "".join(ascii(c)[1:-1] if unicodedata.category(c) in (*_INVISIBLE, "Cf") else c for c in text)
+
+
+def _plain(text: str) -> str:
+    return " ".join(unicodedata.normalize("NFKC", text).split())
 
 
 def shown(text: str) -> str:

@@ -5,8 +5,10 @@ from __future__ import annotations
 from datetime import datetime
 from typing import Annotated, Literal
 
-from pydantic import JsonValue, StringConstraints
+from pydantic import AfterValidator, JsonValue, StringConstraints
 
+from station.errors import InputRefused
+from station.records.names import checked_account
 from station.records.record import Record
 
 Role = Literal["viewer", "operator", "engineer", "administrator", "mes"]
@@ -15,8 +17,18 @@ Via = Literal["user", "key", "panel", "open", "terminal", "station"]
 terminal; or the station itself.
 """
 
+
+def _account(text: str) -> str:
+    try:
+        return checked_account(text)
+    except InputRefused as refused:
+        raise ValueError(str(refused)) from refused
+
+
 PersonName = Annotated[
-    str, StringConstraints(strip_whitespace=True, min_length=1, max_length=64, pattern=r"^[\w.@+\- ]+$")
+    str,
+    StringConstraints(strip_whitespace=True, min_length=1, max_length=64, pattern=r"^[\w.@+\- ]+$"),
+    AfterValidator(_account),
 ]
 
 

@@ -6,8 +6,10 @@ from typing import Annotated
 
 from pydantic import Field
 
-from station.messages import Language, certificate_text, phrase_text
+from station.messages import Language, both, capital, phrase_text
 from station.records.record import Record
+
+FULL_STOPS = (".", "。")
 
 
 class Phrase(Record):
@@ -18,9 +20,9 @@ class Phrase(Record):
     """Numbers, names of columns and keys, other phrases, or several of these, which are joined by "and"."""
 
     def text(self, language: Language = "en") -> str:
-        """A whole sentence."""
+        """With a capital if it is a whole sentence, which has a full stop."""
         text = self._part(language)
-        return text[:1].upper() + text[1:]
+        return capital(text) if text.endswith(FULL_STOPS) else text
 
     def _part(self, language: Language) -> str:
         values = {name: _said(value, language) for name, value in self.params.items()}
@@ -39,5 +41,5 @@ def phrase(code: str, **params: PhraseValue) -> Phrase:
 
 def _said(value: PhraseValue, language: Language) -> float | int | str:
     if isinstance(value, tuple):
-        return certificate_text("and", language).join(str(_said(one, language)) for one in value)
+        return both([str(_said(one, language)) for one in value], language)
     return value._part(language) if isinstance(value, Phrase) else value

@@ -9,6 +9,7 @@ from pydantic import Field
 
 from station.records.accuracy import AccuracyReached, Advice, PositionError, WeakDirection
 from station.records.diagnosis_document import DiagnosisDocument, Finding
+from station.records.phrases import Phrase
 from station.records.quantity import Quantity
 from station.records.reason import Reason
 from station.records.record import Record
@@ -75,6 +76,8 @@ class MemoryUse(Record):
     p_value: float | None = None
     """p-value of the readings under the memory."""
     text: str
+    said: Phrase | None = None
+    """The text by its code, for other languages; null in records of older versions."""
     from_calibration: int
     age_days: float | None = None
 
@@ -166,6 +169,8 @@ class ResultParts(Record):
     """References from other instruments, and how well they agree with the other data."""
     lack_of_fit: str | None = None
     """The misfit of the model; null if it fits or was not tested."""
+    lack_of_fit_reason: Reason | None = None
+    """The same by its code, for other languages; null in results of older versions, too."""
     findings: tuple[Finding, ...] = ()
     """Effects that the model lacked, strongest first."""
 

@@ -64,8 +64,8 @@ def _effects() -> str:
                 code(id),
                 display_name("effects", id),
                 explanation("effects", id),
-                effect.remedy,
-                effect.experiment,
+                effect.remedy.text(),
+                effect.experiment.text(),
             )
             for id, effect in effects.items()
         ),

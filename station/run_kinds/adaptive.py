@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal
 
 import numpy as np
 
@@ -44,10 +43,12 @@ from station.records import (
     CalibrationResult,
     Complex,
     MeasurementSequence,
+    Phrase,
     Procedure,
     Reading,
     Real,
     Stop,
+    phrase,
 )
 from station.run_kinds.fits import aged, with_memory_use
 
@@ -81,12 +82,7 @@ FULL_VISITS = 5
 GEOMETRY = slice(2, 10)
 """Indices of the geometry among the unknowns."""
 
-Stopped = Literal[
-    "the wanted accuracy is reached",
-    "readings cannot reach the wanted accuracy",
-    "further readings would not help",
-    "the most readings are taken",
-]
+MOST_TAKEN = phrase("most_readings_taken")
 
 
 @dataclass(frozen=True)
@@ -153,18 +149,18 @@ class Situation:
     def _fewest(self) -> int:
         return FEWEST if self.known.measured_before else FEWEST_WITHOUT_MEMORY
 
-    def stops_because(self) -> Stopped | None:
+    def stops_because(self) -> Phrase | None:
         """The reason to stop; None: continue."""
         if not self.trusted:
-            return "the most readings are taken" if len(self.known.readings) >= MOST else None
+            return MOST_TAKEN if len(self.known.readings) >= MOST else None
         if self.aim.wanted_mm is not None:
             if self.bound_mm <= self.aim.wanted_mm:
-                return "the wanted accuracy is reached"
+                return phrase("wanted_accuracy_reached")
             if self.best_mm > CLEARLY * self.aim.wanted_mm:
-                return "readings cannot reach the wanted accuracy"
+                return phrase("wanted_accuracy_out_of_reach")
         elif self.bound_mm <= NEAR * self.best_mm:
-            return "further readings would not help"
-        return "the most readings are taken" if len(self.known.readings) >= MOST else None
+            return phrase("readings_would_not_help")
+        return MOST_TAKEN if len(self.known.readings) >= MOST else None
 
     def first_places(self) -> list[complex]:
         """The fastest few positions that should be sufficient, before the zero offsets are known."""
@@ -304,7 +300,7 @@ def adaptive_run(
     return with_memory_use(result, gate, remembered, age_days)
 
 
-def _result(known: Known, wanted_mm: float | None, stopped: Stopped, last: Situation) -> CalibrationResult:
+def _result(known: Known, wanted_mm: float | None, stopped: Phrase, last: Situation) -> CalibrationResult:
     found, readings = known.found, list(known.readings)
     if impossible := found.mechanism.implausible(found.p):
         return without_jump(not_identified(f"Impossible result: {impossible}."), known.robot, readings)

@@ -111,6 +111,7 @@ def _verified(run: PublishedRun, result: CalibrationResult, fresh: list[Reading]
             "reason": fault or converged,
             "after": after,
             "lack_of_fit": fault.text if fault else None,
+            "lack_of_fit_reason": fault,
         }
     )
 

@@ -5,18 +5,16 @@ from __future__ import annotations
 import getpass
 import hashlib
 import json
-import re
 import secrets
 from collections.abc import Iterator, Mapping
 
 from pydantic import JsonValue
 
+from station.credentials import IN_ADDRESS, without_credentials
 from station.records import STATION, Actor
 from station.settings import Settings
 from station.store import Store
 
-_CREDENTIALS = re.compile(r"(?<=://)[^/@]+(?=@)|(?<=\?).+")
-"""Name and password of an address, and its query, which contains a token for some receivers."""
 _OF = " (secret part)"
 
 
@@ -26,8 +24,8 @@ def record_settings(store: Store, settings: Settings) -> None:
     hidden: dict[str, str] = {}
     before = store.settings_in_use()
     for key, value in values.items():
-        if key.startswith("outbox.") and key.endswith(".url") and (found := _CREDENTIALS.search(value)):
-            values[key] = _CREDENTIALS.sub("***", value)
+        if key.startswith("outbox.") and key.endswith(".url") and (found := IN_ADDRESS.search(value)):
+            values[key] = without_credentials(value)
             hidden[key + _OF] = _hashed(found[0], before.get(key + _OF))
     store.use_settings(
         _who_starts(), {**values, **hidden}, frozenset(k for k in (*before, *hidden) if k.endswith(_OF))

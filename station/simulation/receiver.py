@@ -20,7 +20,7 @@ class Receiver:
         self.fails = 0.0
         """Share of the deliveries that fail."""
 
-    def start(self) -> None:
+    def report_running(self) -> None:
         """Nothing to do."""
 
     def deliver(self, event: Event) -> str:

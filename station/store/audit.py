@@ -14,7 +14,7 @@ from datetime import UTC, datetime
 
 from pydantic import JsonValue
 
-from station.records import Actor, AuditChecked, AuditEntry
+from station.records import Actor, AuditChecked, AuditEntry, account_key
 from station.store.chain import link_hash, sha256
 from station.store.kept_file import KeptFile
 from station.store.rows import compact, millis
@@ -94,11 +94,15 @@ class AuditTrail(KeptFile):
     def erase_name(self, name: str) -> int:
         """Erase a person's name in the audit permanently; returns the number of entries."""
         with self._writing() as db:
-            return db.execute(
-                "UPDATE audit SET who = NULL, salt = NULL WHERE who = ? COLLATE NOCASE"
-                " AND via IN ('user', 'terminal')",
-                [name],
-            ).rowcount
+            names = db.execute("SELECT DISTINCT who FROM audit WHERE who IS NOT NULL").fetchall()
+            return sum(
+                db.execute(
+                    "UPDATE audit SET who = NULL, salt = NULL WHERE who = ? AND via IN ('user', 'terminal')",
+                    [who],
+                ).rowcount
+                for (who,) in names
+                if account_key(who) == account_key(name)
+            )
 
 
 def _entry(row: sqlite3.Row) -> AuditEntry:

@@ -14,6 +14,9 @@ from station.store.copies import copy_to, move_aside
 from station.store.health import first_damage
 from station.store.migrations import APPLICATION_ID, migrations
 
+SKIPPED = 1_000_000
+"""Distance of the numbers of events before and after a restore: more than the events since any backup."""
+
 
 def open_writer(path: Path) -> Database:
     """Check it, or begin a new one; migrate, after a copy of the old one.
@@ -72,11 +75,19 @@ def restore(backup: Path, path: Path) -> Path | None:
         path.parent.mkdir(parents=True, exist_ok=True)
         with closing(connect_read_only(backup)) as connection:
             copy_to(connection, restored)
+        _skip_numbers_of_events(restored)
         aside = move_aside(path)
         restored.rename(path)
     except (OSError, sqlite3.Error) as error:
         raise InputRefused(f"The database {path} cannot be restored: {error}.") from error
     return aside
+
+
+def _skip_numbers_of_events(restored: Path) -> None:
+    """A number of an event since the backup is never used again: who has seen it would miss the new event."""
+    with closing(sqlite3.connect(restored)) as db, db:
+        if db.execute("SELECT 1 FROM sqlite_master WHERE name = 'happenings'").fetchone():
+            db.execute("UPDATE sqlite_sequence SET seq = seq + ? WHERE name = 'happenings'", [SKIPPED])
 
 
 def migrated(connection: sqlite3.Connection) -> Database:

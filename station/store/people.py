@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 from sqlite_utils import Database
 
 from station.errors import InputRefused, NotApplicable, NotFound
-from station.records import Actor, ApiKey, Credentials, Role, Session, User
+from station.records import Actor, ApiKey, Credentials, Role, Session, User, account_key
 from station.store.audit import AuditTrail
 from station.store.rows import millis, moment
 from station.store.times import now_ms
@@ -37,7 +37,7 @@ class People(AuditTrail):
     ) -> User:
         """:raises InputRefused: the name or the badge is in use."""
         with self._writing() as db:
-            if db.execute("SELECT 1 FROM users WHERE name = ?", [name]).fetchone():
+            if self._user_number(name) is not None:
                 raise InputRefused(f"There is a user {name} already; choose another name.")
             _refuse_taken_badge(db, badge_sha256)
             (user_id,) = db.execute(_NEXT_NUMBER).fetchone()
@@ -157,11 +157,16 @@ class People(AuditTrail):
             self.record(by, "user.removed", f"user {user.id}", before={"role": user.role})
 
     def user(self, name: str) -> User:
-        """A user by name, case-insensitive. :raises NotFound:"""
-        row = self._readers.one(f"SELECT {_USER} FROM users WHERE name = ?", [name])
-        if row is None:
+        """A user by name, as `account_key` compares names. :raises NotFound:"""
+        if (number := self._user_number(name)) is None:
             raise NotFound(f"There is no user {name}.")
-        return _user(row)
+        return self.user_by_id(number)
+
+    def _user_number(self, name: str) -> int | None:
+        """The exact name first: an older version accepted names that differ in case only."""
+        known = {row["name"]: row["id"] for row in self._readers.all("SELECT name, id FROM users")}
+        same = (number for other, number in known.items() if account_key(other) == account_key(name))
+        return known.get(name) or next(same, None)
 
     def user_by_id(self, user_id: int) -> User:
         """:raises NotFound:"""
@@ -181,13 +186,14 @@ class People(AuditTrail):
 
     def credentials(self, name: str) -> Credentials | None:
         """The reference for checking the password of a user; None without user or password."""
-        return self._credentials("users.name = ?", name, "password_hash")
+        number = self._user_number(name)
+        return None if number is None else self._credentials("users.id = ?", number, "password_hash")
 
     def badge_credentials(self, badge_sha256: bytes) -> Credentials | None:
         """The reference for checking the PIN of a badge."""
         return self._credentials("badge_sha256 = ?", badge_sha256, "pin_hash")
 
-    def _credentials(self, where: str, value: str | bytes, column: str) -> Credentials | None:
+    def _credentials(self, where: str, value: int | bytes, column: str) -> Credentials | None:
         row = self._readers.one(
             f"SELECT {_USER}, {column} AS secret FROM users WHERE {where} AND {column} IS NOT NULL"
             " AND disabled_ms IS NULL",
@@ -200,7 +206,8 @@ class People(AuditTrail):
     def add_key(self, by: Actor, name: str, role: Role, sha256: bytes, expires_at: datetime | None) -> ApiKey:
         """:raises InputRefused: a key of this name is in use."""
         with self._writing() as db:
-            if db.execute("SELECT 1 FROM api_keys WHERE name = ? AND revoked_ms IS NULL", [name]).fetchone():
+            names = db.execute("SELECT name FROM api_keys WHERE revoked_ms IS NULL").fetchall()
+            if account_key(name) in {account_key(other) for (other,) in names}:
                 raise InputRefused(f"There is a key {name} already; revoke it first or choose another name.")
             key_id = db.execute(
                 "INSERT INTO api_keys (name, role, sha256, created_ms, expires_ms) VALUES (?, ?, ?, ?, ?)",

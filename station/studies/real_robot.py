@@ -20,11 +20,13 @@ from station.diagnosis import (
     kept_fresh,
     model_document,
     shown,
+    stage_name,
     traced,
     transfer,
     without_a_quarter,
 )
 from station.machines import read_readings
+from station.messages import effect_name
 from station.records import Measured, Measurements, StageErrors
 from station.report import standalone
 from station.serial_arm import Arm
@@ -106,13 +108,13 @@ def _found(robot: Arm, path: Path, measured: Measured) -> Found:
         sentence=findings.sentence,
         stages=stages,
         effects=tuple(
-            f"**{e.label}**, {100.0 * e.share:.0f} % of the squared residual: "
+            f"**{effect_name(e.label, 'en')}**, {100.0 * e.share:.0f} % of the squared residual: "
             + ", ".join(f"{q.name} {shown(q)}" for q in e.parameters)
             for e in findings.effects
         ),
         curves=curves(d.last) if measured == "position" else (),
         tied=tuple(findings.weak_direction.blind),
-        hints=tuple(f"{h.text} ({100.0 * h.strength:.0f} %)" for h in d.hints),
+        hints=tuple(f"{h.said.text()} ({100.0 * h.strength:.0f} %)" for h in d.hints),
         left_out=tuple(o.reading for o in d.outliers),
         plain=pipelines(d, kept_fresh(d)),
         predicted_rms_mm=findings.position_errors[1].rms,
@@ -221,14 +223,14 @@ def _causes(f: Found) -> Iterator[str]:
     yield "|---|---|---|---|---|---|"
     for s in f.stages:
         yield (
-            f"| {s.model} | {s.unknowns} | {s.fit_rms_mm:.4f} | {s.holdout_rms_mm:.4f} "
+            f"| {stage_name(s.model, 'en')} | {s.unknowns} | {s.fit_rms_mm:.4f} | {s.holdout_rms_mm:.4f} "
             f"| {s.confirm_rms_mm:.4f} | {s.confirm_max_mm:.3f} |"
         )
     yield ""
     yield from (f"- {effect}" for effect in f.effects)
     if f.curves:
         yield ""
-        yield " ".join(f"![{c.label}]({_drawing(f, c)})" for c in f.curves)
+        yield " ".join(f"![{effect_name(c.label, 'en')}]({_drawing(f, c)})" for c in f.curves)
     for what, items in (
         ("Cannot be determined: ", "; ".join(f.tied)),
         ("Dependence of the remaining residual: ", " ".join(f.hints)),

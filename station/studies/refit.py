@@ -18,10 +18,12 @@ from typing import Any, cast
 from pydantic import JsonValue
 
 from station.errors import InputRefused, NotFound
+from station.messages import labels_in_words
 from station.records import (
     Beforehand,
     Calibration,
     CalibrationResult,
+    Finding,
     MeasurementSequence,
     Reading,
     Record,
@@ -183,8 +185,8 @@ def _changes(before: Calibration, after: CalibrationResult) -> list[Change]:
     causes_then = sorted(_label(finding) for finding in before.findings)
     causes_now = sorted(_label(finding) for finding in after.findings)
     if causes_then != causes_now:
-        named = [", ".join(causes) or "none" for causes in (causes_then, causes_now)]
-        add("causes", list(causes_then), list(causes_now), f"Causes then: {named[0]}; now: {named[1]}.")
+        then_named, now_named = (_named(findings) for findings in (before.findings, after.findings))
+        add("causes", list(causes_then), list(causes_now), f"Causes then: {then_named}; now: {now_named}.")
     return out
 
 
@@ -196,6 +198,10 @@ def _same(was: float | None, sd: float | None, now: float) -> bool:
 
 def _degrees(value: float | None) -> str:
     return "none" if value is None or not math.isfinite(value) else f"{value:.4f} deg"
+
+
+def _named(findings: Sequence[Finding]) -> str:
+    return ", ".join(labels_in_words(finding.label, "en") for finding in findings) or "none"
 
 
 def _label(finding: Any) -> str:

@@ -19,7 +19,6 @@ RULES = (
     "tests/station/plans/test_plan.py",
     "tests/station/store/test_stored_fields.py",
     "tests/station/diagnosis/explanations/test_families.py",
-    "tests/station/diagnosis/report/test_languages.py::test_each_sentence_of_a_diagnosis_has_its_translation",
     "tests/test_structure.py",
     "tests/web/test_sentences.py",
 )

@@ -143,6 +143,19 @@ def test_every_relative_path_counts_from_the_folder_of_the_station_file(
     ]
 
 
+@pytest.mark.parametrize(
+    ("receiver", "shown"),
+    [
+        ("[[outbox.mqtt]]\nurl = 'mqtts://a:hu@sh hush@b'\ntopic = 'x'", "'mqtts://***@b'"),
+        ("[[outbox.webhook]]\nurl = 'https://mes /a?sig=hush'\nsecret_file = 'x'", r"'https://mes /a?***'"),
+    ],
+)
+def test_a_refused_address_is_shown_without_its_secrets(tmp_path: Path, receiver: str, shown: str) -> None:
+    with pytest.raises(InputRefused) as refused:
+        load(tmp_path, receiver)
+    assert f"(given: {shown})" in str(refused.value) and "hush" not in str(refused.value)
+
+
 def test_a_path_that_is_given_without_a_file_stays() -> None:
     assert FolderSettings(path=Path("results")).path == Path("results")
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from contextlib import ExitStack
 from datetime import UTC, datetime, timedelta
 from typing import Any
+from unittest.mock import Mock
 
 import pytest
 from fastapi.testclient import TestClient
@@ -104,6 +105,17 @@ def test_wrong_name_and_wrong_password_cannot_be_told_apart(ada: Service) -> Non
     assert refusal(sign_in(ada, "ada", "wrong password")) == refusal(sign_in(ada, "eve", "wrong password"))
 
 
+def test_a_refused_sign_in_is_in_the_log_with_its_address(
+    ada: Service, caplog: pytest.LogCaptureFixture
+) -> None:
+    sign_in(ada, "hush", "hush")
+    ada.client.post(SESSION, json={"badge": "hush", "pin": "0000"})
+    assert [record.message for record in caplog.records if record.name == access.__name__] == [
+        "A sign-in from testclient was refused: Name or password is wrong.",
+        "A sign-in from testclient was refused: Badge or PIN is wrong.",
+    ]
+
+
 def test_badge_and_pin(ada: Service) -> None:
     ada.runtime.store.add_user(
         ROOT, "Bo", "operator", badge_sha256=secret_hash("0042"), pin_hash=hashed_pin("1234")
@@ -191,6 +203,31 @@ def test_the_first_administrator_comes_in_by_a_link_that_works_once(closed: Serv
     assert closed.client.get("/api/v1/audit").status_code == 200
     assert closed.client.post(f"{SESSION}/first", json={**body, "name": "Eve"}).status_code == 401
     assert closed.client.app.state.access.offer_first_administrator() is None  # type: ignore[attr-defined]
+
+
+def test_the_link_ends_with_an_administrator_of_the_terminal(closed: Service) -> None:
+    secret = closed.client.app.state.access.offer_first_administrator()  # type: ignore[attr-defined]
+    body = {"secret": secret, "name": "Eve", "password": PASSWORD}
+    closed.runtime.store.add_user(ROOT, "Ada", "administrator", password_hash=HASHED)
+    assert "an administrator already" in refusal(closed.client.post(f"{SESSION}/first", json=body))[1]
+    assert [user.name for user in closed.runtime.store.users()] == ["Ada"]
+
+
+@pytest.mark.parametrize("name", ["\u00d6D\u00d6N", "\u00f6d\u00f6n", "O\u0308do\u0308n", " \uff2fdon "])
+def test_a_name_is_typed_as_it_comes(closed: Service, name: str) -> None:
+    """In other case, composed by another keyboard, in full width: one account, and its tries are counted."""
+    stored = "Odon" if "\uff2f" in name else "\u00d6d\u00f6n"
+    closed.runtime.store.add_user(ROOT, stored, "operator", password_hash=HASHED)
+    assert sign_in(closed, name).json()["name"] == stored
+    for typed in (name, stored, name, stored, name):
+        assert sign_in(closed, typed, "wrong horse").status_code == 401
+    assert sign_in(closed, stored, "wrong horse").status_code == 429
+
+
+def test_a_stop_by_somebody_with_a_broken_line_in_the_name(service: Service) -> None:
+    service.client.post("/api/v1/stop", headers={"X-Operator": "eve%0d%0a2026-11-28 Stop by%E2%80%AE ada"})
+    (entry,) = service.client.get("/api/v1/audit").json()["items"]
+    assert entry["who"] == r"eve\r\n2026-11-28 Stop by\u202e ada"
 
 
 def test_the_live_feed_asks_too_and_ends_with_the_session(
@@ -312,10 +349,11 @@ def test_with_tls_no_other_host_can_set_a_session(ada: Service) -> None:
 
 def test_a_key_that_expires_ends_the_live_feed(closed: Service, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(live, "LOOK_EVERY_S", 0.02)
-    soon = datetime.now(UTC) + timedelta(seconds=1)
-    headers = closed.key("viewer", "old", expires_at=soon)
+    later = datetime.now(UTC) + timedelta(hours=1)
+    headers = closed.key("viewer", "old", expires_at=later)
     with closed.client.websocket_connect("/api/v1/live", headers=headers) as feed:
         assert feed.receive_json()["type"] == "snapshot"
+        monkeypatch.setattr(access, "datetime", Mock(now=Mock(return_value=later + timedelta(seconds=1))))
         with pytest.raises(WebSocketDisconnect) as ended:
             while True:
                 feed.receive_json()

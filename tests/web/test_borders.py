@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import socket
 from pathlib import Path
 from typing import Any
 
@@ -12,7 +13,7 @@ from starlette.websockets import WebSocketDisconnect
 from station.errors import InputRefused
 from station.settings import load_settings
 from tests.station.conftest import SETTINGS
-from tests.web.conftest import BODY, Service, a_service
+from tests.web.conftest import BODY, LIMIT_S, Service, a_service, listening
 from web.app import access_of, create_app
 from web.headers import POLICIES
 
@@ -70,6 +71,28 @@ def test_a_foreign_page_commands_nothing(service: Service, headers: dict[str, st
     ):
         pass
     assert none_moved(service) and service.runtime.orchestrator.running is None
+
+
+def test_two_origins_are_none_of_ours(service: Service) -> None:
+    headers = [("Origin", "http://station"), ("Origin", "http://evil.example")]
+    for sent in (headers, headers[::-1]):
+        answer = service.client.post("/api/v1/stop", headers=sent)
+        assert answer.status_code == 403 and answer.json()["type"].endswith("foreign-origin")
+
+
+def test_a_request_whose_end_is_ambiguous_hides_no_other(service: Service) -> None:
+    hidden = b"POST /api/v1/stop HTTP/1.1\r\nHost: 127.0.0.1\r\nContent-Length: 0\r\n\r\n"
+    head = b"POST /api/v1/session HTTP/1.1\r\nHost: 127.0.0.1\r\nTransfer-Encoding: chunked\r\n"
+    sent = head + f"Content-Length: {len(hidden) + 5}\r\n\r\n0\r\n\r\n".encode() + hidden
+    with (
+        listening(create_app(service.runtime)) as port,
+        socket.create_connection(("127.0.0.1", port), LIMIT_S) as to,
+    ):
+        to.sendall(sent)
+        answers = b"".join(iter(lambda: to.recv(65_536), b""))
+    assert answers.count(b"HTTP/1.1") == 1 and answers.startswith(b"HTTP/1.1 400 ")
+    assert b"either Content-Length or Transfer-Encoding" in answers
+    assert not [call for call in service.rig.script.calls if "stop" in call]
 
 
 def test_a_form_is_no_start(service: Service) -> None:

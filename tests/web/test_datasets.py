@@ -48,7 +48,7 @@ def test_a_file_with_fresh_readings_becomes_a_run_with_its_cause_confirmed(
     assert answer.status_code == 201
     summary = answer.json()
     assert answer.headers["location"] == f"{LIST}/{summary['id']}"
-    assert summary["reason"].startswith("backlash of joint 1 explained 9")
+    assert summary["reason"].startswith("Backlash of joint 1 explained 9")
     kept = {k: summary[k] for k in ("robot_serial", "plan", "operator", "work_order", "state", "verdict")}
     assert kept == {
         "robot_serial": "FB-9",

@@ -218,6 +218,33 @@ def test_a_user_that_cannot_be_is_refused(
     assert closed.client.get(USERS, headers=root).json()["items"] == []
 
 
+@pytest.mark.parametrize(
+    ("name", "why"),
+    [
+        ("bo", "already"),
+        ("\uff22o", "already"),
+        ("J\u00dcRGEN", "already"),
+        ("Ju\u0308rgen", "already"),
+        ("B\u043e", "mixes letters of Cyrillic and Latin"),
+        ("B\u200do", "invisible character"),
+    ],
+)
+def test_a_name_that_looks_like_another_is_refused(
+    closed: Service, root: dict[str, str], name: str, why: str
+) -> None:
+    users, keys = "/api/v1/users", "/api/v1/keys"
+    for known in ("Bo", "J\u00fcrgen"):
+        body = {"name": known, "role": "viewer"}
+        assert closed.client.post(users, headers=root, json={**body, "password": "12345678"}).is_success
+        assert closed.client.post(keys, headers=root, json=body).is_success
+    body = {"name": name, "role": "viewer"}
+    for answer in (
+        closed.client.post(users, headers=root, json={**body, "password": "12345678"}),
+        closed.client.post(keys, headers=root, json=body),
+    ):
+        assert answer.status_code == 422 and why in answer.json()["detail"]
+
+
 def test_the_last_administrator_stays(closed: Service, root: dict[str, str]) -> None:
     ada = {"name": "Ada", "role": "administrator", "password": PASSWORD}
     path = f"{USERS}/{closed.client.post(USERS, json=ada, headers=root).json()['id']}"

@@ -3,16 +3,12 @@
 from __future__ import annotations
 
 import ast
-import json
 import re
 from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 
-from station.diagnosis import naming
-from station.effects import five_bar_catalogue
-from station.identification.bound import PLAN_ENDED
 from station.messages import LANGUAGES
 from station.motion.interlocks import _TEXTS as INTERLOCKS
 from station.run_kinds import zero_state
@@ -20,7 +16,6 @@ from station.run_kinds import zero_state
 ROOT = Path(__file__).parents[2]
 OTHERS = [language for language in LANGUAGES if language != "en"]
 MESSAGES = ROOT / "web/ui/src/messages"
-SAID = ROOT / "station/messages"
 BETWEEN = re.compile(r"(?<=[.?!]) (?=[A-Z{])")
 KEY = re.compile(r"""^  (\w+|"(?:[^"\\]|\\.)*"|'(?:[^'\\]|\\.)*'):""", re.MULTILINE)
 FIELD = re.compile(r"\{\w*\}")
@@ -48,21 +43,12 @@ ELSEWHERE = (
 
 
 def said() -> list[str]:
-    effects = [naming._catalogue()[effect.label] for effect in five_bar_catalogue()]
-    texts = [*zero_state._TEXTS.values(), PLAN_ENDED, naming.UNNAMED_REMEDY, naming.UNNAMED_EXPERIMENT]
-    texts += INTERLOCKS.values()
-    for named in (*effects, naming.MOUNTING, naming.READING_STEP):
-        texts += [named.remedy, named.experiment]
-    return sorted(set(texts))
+    return sorted({*zero_state._TEXTS.values(), *INTERLOCKS.values()})
 
 
 def known_in(language: str) -> set[str]:
     """Every sentence that the page has in this language, its fields without their names."""
     found: set[str] = set()
-    # what a diagnosis says is written once, for the page and for the report
-    found.update(
-        FIELD.sub("{}", key) for key in json.loads((SAID / f"{language}-sentences.json").read_text())
-    )
     for file in MESSAGES.glob(f"{language}-*s.ts"):
         for key in KEY.findall(file.read_text()):
             found.add(FIELD.sub("{}", key if key.isidentifier() else ast.literal_eval(key)))
@@ -76,7 +62,7 @@ def is_known(text: str, known: set[str]) -> bool:
 @pytest.mark.parametrize("language", OTHERS)
 def test_each_sentence_is_translated(language: str) -> None:
     known = known_in(language)
-    assert len(said()) > 30
+    assert len(said()) > 10
     assert [one for one in said() if not is_known(one, known)] == []
 
 

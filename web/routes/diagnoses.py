@@ -11,7 +11,7 @@ from station.diagnosis import (
     Findings,
     learned_model,
     page,
-    range_text,
+    range_said,
     residuals,
     run_source,
     solve_targets,
@@ -125,9 +125,11 @@ def solve(calibration_id: CalibrationId, body: SolveBody, runtime: TheRuntime) -
     check_not_locked(runtime.store, calibration_id)
     model = learned_model(runtime.store.diagnosis(calibration_id).model, f"of run {calibration_id}")
     theta_deg = np.degrees(solve_targets(model, targets_of([t.model_dump() for t in body.targets])))
+    learned_on = range_said(model)
     return Solution(
         commands=[JointCommand(theta1_deg=float(a), theta2_deg=float(b)) for a, b in theta_deg],
-        range=range_text(model),
+        range=learned_on.text(),
+        range_said=learned_on,
         confirmed=model.confirmed,
     )
 

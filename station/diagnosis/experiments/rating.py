@@ -13,9 +13,12 @@ from station.diagnosis.experiments.further_motion import motion
 from station.diagnosis.experiments.in_question import Hypothesis, hypotheses
 from station.diagnosis.experiments.outcomes import Outcome, decides
 from station.diagnosis.explanations import ExplanationSet
+from station.records import Phrase, phrase
 
 Kind = Literal["motion", "second_mount", "joint_reference", "payload", "gauge"]
 STOPS = 40
+PAYLOAD_KG = 1.0
+"""A payload that about doubles the sag; its prediction needs no mass."""
 COARSE = (9, 5)
 Simulated = Callable[[ExplanationSet, Sequence[Hypothesis]], list[Outcome]]
 
@@ -25,7 +28,7 @@ class Rated:
     """One experiment."""
 
     kind: Kind
-    text: str
+    said: Phrase
     decides: float
 
 
@@ -35,13 +38,14 @@ def rated(found: ExplanationSet) -> tuple[Rated, ...]:
     if len(some) < 2:
         return ()
     probability = [one.probability for one in some]
-    out = [
-        Rated("motion", TEXTS["motion"], decides(_motion(found, some), probability)),
-        Rated("second_mount", TEXTS["second_mount"], decides(second_mount(found, some), probability)),
-        _reference(found, some, probability),
-        Rated("payload", TEXTS["payload"], decides(payload(found, some), probability)),
-        Rated("gauge", TEXTS["gauge"], decides(gauge(found, some), probability)),
+    simulated: list[tuple[Kind, Phrase, Simulated]] = [
+        ("motion", phrase("experiment_motion", stops=STOPS), _motion),
+        ("second_mount", phrase("experiment_second_mount"), second_mount),
+        ("payload", phrase("experiment_payload", payload_kg=PAYLOAD_KG), payload),
+        ("gauge", phrase("experiment_gauge"), gauge),
     ]
+    out = [Rated(kind, said, decides(run(found, some), probability)) for kind, said, run in simulated]
+    out.append(_reference(found, some, probability))
     return tuple(sorted(out, key=lambda one: -one.decides))
 
 
@@ -53,13 +57,4 @@ def _reference(found: ExplanationSet, some: Sequence[Hypothesis], probability: S
     """The experiment at the joint that decides better."""
     values = [decides(joint_reference(found, some, joint), probability) for joint in (1, 2)]
     best = int(np.argmax(values))
-    return Rated("joint_reference", TEXTS["joint_reference"].format(joint=best + 1), values[best])
-
-
-TEXTS = {
-    "motion": f"Read {STOPS} further positions where the explanations differ most.",
-    "second_mount": "Mount the mechanism at a second point of the base and repeat the measurement sequence.",
-    "joint_reference": "Measure the angle of proximal link {joint} with a level at five positions.",
-    "payload": "Repeat the measurement sequence with a payload of 1 kg on the platform.",
-    "gauge": "Compare the scale with a gauge or an interferometer at ten places of its travel.",
-}
+    return Rated("joint_reference", phrase("experiment_joint_reference", joint=best + 1), values[best])

@@ -24,8 +24,10 @@ from station.records import Index, Real
 HOPELESS = 1e6
 WIDTHS = (1, 2, 4, 8, 16, 32)
 """Families are grouped by their number of amplitudes, padded with empty columns to these widths."""
-SHARES = (0.5, 0.25, 0.12, 0.06, 0.03)
-"""Shares of the search step by which continuous hidden parameters are refined."""
+SHARES = (0.5, 0.25, 0.12, 0.06, 0.03, 0.015, 0.008, 0.004, 0.002)
+"""Shares of the search step by which continuous hidden parameters are refined,"""
+COARSE, FLAT = 0.03, 0.1
+"""from the first of these shares on only where a move changes the log of evidence by more than the second."""
 LOG2 = float(np.log(2.0))
 
 
@@ -214,9 +216,12 @@ class Bank:
             values = self._values(X, np.repeat(precision, count, 0), np.repeat(signed, count), known).max(
                 axis=1
             )
-            if values.max() > value:
+            change = float(values.max()) - value
+            if change > 0.0:
                 at = int(values.argmax())
                 value, hidden, here = float(values[at]), near.hidden[at], X[at : at + 1]
+            if share <= COARSE and abs(change) < FLAT:
+                break
         group.X[row : row + 1] = here
         group.gram[row], group.along[row] = here[0] @ here[0].T, here[0] @ self.frame.white
         moved = (*family.hidden[: choice.member], hidden, *family.hidden[choice.member + 1 :])

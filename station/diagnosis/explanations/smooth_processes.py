@@ -36,6 +36,17 @@ def processes(s: Situation) -> tuple[Family, ...]:
             for h, weight in ((1.0, 0.25), (0.5, 0.25), (0.25, 0.15), (0.12, 0.1))
         ),
         *(
+            _process(
+                f"joint{joint}", "smooth other", f"joint{3 - joint}", 0.1, angle, _over_angle(s, 3 - joint, h)
+            )
+            for joint in (1, 2)
+            for h in (1.0, 0.5)
+        ),
+        *(
+            _process(f"joint{joint}", "smooth joint place", "place", 0.2, angle, _over_place(1.2, (4, 3)))
+            for joint in (1, 2)
+        ),
+        *(
             _process("reading", "smooth travel", "reading", weight, mm, _over_travel(s, h))
             for h, weight in ((1.0, 0.2), (0.4, 0.3), (0.15, 0.3), (0.08, 0.2))
         ),
@@ -165,7 +176,10 @@ def _slider_by_travel(s: Situation) -> Shapes:
 
 
 def _stiff(s: Situation, joint: int) -> Family:
-    """Curves too stiff for any length scale: powers of the angle, wind-up that grows towards one end."""
+    """Curves too stiff for any length scale: powers of the angle, wind-up that grows towards one end.
+
+    Each also multiplied by the angle, since the true power or rate lies between those that are tried.
+    """
     theta = s.theta[:, joint - 1]
     middle, half = float(theta.max() + theta.min()) / 2.0, float(np.ptp(theta)) / 2.0 or 1.0
     hidden = (
@@ -174,8 +188,7 @@ def _stiff(s: Situation, joint: int) -> Family:
         *({"rate": rate} for rate in (-8.0, -4.0, -2.0, -1.0, 1.0, 2.0, 4.0, 8.0)),
     )
 
-    def one(s: Situation, h: Hidden) -> Real:
-        x = (s.theta[:, joint - 1] - middle) / half
+    def one(x: Real, s: Situation, h: Hidden) -> Real:
         if "power" in h:
             return np.asarray(x ** int(h["power"]))
         if "from_zero" in h:
@@ -186,7 +199,9 @@ def _stiff(s: Situation, joint: int) -> Family:
         return np.asarray(np.exp(h["rate"] * x - abs(h["rate"])))
 
     def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
-        return [Action(f"joint{joint}", np.stack([one(s, h) for h in hidden])[:, :, None])]
+        x = (s.theta[:, joint - 1] - middle) / half
+        curves = np.stack([one(x, s, h) for h in hidden])
+        return [Action(f"joint{joint}", np.stack([curves, curves * x], axis=2))]
 
     return unnamed("stiff curve", f"joint{joint}", 0.5, sizes(0.002 * DEG, 2.0 * DEG), hidden, actions)
 

@@ -20,11 +20,10 @@ from station.diagnosis.explanations.weighing import Weighing
 
 SUPPORTED = 3.0
 """Log of the evidence that an error must add before it is stated."""
-BESIDE_UNNAMED = 0.1
+BESIDE_UNNAMED = 0.05
 """Trust in a named effect that is found beside an unnamed one.
 
-On 59 kinds of random machines, 15 of 385 such effects were real; no kind has both, hence a slightly higher
-value.
+On 59 kinds of random machines, 15 of 385 such effects were real.
 """
 NEGLIGIBLE = 1e-5
 PartKey = tuple[str, int | None, str | None]

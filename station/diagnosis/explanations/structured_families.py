@@ -22,6 +22,11 @@ NAMED = ((TURNS[0], 3), (TURNS[0], 4))
 """Once per turn square to the arm is an eccentric encoder; on a circle with the arm it is another length."""
 PLACE_FACTORS = 6
 LOADS = 4
+BOTH = 2
+DOWN = -np.pi / 2.0
+CHANGES = (-2.0, -1.0, -0.5, 0.5, 1.0, 2.0)
+TRAVEL = np.pi / 4.0
+"""Travel of a joint, rad, at which its stiffness has changed by such a share."""
 STRETCH = sizes(0.004, 1.0)
 Field = Callable[[Situation, Sequence[Hidden]], Real]
 
@@ -33,6 +38,7 @@ def structured_families() -> tuple[Family, ...]:
     return (
         *(_harmonic(i, angle) for i in (1, 2)),
         _both_harmonics(angle),
+        *(_uneven_stiffness(i) for i in (1, 2)),
         *(_centre(i, centre) for i in (1, 2)),
         *(_path(i, centre) for i in (1, 2)),
         _both_centres(centre),
@@ -44,6 +50,7 @@ def structured_families() -> tuple[Family, ...]:
             for family in (
                 _shift("platform by place", axis, _place_factor, PLACE_FACTORS, 0.4, moves=moves),
                 _shift("platform by load", axis, _load, LOADS, 0.2, moves=moves),
+                _shift("platform by link", axis, _turn, BOTH, 0.05, moves=moves),
             )
         ),
         *(_tilt(moves=moves) for moves in (True, False)),
@@ -86,6 +93,18 @@ def _both_harmonics(range_: Real) -> Family:
         return side_by_side(("joint1", "joint2"), waves)
 
     return unnamed("joint harmonic", "joint1", 0.3, range_, TURNS[1:], actions)
+
+
+def _uneven_stiffness(joint: int) -> Family:
+    """A drive that sags under its arm, by a share that changes with a power of its travel."""
+    hidden = tuple({"power": n, "change": c} for n in (1.0, 2.0, 3.0) for c in CHANGES)
+
+    def actions(s: Situation, hidden: Sequence[Hidden]) -> list[Action]:
+        own, turned = np.cos(s.theta[:, joint - 1]), s.drive_angle[:, joint - 1] / TRAVEL
+        sags = [own * (1.0 + h["change"] * turned ** int(h["power"])) for h in hidden]
+        return [Action(f"joint{joint}", np.stack(sags)[:, :, None])]
+
+    return unnamed("uneven stiffness", f"joint{joint}", 0.3, sizes(0.002 * DEG, 0.1 * DEG), hidden, actions)
 
 
 def _centre(joint: int, range_: Real) -> Family:
@@ -169,6 +188,15 @@ def _load(s: Situation, hidden: Sequence[Hidden]) -> Real:
         (own[:, 0] - own[:, 1], own[:, 0] + own[:, 1], pull[:, 0] - pull[:, 1], pull[:, 0] + pull[:, 1]),
         hidden,
     )
+
+
+def _turn(s: Situation, hidden: Sequence[Hidden]) -> Real:
+    """The angle of each distal link, from straight down: a tight joint at P turns the platform with it.
+
+    The constant is the mounting point's place at angle 0, which nobody measured.
+    """
+    one = np.ones(len(s))
+    return np.stack([np.column_stack([one, s.phi[:, int(h["form"])] - DOWN]) for h in hidden])
 
 
 def _shift(kind: str, axis: str, field: Field, count: int, weight: float, *, moves: bool) -> Family:

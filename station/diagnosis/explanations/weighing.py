@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -134,6 +135,7 @@ def _weighed(
     level = settle_base(bank)
     posterior = {c.key: c.log_posterior + level for c in found}
     settled: dict[Key, Settled] = {}
+    bent: dict[Key, float] = {}
     candidates = {c.key: c for c in found}
     # use settled values: the tangent's value of the first may be far from true, and a later one the best
     top = -np.inf
@@ -145,9 +147,12 @@ def _weighed(
             del posterior[c.key]
             continue
         taken = bank.known(c.choices)
-        posterior[c.key] += one.log_evidence + taken.sign - bank.log_evidence(taken) - level
+        bent[c.key] = one.log_evidence + taken.sign - bank.log_evidence(taken) - level
+        posterior[c.key] += bent[c.key]
         top = max(top, posterior[c.key])
         settled[c.key] = one
+    for key in posterior.keys() - settled.keys():
+        posterior[key] += _bent_as(key, bent)
     if () not in settled:
         settled[()] = base
         posterior[()] += base.log_evidence - level
@@ -172,6 +177,15 @@ def _weighed(
         tuple(Weighed(settled[key], posterior[key], float(np.exp(posterior[key] - total))) for key in order),
         settled,
     )
+
+
+def _bent_as(key: Key, bent: Mapping[Key, float]) -> float:
+    """Settled less tangent's log evidence of the largest settled part of a set that was not settled itself.
+
+    Otherwise a large error alone, settled, would be compared with itself and a useless one on the tangent.
+    """
+    parts = [part for part in bent if part and not Counter(part) - Counter(key)]
+    return bent[max(parts, key=len)] if parts else 0.0
 
 
 def _wandering(

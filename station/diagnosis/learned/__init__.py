@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from station.diagnosis.learned.commands import range_text, solve_targets
+from station.diagnosis.learned.commands import range_said, solve_targets
 from station.diagnosis.learned.mixture_file import mixture_document
 from station.diagnosis.learned.model_file import learned_model, model_document, read_model, read_part
 from station.diagnosis.learned.other_log import Transfer, transfer
@@ -14,7 +14,7 @@ __all__ = [
     "learned_model",
     "mixture_document",
     "model_document",
-    "range_text",
+    "range_said",
     "read_model",
     "read_part",
     "read_targets",

@@ -9,7 +9,7 @@ from station.diagnosis.learned.model_file import LearnedModel
 from station.diagnosis.learned.targets import APPROACH, Targets
 from station.five_bar import Unreachable
 from station.model import NotInvertible, Situation
-from station.records import Real
+from station.records import Phrase, Real, phrase
 
 EDGE = 0.05
 """Share of the learned joint range by which a command may exceed it: the sequence was commanded before the
@@ -45,12 +45,12 @@ def solve_targets(model: LearnedModel, targets: Targets) -> Real:
 def _check_given(effect: Acting, targets: Targets) -> None:
     """Refuse an effect that depends on a quantity the file does not contain: it cannot be compensated."""
     if effect.by_payload and targets.payload_kg is None:
-        what = f"is missing, but {effect.label} was learned with payloads; give kg."
+        what = f"is missing, but {effect.name} was learned with payloads; give kg."
         raise targets.refuse(0, "payload_kg", what)
     for joint in effect.by_approach:
         missing = np.flatnonzero(targets.approach[:, joint - 1] == 0)
         if missing.size:
-            what = f"is missing or 0, but {effect.label} depends on it; give -1 or 1."
+            what = f"is missing or 0, but {effect.name} depends on it; give -1 or 1."
             raise targets.refuse(int(missing[0]), APPROACH[joint - 1], what)
 
 
@@ -66,20 +66,24 @@ def _check_range(model: LearnedModel, theta: Real, targets: Targets) -> None:
             if outside.size:
                 k = int(outside[0])
                 what = (
-                    f"joint {joint} would go to {degrees[k, i]:.2f} deg, but {effect.label} was learned from "
+                    f"joint {joint} would go to {degrees[k, i]:.2f} deg, but {effect.name} was learned from "
                     f"{low:.2f} to {high:.2f} deg only; choose a target inside or measure a wider range."
                 )
                 raise targets.refuse(k, "x_mm, y_mm", what)
 
 
-def range_text(model: LearnedModel) -> str:
-    """The range on which the model was learned, in words."""
-    first, second = model.joint_range_deg
-    effects = ", ".join(effect.label for effect in model.acting) or "no effect"
-    text = (
-        f"Learned on joint 1 from {first[0]:.2f} to {first[1]:.2f} deg and joint 2 from {second[0]:.2f} to "
-        f"{second[1]:.2f} deg, with {effects}."
+def range_said(model: LearnedModel) -> Phrase:
+    """The range on which the model was learned."""
+    (low1, high1), (low2, high2) = model.joint_range_deg
+    learned = phrase(
+        "learned_on",
+        low1_deg=low1,
+        high1_deg=high1,
+        low2_deg=low2,
+        high2_deg=high2,
+        causes=" and ".join(effect.label for effect in model.acting) or "no effect",
     )
-    if model.temperature_c is not None:
-        text += f" Where no temperature is given it is {model.temperature_c:g} C."
-    return text
+    if model.temperature_c is None:
+        return learned
+    at = phrase("learned_at_temperature", temperature_c=model.temperature_c)
+    return phrase("sentences", first=learned, second=at)

@@ -11,6 +11,7 @@ from station.diagnosis.report.residual_rows import residuals
 from station.diagnosis.report.stages import kept_fresh
 from station.diagnosis.report.traced_findings import TracedFindings
 from station.diagnosis.report.weighed_findings import WeighedFindings
+from station.diagnosis.report.wording import stage_name
 
 __all__ = [
     "Curve",
@@ -26,4 +27,5 @@ __all__ = [
     "residuals",
     "run_source",
     "shown",
+    "stage_name",
 ]

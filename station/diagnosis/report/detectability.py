@@ -10,7 +10,7 @@ from scipy.special import fdtri, ncfdtrinc
 from station.diagnosis.search import INVISIBLE_SHARE, SIGNIFICANT, Scan
 from station.effects import Effect, Variants
 from station.model import Fit
-from station.records import Quantity, SmallestVisible
+from station.records import Phrase, Quantity, SmallestVisible, phrase
 
 POWER = 0.8
 
@@ -25,15 +25,13 @@ def detectable(fit: Fit, effects: Sequence[Effect]) -> tuple[SmallestVisible, ..
 def _one(scan: Scan, effect: Effect, tests: int) -> SmallestVisible:
     variants = effect.variants(scan.fit.conditions)
     if variants is None:
-        text = "these readings were not taken in a way that could show it"
-        return _visible(effect, None, text)
+        return _visible(effect, None, phrase("cannot_show"))
     if variants.spread is not None:
         return _of_many(scan, effect, variants, tests)
     _, share, information = scan.reductions(variants, variants.basis)
     visible = share >= INVISIBLE_SHARE
     if not visible.any():
-        text = "invisible in these readings: geometry and zero offsets take up its signature"
-        return _visible(effect, None, text)
+        return _visible(effect, None, phrase("taken_up"))
     size = variants.basis.shape[2]
     # compared variants differ only in the values of their hidden parameters, not in the place of action
     kind = variants.hidden[int(np.argmax(visible))].keys()
@@ -42,8 +40,7 @@ def _one(scan: Scan, effect: Effect, tests: int) -> SmallestVisible:
     amplitude = np.zeros(size)
     amplitude[0] = np.sqrt(_noncentrality(scan, variants, size, tests) / information[typical])
     shown = effect.quantities(variants.hidden[typical], amplitude, np.zeros((size, size)))[0]
-    text = "" if len(alike) == 1 else "typical of what was searched"
-    return _visible(effect, shown, text)
+    return _visible(effect, shown, None if len(alike) == 1 else phrase("typical"))
 
 
 def _of_many(scan: Scan, effect: Effect, variants: Variants, tests: int) -> SmallestVisible:
@@ -52,8 +49,7 @@ def _of_many(scan: Scan, effect: Effect, variants: Variants, tests: int) -> Smal
     amplitudes = vectors[:, -1] * np.sqrt(_noncentrality(scan, variants, 1, tests) / values[-1])
     size = len(amplitudes)
     shown = effect.quantities(variants.hidden[0], amplitudes, np.zeros((size, size)))[0]
-    text = "of the shape that shows best"
-    return _visible(effect, shown, text)
+    return _visible(effect, shown, phrase("best_shape"))
 
 
 def _noncentrality(scan: Scan, variants: Variants, size: int, tests: int) -> float:
@@ -64,7 +60,7 @@ def _noncentrality(scan: Scan, variants: Variants, size: int, tests: int) -> flo
     return float(ncfdtrinc(size, dof, 1.0 - POWER, critical))
 
 
-def _visible(effect: Effect, smallest: Quantity | None, text: str) -> SmallestVisible:
+def _visible(effect: Effect, smallest: Quantity | None, said: Phrase | None) -> SmallestVisible:
     return SmallestVisible(
         effect=effect.id,
         joint=effect.joint,
@@ -72,5 +68,6 @@ def _visible(effect: Effect, smallest: Quantity | None, text: str) -> SmallestVi
         parameter=smallest.name if smallest else None,
         minimum_detectable=None if smallest is None else abs(smallest.value),
         unit=smallest.unit if smallest else None,
-        text=text,
+        text=said.text() if said else "",
+        said=said,
     )

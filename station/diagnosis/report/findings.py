@@ -12,7 +12,6 @@ from station.diagnosis.report.joint_curves import Curve
 from station.diagnosis.search import Hint
 from station.fitting import ErrorFields, Noise, Outlier
 from station.machines import AnyRobot, kind_of
-from station.messages import Language, in_words, report_text
 from station.records import (
     AnyModelDocument,
     Complex,
@@ -45,7 +44,7 @@ class FoundEffect:
 
     name: EffectName
     label: str
-    physics: str
+    physics: Phrase
     parameters: tuple[Quantity, ...]
     share: float
     """Share of the base residual's sum of squares that this effect took."""
@@ -56,21 +55,16 @@ class FoundEffect:
     """Effects that these readings cannot distinguish from it,"""
     alias_labels: tuple[str, ...]
     """and their labels."""
-    remedy: str
-    experiment: str
+    remedy: Phrase | None
+    """With the wrong entry of the robot file that may be the cause instead; None if fresh readings contradict
+    the effect.
+    """
+    experiment: Phrase
     """The experiment that distinguishes it from its aliases."""
-    entry: Phrase | None = None
-    """A wrong entry of the robot file that may be the cause instead."""
-
-    def advice(self, language: Language = "en") -> str:
-        """Remedy, and the entry to check."""
-        remedy = in_words(self.remedy, language)
-        if self.entry is None:
-            return remedy
-        return report_text("between_sentences", language).join([remedy, self.entry.text(language)])
 
     def record(self) -> Finding:
         """The effect as the document contains it."""
+        experiment = self.experiment if self.aliases else None
         return Finding(
             effect=self.name.effect,
             joint=self.name.joint,
@@ -81,8 +75,10 @@ class FoundEffect:
             p_value=self.p_value,
             probability=self.probability,
             alias_set=(self.name, *self.aliases),
-            remedy=self.advice(),
-            separating_experiment=self.experiment if self.aliases else None,
+            remedy=self.remedy.text() if self.remedy else "",
+            remedy_said=self.remedy,
+            separating_experiment=None if experiment is None else experiment.text(),
+            separating_experiment_said=experiment,
         )
 
 
@@ -256,6 +252,7 @@ class Findings(ABC):
             invisible=self.invisible,
             outliers=tuple(outlier.reading for outlier in self.outliers),
             outlier_reasons=tuple(outlier.reason for outlier in self.outliers),
+            outlier_reasons_said=tuple(outlier.said for outlier in self.outliers),
             fresh_outliers=self.fresh_outliers,
             explanations=self.explanations,
             experiments=self.experiments,
@@ -276,7 +273,10 @@ class Findings(ABC):
 
 def _dependences(found: Sequence[Hint]) -> tuple[Dependence, ...]:
     """The dependences as the document contains them."""
-    return tuple(Dependence(depends_on=h.depends_on, strength=h.strength, text=h.text) for h in found)
+    return tuple(
+        Dependence(depends_on=h.depends_on, strength=h.strength, text=h.said.text(), said=h.said)
+        for h in found
+    )
 
 
 def _accuracy(stage: StageErrors, predicted: PositionError, true: PositionError | None) -> StageAccuracy:

@@ -129,13 +129,13 @@ def _probabilities(findings: Findings, w: Wording) -> Section:
         tables.append(
             Table(
                 _heads(w, "experiment", "decides"),
-                [(w.sentence(one.text), _percent(one.decides)) for one in findings.experiments],
+                [(w.sentence(one.said, one.text), _percent(one.decides)) for one in findings.experiments],
             )
         )
     text = [w.say("explanations_text")]
     mistake = findings.mistake
     if mistake is not None:
-        text.insert(0, mistake.text if mistake.said is None else mistake.said.text(w.language))
+        text.insert(0, w.sentence(mistake.said, mistake.text))
     return Section(w.say("explanations"), text, tuple(tables))
 
 
@@ -150,19 +150,16 @@ def _explanations(effects: Sequence[FoundEffect], w: Wording) -> list[str]:
     by_text: dict[str, list[str]] = {}
     for found in effects:
         text = w.sentence(found.physics)
-        if remedy := found.advice(w.language):
-            text = w.say("remedy", physics=text, remedy=remedy)
+        if found.remedy is not None:
+            text = w.say("remedy", physics=text, remedy=w.sentence(found.remedy))
         if found.aliases:
             text = w.say("to_distinguish", text=text, experiment=w.sentence(found.experiment))
-        by_text.setdefault(text, []).append(w.labels([found.label]))
-    return [
-        w.say("effects_are", labels=w.say("between").join(labels), text=text)
-        for text, labels in by_text.items()
-    ]
+        by_text.setdefault(text, []).append(found.label)
+    return [w.say("effects_are", labels=w.listed(labels), text=text) for text, labels in by_text.items()]
 
 
 def _hints(findings: Findings, w: Wording) -> Section:
-    rows = [(w.depends_on(h.depends_on), _percent(h.strength), w.sentence(h.text)) for h in findings.hints]
+    rows = [(w.depends_on(h.depends_on), _percent(h.strength), w.sentence(h.said)) for h in findings.hints]
     return Section(
         w.say("hints"),
         (w.say("hints_text"),),
@@ -180,18 +177,19 @@ def _residual(findings: Findings, w: Wording) -> Section:
 def _parameters(findings: Findings, w: Wording) -> Section:
     weak, stage = findings.weak_direction, findings.origin
     origin = w.say("origin_mean") if stage is None else w.say("origin_stage", stage=w.stage(stage))
-    blind = "; ".join(map(w.sentence, weak.blind))
-    text = [w.say("weak", origin=origin, weak=w.sentence(weak.text), sd_deg=weak.sd_deg or 0.0, blind=blind)]
+    blind = "; ".join(map(w.sentence, weak.blind_said))
+    direction = w.sentence(weak.said, weak.text)
+    text = [w.say("weak", origin=origin, weak=direction, sd_deg=weak.sd_deg or 0.0, blind=blind)]
     if findings.decision.sd_factor > 1.0:
         text.append(w.say("widened", factor=findings.decision.sd_factor))
-    text += [w.say("outlier", reading=o.reading, why=w.sentence(o.reason)) for o in findings.outliers]
+    text += [w.say("outlier", reading=o.reading, why=w.sentence(o.said)) for o in findings.outliers]
     if findings.fresh_outliers:
         text.append(w.say("fresh_outliers", readings=", ".join(map(str, findings.fresh_outliers))))
     rows = [
         (w.parameter(q.name), w.number(f"{q.value:.5f}"), w.number(f"{q.sd:.5f}"), w.unit(q.unit))
         for q in findings.parameters
     ]
-    remedies = [(w.sentence(r.text), w.number(f"{r.sd_deg:.4f}")) for r in weak.remedies]
+    remedies = [(w.sentence(r.said, r.text), w.number(f"{r.sd_deg:.4f}")) for r in weak.remedies]
     return Section(
         w.say("parameters"),
         text,
@@ -210,7 +208,7 @@ def _invisible(findings: Findings, w: Wording) -> Section:
             ""
             if i.minimum_detectable is None
             else w.number(f"{i.minimum_detectable:.3g} ") + w.unit(i.unit or ""),
-            w.sentence(i.text),
+            w.sentence(i.said, i.text),
         )
         for i in findings.invisible
     ]

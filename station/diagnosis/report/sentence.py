@@ -4,9 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from station.diagnosis.tests_of_fit import in_words
 from station.diagnosis.traced_loop import TracedDiagnosis
-from station.messages import display_name
 from station.records import Reason, because
 
 
@@ -15,11 +13,10 @@ def verdict_reason(diagnosis: TracedDiagnosis, labels: Sequence[str]) -> Reason:
     d = diagnosis
     causes = " and ".join(labels)
     share = 100.0 * d.explained_share
-    depends_on = d.hints[0].depends_on if d.hints else display_name("dependences", "nothing")
+    depends_on = d.hints[0].depends_on if d.hints else "nothing"
     confirmed = d.confirmed
     if d.alternative is not None and d.verdict in ("partly_explained", "unexplained"):
-        alternative = in_words(d.alternative)
-        return because("alternative", causes=causes, share_percent=share, alternative=alternative)
+        return because("alternative", causes=causes, share_percent=share, alternative=d.alternative)
     match d.verdict:
         case "ambiguous":
             raise AssertionError("a search weighs no alternatives")

@@ -112,7 +112,7 @@ class TracedFindings(Findings):
                     aliases=tuple(_name(t) for t in finding.aliases),
                     alias_labels=tuple(t.effect.label for t in finding.aliases),
                     # no repair is recommended for an effect that fresh readings contradict
-                    remedy="" if self.decision.confirmed is False else term.effect.remedy,
+                    remedy=None if self.decision.confirmed is False else term.effect.remedy,
                     experiment=term.effect.experiment,
                 )
             )

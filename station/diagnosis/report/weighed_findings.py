@@ -52,6 +52,7 @@ from station.records import (
     SmallestVisible,
     StageErrors,
     WeakDirection,
+    phrase,
 )
 
 
@@ -166,7 +167,9 @@ class WeighedFindings(Findings):
             chi2 = max(before.settled.cost - step.settled.cost, 0.0) / step.settled.level**2
             naming = named(finding.part.key)
             aliases = [named(key) for key in finding.alias_set]
-            entry = self.diagnosis.entry
+            remedy, entry = naming.remedy, self.diagnosis.entry
+            if entry is not None:
+                remedy = phrase("sentences", first=remedy, second=entry.said)
             out.append(
                 FoundEffect(
                     name=name_record(finding.part.key),
@@ -178,9 +181,8 @@ class WeighedFindings(Findings):
                     probability=min(finding.probability, 1.0),
                     aliases=tuple(name_record(key) for key in finding.alias_set),
                     alias_labels=tuple(alias.label for alias in aliases),
-                    remedy=naming.remedy,
+                    remedy=remedy,
                     experiment=naming.experiment,
-                    entry=None if entry is None else entry.said,
                 )
             )
         return tuple(sorted(out, key=lambda f: -f.share))
@@ -270,7 +272,8 @@ class WeighedFindings(Findings):
         if self.decision.verdict != "ambiguous":
             return ()
         return tuple(
-            ExperimentRecord(kind=one.kind, text=one.text, decides=one.decides) for one in rated(self.found)
+            ExperimentRecord(kind=one.kind, text=one.said.text(), said=one.said, decides=one.decides)
+            for one in rated(self.found)
         )
 
     @cached_property

@@ -8,8 +8,7 @@ from station.diagnosis.explanations import Explanation
 from station.diagnosis.naming import named
 from station.diagnosis.search import Hint
 from station.diagnosis.weighed_loop import WeighedDiagnosis
-from station.messages import display_name
-from station.records import ExperimentRecord, Reason, because
+from station.records import ExperimentRecord, Phrase, Reason, because, phrase
 
 WORTH_SAYING = 0.02
 MOST_OTHERS = 3
@@ -29,7 +28,7 @@ def weighed_reason(
     mistake = d.mistake or d.entry
     causes = " and ".join(labels)
     percent = 100.0 * share
-    depends_on = hints[0].depends_on if hints else display_name("dependences", "nothing")
+    depends_on = hints[0].depends_on if hints else "nothing"
     match d.verdict:
         case "adequate" | "explained" if d.spoilt:
             code = f"{d.verdict}_mistake"
@@ -54,20 +53,27 @@ def _refuted(d: WeighedDiagnosis) -> bool:
 
 def _ambiguous(d: WeighedDiagnosis, experiments: Sequence[ExperimentRecord]) -> Reason:
     first, *others = d.found.explanations
-    more = [f"{_words(one)} ({100.0 * one.probability:.0f} %)" for one in others]
-    worth = [text for text, one in zip(more, others, strict=True) if one.probability >= WORTH_SAYING]
-    best = ""
+    best: Phrase | str = ""
     if experiments:
-        best = (
-            f"Most useful ({100.0 * experiments[0].decides:.0f} % probable to decide): {experiments[0].text}"
-        )
+        useful = experiments[0]
+        assert useful.said is not None
+        best = phrase("most_useful", percent=100.0 * useful.decides, experiment=useful.said)
     return because(
         "ambiguous",
         causes=_words(first),
         probability_percent=100.0 * first.probability,
-        others=", ".join(worth[:MOST_OTHERS]) or "others",
+        others=_listed([one for one in others if one.probability >= WORTH_SAYING][:MOST_OTHERS]),
         experiment=best,
     )
+
+
+def _listed(others: Sequence[Explanation]) -> Phrase:
+    """Explanations with their probabilities."""
+    if not others:
+        return phrase("other_explanations")
+    first, *rest = others
+    share = phrase("share", causes=_words(first), percent=100.0 * first.probability)
+    return phrase("followed_by", first=share, rest=_listed(rest)) if rest else share
 
 
 def _unexplained(d: WeighedDiagnosis, causes: str, percent: float, depends_on: str) -> Reason:

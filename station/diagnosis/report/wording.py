@@ -12,15 +12,15 @@ import numpy as np
 
 from station.messages import (
     Language,
+    capital,
     dependence_name,
-    in_words,
     labels_in_words,
     number_in_words,
     parameter_name,
     report_text,
     unit_name,
 )
-from station.records import Quantity
+from station.records import Phrase, Quantity
 from station.report import Words
 
 NAMED_STAGES = ("paper", "nominal", "base")
@@ -37,21 +37,21 @@ class Wording:
         """A text of the report."""
         return report_text(key, self.language, **values)
 
-    def sentence(self, english: str) -> str:
-        """A sentence of the diagnosis; its first letter has the same case as in English."""
-        return in_words(english, self.language)
+    def sentence(self, said: Phrase | None, english: str = "") -> str:
+        """A sentence of the diagnosis, or its English form where its code is unknown."""
+        return said.text(self.language) if said else english
 
     def number(self, text: str) -> str:
         """A number that is already formatted."""
         return number_in_words(text, self.language)
 
     def labels(self, labels: Sequence[str]) -> str:
-        """Effects, with "and" between them."""
-        return labels_in_words(" and ".join(labels), self.language)
+        """Effects with "and" between them, for a cell or the start of a sentence."""
+        return capital(labels_in_words(" and ".join(labels), self.language))
 
     def listed(self, labels: Sequence[str]) -> str:
-        """Effects, as a list."""
-        return self.say("between").join(self.labels([label]) for label in labels)
+        """Effects, as a list for a cell or the start of a sentence."""
+        return capital(self.say("between").join(labels_in_words(label, self.language) for label in labels))
 
     def parameter(self, name: str) -> str:
         """The name of a parameter; also of a further mount, `rMx@2`."""
@@ -66,10 +66,8 @@ class Wording:
         return name if self.language == "en" else dependence_name(name, self.language)
 
     def stage(self, model: str) -> str:
-        """One of three models by name, or one with one more effect."""
-        if model in NAMED_STAGES:
-            return self.say(f"stage_{model}")
-        return ADDED + self.labels([model.removeprefix(ADDED)])
+        """A model in the sequence from the simplest one."""
+        return stage_name(model, self.language)
 
     def unit(self, unit: str) -> str:
         """The unit in its usual form."""
@@ -87,6 +85,13 @@ class Wording:
 
 
 OF_CHARTS = ("contents", "against", "negative", "positive")
+
+
+def stage_name(model: str, language: Language) -> str:
+    """One of three models by name, or one with one more effect."""
+    if model in NAMED_STAGES:
+        return report_text(f"stage_{model}", language)
+    return ADDED + labels_in_words(model.removeprefix(ADDED), language)
 
 
 def figures(q: Quantity) -> str:

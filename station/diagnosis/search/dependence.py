@@ -27,7 +27,7 @@ from station.diagnosis.tests_of_fit import (
     senses,
 )
 from station.effects import OVERSAMPLING, waves
-from station.records import Real
+from station.records import Phrase, Real, phrase
 
 LEVEL = 0.01
 LOCAL_SHARE = 0.15
@@ -47,7 +47,7 @@ class Hint:
     strength: float
     """Share of the residual's sum of squares that it accounts for, 0 to 1."""
     p_value: float
-    text: str
+    said: Phrase
 
 
 def hints(residual: WhitenedResidual) -> tuple[Hint, ...]:
@@ -66,35 +66,34 @@ def _tests(residual: WhitenedResidual) -> Iterator[Hint]:
     for found in departures(residual):
         match found.on:
             case "time":
-                yield _hint(found, "The residual changes with time.")
+                yield _hint(found, phrase("residual_time"))
             case "approach x place":
                 yield _by_approach(residual, found)
             case "place":
-                where = _worst_place(residual)
-                at = ", ".join(f"{name} = {v:.0f}" for name, v in zip("xyz", where, strict=False))
-                yield _hint(found, f"The residual belongs to a place in the workspace, most at {at} mm.")
+                yield _hint(found, _at(_worst_place(residual)))
             case "travel":
-                text = "The residual follows the measured distance"
                 period, wave = _periodic(residual, travel, 1.0 / SHORTEST_MM)
-                yield _either(found, wave, text, f"about every {period:.3g} mm")
+                waves = phrase("residual_travel_period", period_mm=period)
+                yield _either(found, phrase("residual_travel"), wave, waves)
             case joint:
-                i = int(joint.removeprefix("theta")) - 1
-                text = f"The residual follows the angle of joint {i + 1}"
-                period, wave = _periodic(residual, theta[:, i], MOST_PER_TURN / (2.0 * np.pi))
-                yield _either(found, wave, text, f"about {2.0 * np.pi / period:.3g} times a turn")
+                number = int(joint.removeprefix("theta"))
+                period, wave = _periodic(residual, theta[:, number - 1], MOST_PER_TURN / (2.0 * np.pi))
+                waves = phrase("residual_joint_period", joint=number, per_turn=2.0 * np.pi / period)
+                yield _either(found, phrase("residual_joint", joint=number), wave, waves)
     if residual.recorded("temperature_rise"):
         course = added(residual, "temperature", half_waves(residual.of("temperature_rise"), 2))
-        yield _hint(course, "The residual follows the temperature.")
+        yield _hint(course, phrase("residual_temperature"))
 
 
-def _hint(found: Departure, text: str) -> Hint:
-    return Hint(found.on, found.share, found.p_value, text)
+def _hint(found: Departure, said: Phrase) -> Hint:
+    return Hint(found.on, found.share, found.p_value, said)
 
 
-def _either(smooth: Departure, wave: Departure, text: str, period: str) -> Hint:
+def _either(smooth: Departure, course: Phrase, wave: Departure, waves: Phrase) -> Hint:
+    """A smooth course, or the waves where they account for more."""
     if wave.p_value < LEVEL and wave.share > smooth.share + SHARPER:
-        return Hint(smooth.on, wave.share, wave.p_value, f"{text}, {period}.")
-    return _hint(smooth, f"{text}.")
+        return Hint(smooth.on, wave.share, wave.p_value, waves)
+    return _hint(smooth, course)
 
 
 def _by_approach(residual: WhitenedResidual, found: Departure) -> Hint:
@@ -104,13 +103,17 @@ def _by_approach(residual: WhitenedResidual, found: Departure) -> Hint:
         residual, found.on, by_approach_and_place(residual), np.column_stack([alike, in_doubt(residual)])
     )
     if local.p_value < LEVEL and local.share > LOCAL_SHARE * found.share:
-        return _hint(
-            found,
-            "The residual depends on the sense of approach, differently from place to place: "
-            "something drags on the platform (a cable, a hose).",
-        )
+        return _hint(found, phrase("residual_approach_by_place"))
     common = added(residual, "approach", alike, in_doubt(residual))
-    return _hint(common, "The residual depends on the sense of approach, everywhere alike.")
+    return _hint(common, phrase("residual_approach"))
+
+
+def _at(where: Real) -> Phrase:
+    """The residual belongs to this position, (2,) or (3,) mm."""
+    x, y, *z = map(float, where)
+    if z:
+        return phrase("residual_place_in_space", x_mm=x, y_mm=y, z_mm=z[0])
+    return phrase("residual_place", x_mm=x, y_mm=y)
 
 
 def _worst_place(residual: WhitenedResidual) -> Real:

@@ -19,7 +19,6 @@ from station.diagnosis.tests_of_fit.smooth_departures import (
     Readings,
     WhitenedResidual,
     departures,
-    in_words,
     of_fit,
     readings,
     whitened_residual,
@@ -27,7 +26,7 @@ from station.diagnosis.tests_of_fit.smooth_departures import (
 from station.effects import doubtful
 from station.fitting import BLIND, REFUSED_P, solved
 from station.model import Fit, Model, is_long
-from station.records import Flags, Measurements, Real
+from station.records import Flags, Measurements, Phrase, Real, phrase
 
 DIRECTED_P = 1e-4
 """Probability that each directed test refuses a true model; `REFUSED_P` is that of the overall test."""
@@ -62,12 +61,12 @@ class Confirmation:
         return _predicted(self.p_value, self.departures) and self.alternative is None
 
     @property
-    def refusal(self) -> str:
+    def refusal(self) -> Phrase:
         """What contradicts the model, where it is not refused because of an alternative."""
         if self.p_value < REFUSED_P or not self.departures:
-            return "fresh readings refute the model"
+            return phrase("refuted_by_fresh")
         worst = min(self.departures, key=lambda d: d.p_value)
-        return f"fresh readings and those before them together still depend on {in_words(worst.on)}"
+        return phrase("still_depends", depends_on=worst.on)
 
     @property
     def rms_mm(self) -> float:

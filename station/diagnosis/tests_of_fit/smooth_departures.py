@@ -41,15 +41,6 @@ class Departure:
     p_value: float
 
 
-def in_words(on: str) -> str:
-    """The quantity of a departure or an alternative, in words."""
-    if on.startswith("theta"):
-        return f"the angle of joint {on.removeprefix('theta')}"
-    return {"approach x place": "approach and place", "place": "the place", "travel": "the travel"}.get(
-        on, on
-    )
-
-
 @dataclass(frozen=True)
 class Readings:
     """K readings in R rows with a model's residual and its derivatives with respect to its unknowns."""

@@ -98,7 +98,7 @@ def test_import_keeps_a_file_as_a_run_and_a_robot_with_a_defect_is_no_pass(tmp_p
     for number, file in enumerate((sequence, fresh), start=1):
         file.write_text(readings_to_csv(r for r in readings if r.sequence == number))
     confirmed = station(tmp_path, "import", str(sequence), "--confirm", str(fresh), "--serial", "FB-5")
-    assert (confirmed.exit_code, confirmed.stdout[:33]) == (1, "Run 1: fail. backlash of joint 1 ")
+    assert (confirmed.exit_code, confirmed.stdout[:33]) == (1, "Run 1: fail. Backlash of joint 1 ")
     alone = station(tmp_path, "import", str(sequence), "--serial", "FB-5")
     assert alone.exit_code == 1
     assert "No fresh readings confirm it" in alone.output

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from station.fitting import largest_error_bound
-from station.identification import accuracy_of, bounds_mm, identify, with_accuracy
+from station.identification import PLAN_ENDED, accuracy_of, bounds_mm, identify, with_accuracy
 from station.plans import make_plan
 from station.records import AccuracyReached, JointAngle
 from station.studies.drawn import drawn, robot_of
@@ -80,7 +80,7 @@ def test_zeros_that_are_not_as_identified_are_counted() -> None:
 def test_the_wish_decides(
     bound_mm: float | None, wanted_mm: float | None, reached: bool | None, outcome: str
 ) -> None:
-    accuracy = AccuracyReached.of(bound_mm, 0.1, wanted_mm, "the plan has ended")
+    accuracy = AccuracyReached.of(bound_mm, 0.1, wanted_mm, PLAN_ENDED)
     result = with_accuracy(result_of([]), accuracy)
     assert (accuracy.reached, result.outcome) == (reached, outcome)
     assert (result.verdict == "pass") == (outcome == "good")
@@ -90,5 +90,5 @@ def test_the_wish_decides(
 
 def test_a_failure_keeps_its_own_reason() -> None:
     failed = result_of([], "fail")
-    result = with_accuracy(failed, AccuracyReached.of(0.3, 0.1, 0.2, "the plan has ended"))
+    result = with_accuracy(failed, AccuracyReached.of(0.3, 0.1, 0.2, PLAN_ENDED))
     assert (result.outcome, result.reason) == (failed.outcome, failed.reason)

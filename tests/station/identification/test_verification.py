@@ -183,7 +183,7 @@ def test_fresh_readings_that_disagree_fail_and_name_the_worst() -> None:
         "unexplained",
         "fresh_readings_disagree",
     )
-    assert result.lack_of_fit == result.reason.text
+    assert (result.lack_of_fit, result.lack_of_fit_reason) == (result.reason.text, result.reason)
     assert result.reason.params == {
         "p": check.p_value,
         "number": 5,
@@ -199,7 +199,7 @@ def test_a_model_that_does_not_fit_its_own_readings_fails_whatever_the_fresh_one
     result = result_of(poor, readings, fresh)
     assert (result.verdict, result.outcome, result.reason.code) == ("fail", "unexplained", "lack_of_fit")
     assert result.reason.params == {"p": 1e-4}
-    assert result.lack_of_fit == result.reason.text
+    assert (result.lack_of_fit, result.lack_of_fit_reason) == (result.reason.text, result.reason)
 
 
 def test_parameters_that_are_no_numbers_fail() -> None:

@@ -17,6 +17,7 @@ from station.messages import (
     Language,
     display_name,
     explanation,
+    labels_in_words,
     local_number,
     measured,
     reason_text,
@@ -89,9 +90,38 @@ def test_a_phrase_is_said_with_its_parts_in_each_language() -> None:
     assert "关节 1和关节 2" in said.text("zh")
     with pytest.raises(KeyError):
         phrase("ratio_by_factor", joints=joints)
-    reason = because("adequate_mistake", causes="", share_percent=0.0, text=phrase("in_inches"))
-    assert reason.text == "The model fits the readings, but nothing is confirmed: Inches"
-    assert reason_in(reason.code, reason.params, "de").endswith("bestätigt: Zoll")
+    rows = phrase("rows", count=2)
+    text = phrase("glitches", rows=rows, largest_mm=1.0, rms_um=2.0)
+    reason = because("adequate_mistake", causes="", share_percent=0.0, text=text)
+    assert reason.text.startswith(
+        "The model fits the readings, but nothing is confirmed: Column scale_mm: 2 "
+    )
+    assert reason_in(reason.code, reason.params, "de").endswith("sie werden weggelassen.")
+
+
+def test_a_phrase_has_a_capital_if_it_is_a_whole_sentence() -> None:
+    assert phrase("in_inches").text() == "inches"
+    repeated = phrase("pasted_rows", rows=phrase("rows", count=2), source=phrase("reading", id=9))
+    assert repeated.text().startswith("2 rows repeat all columns of reading 9: ")
+    moved = phrase("pasted_rows", rows=phrase("reading", id=7), source=phrase("reading", id=9))
+    assert moved.text().startswith("Reading 7 repeat")
+    assert phrase("residual_time").text("zh") == "残差随时间变化。"
+
+
+def test_an_effect_has_its_name_in_a_sentence() -> None:
+    labels = "gear_cyclic curve of joint 1 and unnamed error by place and no effect"
+    assert labels_in_words(labels, "en") == (
+        "gear ripple curve of joint 1, unnamed error by position and no effect"
+    )
+    assert labels_in_words(labels, "de").startswith("Getriebewelligkeit, Kurve von Gelenk 1, unbenannter ")
+    refuted = because(
+        "unexplained_refuted", causes="gear_cyclic of joint 1", share_percent=4.0, depends_on="time"
+    )
+    assert refuted.text.startswith("Not explained: gear ripple of joint 1 took 4.0 %")
+    explained = because("explained", causes="gear_cyclic of joint 1", share_percent=93.0)
+    assert explained.text.startswith("Gear ripple of joint 1 explained 93.0 %")
+    # the start of another sentence stays as it was written
+    assert because("refused", text="log.csv: row 3 is empty").text == "log.csv: row 3 is empty"
 
 
 def texts_of(language: str) -> dict[str, str]:

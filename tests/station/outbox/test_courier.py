@@ -24,7 +24,7 @@ class Taker:
         self.seen: list[int] = []
         self.uids: list[str] = []
 
-    def start(self) -> None: ...
+    def report_running(self) -> None: ...
 
     def deliver(self, event: Event) -> str:
         self.seen.append(event.n)

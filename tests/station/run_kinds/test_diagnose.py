@@ -72,7 +72,7 @@ def test_backlash_is_named_and_fresh_readings_confirm_it() -> None:
     # a defect was found: the robot may not be used as it is
     assert (result.verdict, result.outcome) == ("fail", "repair")
     assert result.reason.code == "explained_confirmed"
-    assert result.reason.text.startswith("backlash of joint 1 explained 9")
+    assert result.reason.text.startswith("Backlash of joint 1 explained 9")
     (finding,) = result.findings
     (width,) = finding.parameters
     assert abs(width.value - 0.02) < 4 * width.sd
@@ -99,12 +99,14 @@ def test_lack_of_fit_is_judged_at_once_after_any_calibration(tmp_path: Path, pla
     assert run(machine(), plan)[1].lack_of_fit is None
     _, result = run(machine({**BACKLASH, "width_deg": 0.05}), plan)
     assert result.verdict == "fail"
-    assert result.lack_of_fit == result.reason.text != ""
+    assert result.lack_of_fit == result.reason.text != "" and result.lack_of_fit_reason == result.reason
     store = Store(tmp_path / "station.db")
     kept = store.create(asked("R1", plan), ROBOT)
     assert store.calibration(kept).lack_of_fit is None
     store.finish(kept, State.SUCCEEDED, result)
-    assert store.calibration(kept).lack_of_fit == result.reason.text
+    found = store.calibration(kept)
+    assert found.lack_of_fit_reason is not None
+    assert found.lack_of_fit == found.lack_of_fit_reason.text == result.reason.text
     store.close()
 
 
@@ -113,7 +115,7 @@ def test_an_effect_too_large_for_any_fit_is_a_lack_of_fit_too(tmp_path: Path, pl
     """Nothing can be said of the zero offsets then, but what to do next."""
     readings, result = run(machine({"kind": "link_length", "joint": 1, "link": "L", "mm": 6.0}), plan)
     assert (result.verdict, result.zero_offsets, result.lasting) == ("fail", (), None)
-    assert result.lack_of_fit == result.reason.text
+    assert (result.lack_of_fit, result.lack_of_fit_reason) == (result.reason.text, result.reason)
     assert "run the diagnosis" in result.reason.text
     store = Store(tmp_path / "station.db")
     kept = store.create(asked("R1", plan), ROBOT)

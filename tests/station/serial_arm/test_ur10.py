@@ -91,7 +91,7 @@ def test_diagnose_and_transfer_from_the_terminal(tmp_path: Path) -> None:
     arguments = ["diagnose", str(LOGS / "series_b.csv"), "--robot", str(ROBOT), "--hold-out"]
     said = CliRunner().invoke(main, [*arguments, "--json", str(model), "--html", str(page)])
     assert said.exit_code == 1, said.output  # a rest stays: sent on to a person
-    assert "gear_cyclic curve of joint 2" in " ".join(said.output.split())
+    assert "gear ripple curve of joint 1" in " ".join(said.output.split())
     assert page.read_text().count("<svg") > 10
     moved = CliRunner().invoke(main, ["transfer", str(LOGS / "series_b.csv"), "--model", str(model)])
     assert moved.exit_code == 0, moved.output

@@ -39,6 +39,12 @@ def test_the_database_refuses_and_a_forced_change_is_found(three: Store, sql: st
     assert three.check_audit().broken in (2, 3)
 
 
+def test_a_name_is_erased_however_it_is_typed(store: Store) -> None:
+    store.record(Actor(name="\u00d6d\u00f6n", via="user"), "run.started", "run 1")
+    assert store.erase_name("O\u0308DO\u0308N") == 1
+    assert store.audit()[0].who is None and store.check_audit().broken is None
+
+
 def test_another_name_in_an_entry_is_found(three: Store) -> None:
     with closing(sqlite3.connect(three.path)) as other, other:
         other.execute("UPDATE audit SET who = 'Eve' WHERE n = 1")

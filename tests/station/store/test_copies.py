@@ -33,6 +33,23 @@ def run_in(store: Store, state: State | None = State.ABORTED, serial: str = "R1"
     return run
 
 
+def test_who_pulls_events_misses_none_after_a_restore(tmp_path: Path) -> None:
+    path, backup = tmp_path / "station.db", tmp_path / "monday.db"
+    with closing(Store(path)) as store:
+        store.enqueue("mes", ("alarm",))
+        store.announce("alarm", {"text": "before"})
+        store.backup(backup)
+        store.announce("alarm", {"text": "lost"})
+        seen = store.happenings()[-1].n
+    restore(backup, path)
+    with closing(Store(path)) as store:
+        store.announce("alarm", {"text": "after"})
+        store.announce("alarm", {"text": "next"})
+        store.enqueue("mes", ("alarm",))
+        assert [event.n for event in store.happenings(after=seen)] == [1_000_002, 1_000_003]
+        assert [delivery.event for delivery in store.deliveries()] == [1_000_003, 1_000_002, 1]
+
+
 def station(home: Path, *arguments: str) -> tuple[int, str]:
     result = CliRunner().invoke(main, ["--home", str(home), *arguments])
     return result.exit_code, result.output
@@ -57,6 +74,12 @@ def test_a_restore_is_one_command(tmp_path: Path) -> None:
     assert interrupted == f"Run {under_way} was active at the time of the backup; it is now interrupted."
     assert restored == f"Restored {home / 'station.db'}; its newest run is {under_way}."
     with closing(Store(home / "station.db")) as store:
+        newest = store.audit()[0]
+        assert (newest.action, newest.subject, newest.via) == (
+            "history.restored",
+            "backup monday.db",
+            "terminal",
+        )
         assert [run.state for run in store.calibrations().items] == ["interrupted", "aborted"]
         assert store.summary(done).state == "aborted"
         again = store.summary(run_in(store, serial="R3"))

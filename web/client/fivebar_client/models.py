@@ -1,6 +1,6 @@
 """What the station takes and answers.  Made by `make reference`; do not edit.
 
-From schemas with SHA-256 e7b98d159b3ae7234738c6b82557c9f10c934b3a29a7a768ae38b6b092f70bc1.
+From schemas with SHA-256 2974c42bbeea04c577cec9cef0d6715fe4fa44742321573f8d7fd35cebe482f7.
 """
 
 from __future__ import annotations
@@ -54,12 +54,29 @@ class Quantity(BaseModel):
     unit: str
 
 
+class Phrase(BaseModel):
+    """
+    `code` is a template in `station.messages`; every language uses the same parameters.
+    """
+
+    code: str
+    params: dict[str, float | int | str | Phrase | list[str | Phrase]]
+    """
+    Numbers, names of columns and keys, other phrases, or several of these, which are joined by "and".
+    """
+
+
 class Remedy(BaseModel):
     """
     A measurement that would determine a weak direction, and the zero offsets' standard uncertainty.
     """
 
     text: str
+    said: Phrase | None
+    """
+    The text by its code, for other languages; null in documents of older versions.
+    """
+
     sd_deg: float
 
 
@@ -105,6 +122,11 @@ class AccuracyReached(BaseModel):
     stopped_because: str | None
     """
     Why no further readings were taken.
+    """
+
+    stopped_because_said: Phrase | None
+    """
+    The same by its code, for other languages; null in results of older versions, too.
     """
 
 
@@ -206,6 +228,11 @@ class MemoryUse(BaseModel):
     """
 
     text: str
+    said: Phrase | None
+    """
+    The text by its code, for other languages; null in records of older versions.
+    """
+
     from_calibration: int
     age_days: float | None
 
@@ -254,6 +281,15 @@ class ReferenceUse(BaseModel):
     """
 
 
+class Reason(BaseModel):
+    """
+    `code` is one of the reasons in `station.messages`; other languages use the same parameters.
+    """
+
+    code: str
+    params: dict[str, float | int | str | Phrase]
+
+
 class EffectName(BaseModel):
     """
     An effect of the catalogue and the joint at which it acts.
@@ -264,18 +300,6 @@ class EffectName(BaseModel):
     part: str | None
     """
     The part on which it acts: "L1", "links", "scale", "joint1" and so on.
-    """
-
-
-class Phrase(BaseModel):
-    """
-    `code` is a template in `station.messages`; every language uses the same parameters.
-    """
-
-    code: str
-    params: dict[str, float | int | str | Phrase | list[str | Phrase]]
-    """
-    Numbers, names of columns and keys, other phrases, or several of these, which are joined by "and".
     """
 
 
@@ -480,7 +504,7 @@ class CalibrationSummary(BaseModel):
 
 class Event(BaseModel):
     """
-    An event; `n` increases from 1 without gaps, `uid` is the same at every delivery.
+    An event; `n` increases from 1, `uid` is the same at every delivery.
     """
 
     n: int
@@ -746,6 +770,11 @@ class WeakDirection(BaseModel):
 
     singular_ratio: float | None
     text: str
+    said: Phrase | None
+    """
+    The text by its code, for other languages; null in documents of older versions.
+    """
+
     sd_deg: float | None
     """
     Standard uncertainty of the zero offsets along it.
@@ -756,10 +785,20 @@ class WeakDirection(BaseModel):
     Directions that no reading can determine.
     """
 
+    blind_said: list[Phrase]
+    """
+    The same by their codes.
+    """
+
     remedies: list[Remedy]
     remedy: str | None
     """
     The best of them in words.
+    """
+
+    remedy_said: Phrase | None
+    """
+    The same by its code.
     """
 
 
@@ -824,7 +863,16 @@ class Finding(BaseModel):
     """
 
     remedy: str
+    remedy_said: Phrase | None
+    """
+    The remedy by its code, for other languages; null where there is none, and in older documents.
+    """
+
     separating_experiment: str | None
+    separating_experiment_said: Phrase | None
+    """
+    The same by its code.
+    """
 
 
 class Application(BaseModel):
@@ -1069,6 +1117,11 @@ class Calibration(BaseModel):
     lack_of_fit: str | None
     """
     The misfit of the model; null if it fits or was not tested.
+    """
+
+    lack_of_fit_reason: Reason | None
+    """
+    The same by its code, for other languages; null in results of older versions, too.
     """
 
     findings: list[Finding]

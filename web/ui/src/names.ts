@@ -68,8 +68,10 @@ export function effectName({ effect, joint, part, label, depends_on }: EffectAt)
 const LABEL =
   /^(?<effect>\w+?)(?<curve> curve)?(?: of joint (?<joint>\d+)| of the (?<part>links|mounting)| (?<link>[Ll]\d+))?$/;
 
-/** The name of an effect for which the service has only the label. */
+/** The name of an effect for which the service has only the label; unnamed ones have no entry of their own. */
 export function labelName(label: string): string {
+  const unnamed = word(t.labels, label);
+  if (unnamed !== undefined) return unnamed;
   const { effect = label, curve, joint, part, link } = LABEL.exec(label)?.groups ?? {};
   const { name } = effectEntry(effect);
   const whole = curve ? t.effectAt.curve(name) : name;
@@ -77,6 +79,10 @@ export function labelName(label: string): string {
   const acting = part ?? link;
   return acting ? t.effectAt.part(whole, partName(acting)) : whole;
 }
+
+/** Effects by their labels with "and" between them, for the middle of a sentence. */
+export const labelsInSentence = (labels: string) =>
+  t.both(labels.split(" and ").map((label) => inSentence(labelName(label))));
 
 /**
  * Identifiers of effects within a sentence; with blanks, as in older versions, only for an effect with a
@@ -110,7 +116,7 @@ export const readable = (text: string) => capital(withNames(said(text)));
 
 /** A model in the sequence from the simplest one: one of three by name, or one with one more effect. */
 export function stageName(model: string): string {
-  if (model.startsWith("+ ")) return t.added(inSentence(labelName(model.slice(2))));
+  if (model.startsWith("+ ")) return t.added(labelsInSentence(model.slice(2)));
   return (own<Entry>(t.stages, model) ?? plain(model)).name;
 }
 

@@ -1,24 +1,17 @@
 /** The reason for the end of a run: the template of its code, filled with its parameters. */
+import { identified } from "./identifiers";
 import { t } from "./messages";
 import { said } from "./messages/said";
-import { capital, dependence, inSentence, labelName, readable, withNames } from "./names";
+import { capital, readable, withNames } from "./names";
 import { phraseText } from "./phrase";
 import { FIELD, formatted, type Params, type Value } from "./template";
 import type { Summary } from "./types";
 
-/** Identifiers in the parameters of a reason, in words. */
-const IN_WORDS: Record<string, (value: string) => string> = {
-  causes: (labels) => t.both(labels.split(" and ").map((label) => inSentence(labelName(label)))),
-  depends_on: dependence,
-};
-
-/** A reason without a code of its own: an English sentence of the station. */
-const inEnglishOnly = (text: string) => withNames(said(text));
-
 function inWords(name: string, value: NonNullable<Because["reason_params"]>[string]): Value | null {
   if (typeof value === "object") return phraseText(value);
-  const words = (Object.hasOwn(IN_WORDS, name) && IN_WORDS[name]) || inEnglishOnly;
-  return typeof value === "string" ? words(value) : value;
+  if (typeof value !== "string") return value;
+  // without a code of its own: an English sentence of the station
+  return identified(name, value) ?? withNames(said(value));
 }
 
 /** The meaning of a code, without the numbers of one run. */

@@ -56,6 +56,7 @@ describe("effects", () => {
     ["paper", "Published model"],
     ["base", "Base model"],
     ["+ gear_cyclic of joint 1", "+ gear ripple of joint 1"],
+    ["+ drift and unnamed error by place", "+ drift and unnamed error by position"],
   ])("the stage %s reads %s", (model, name) => expect(stageName(model)).toBe(name));
 });
 

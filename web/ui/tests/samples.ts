@@ -149,7 +149,9 @@ export const finding = (given: Partial<Finding> = {}): Finding => ({
   probability: null,
   alias_set: [{ effect: "backlash", joint: 2, part: null }],
   remedy: "Adjust the reducer.",
+  remedy_said: null,
   separating_experiment: null,
+  separating_experiment_said: null,
   ...given,
 });
 
@@ -168,10 +170,13 @@ const stage = {
 const weak_direction = {
   singular_ratio: null,
   text: "",
+  said: null,
   sd_deg: null,
   blind: [],
+  blind_said: [],
   remedies: [],
   remedy: null,
+  remedy_said: null,
 };
 
 /** What `station solve` needs; the page shows none of it. */
@@ -195,6 +200,7 @@ export const diagnosed = (given: Partial<Diagnosis> = {}): Diagnosis => ({
   invisible: [],
   outliers: [],
   outlier_reasons: [],
+  outlier_reasons_said: [],
   fresh_outliers: [],
   explanations: [],
   experiments: [],
@@ -216,6 +222,7 @@ export const calibration = (given: Partial<Calibration> = {}): Calibration => ({
   memory: null,
   fleet: null,
   lack_of_fit: null,
+  lack_of_fit_reason: null,
   accuracy: null,
   advice: [],
   check: null,

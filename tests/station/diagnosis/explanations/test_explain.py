@@ -54,6 +54,27 @@ def test_a_clear_play_is_named_and_confirmed() -> None:
     assert within(found, 3.0)
 
 
+@pytest.mark.parametrize("per_rev", [8.3, 20.0, 41.7])
+def test_a_large_ripple_is_one_ripple_at_its_own_frequency(per_rev: float) -> None:
+    """A frequency that is a twentieth of a search step off leaves enough for a second ripple beside it."""
+    found = explained(2, effect(kind="gear_cyclic", joint=1, amplitude_deg=0.03, per_rev=per_rev))
+    assert found.decision.verdict == "explained"
+    assert found.decision.confirmed is True
+    (finding,) = found.findings
+    sizes = {q.name: q.value for q in finding.parameters}
+    assert sizes["per_rev"] == pytest.approx(per_rev, abs=0.02)
+    assert sizes["amplitude_deg"] == pytest.approx(0.03, rel=0.02)
+
+
+def test_a_large_error_is_not_beaten_by_itself_and_a_useless_one() -> None:
+    """Settled, it loses what the tangent promised; sets that were not settled keep nothing of that either."""
+    wave = effect(kind="scale_cyclic", amplitude_mm=0.0469, period_mm=5.3069, phase_deg=200.0)
+    found = explained(105, wave)
+    assert found.decision.verdict == "explained"
+    assert [f.part.effect for f in found.findings] == ["scale_cyclic"]
+    assert found.statements.unnamed < 0.03
+
+
 def test_one_wrong_ratio_is_the_gain_of_both_joints() -> None:
     gain = {"kind": "transmission_gain", "ppm": 1e4}
     found = explained(3, effect(**gain, joint=1), effect(**gain, joint=2))
@@ -72,12 +93,48 @@ def test_a_long_distal_link_is_found_through_its_curvature() -> None:
     assert within(found, 3.0)
 
 
-def test_an_error_outside_the_catalogue_is_not_confirmed_and_its_form_is_not_sure() -> None:
-    found = explained(5, effect(kind="cable_drag", joint=2, deg_at_end=0.02))
+@pytest.mark.parametrize(
+    ("error", "depends_on", "factor"),
+    [
+        (effect(kind="encoder_ellipse", joint=2, amplitude_deg=0.01), "joint2", FORM),
+        (effect(kind="room_cycle", amplitude_mm=0.02, period_s=60.0), "time", 1.0),
+    ],
+)
+def test_the_form_of_an_error_is_not_sure_where_zero_offsets_may_take_it_up(
+    error: tuple[tuple[str, object], ...], depends_on: str, factor: float
+) -> None:
+    found = explained(5, error)
     assert found.decision.confirmed is False
-    unnamed = next(s for s in found.mixture.settled if not all(f.named for f in s.families))
-    own = next(w.settled for w in found.weighing.settled if w.settled.x is unnamed.x)
-    assert np.allclose(unnamed.covariance, FORM**2 * own.covariance)
+    best = found.mixture.settled[0]
+    assert [f.depends_on for f in best.families] == [depends_on]
+    own = next(w.settled for w in found.weighing.settled if w.settled.x is best.x)
+    assert np.allclose(best.covariance, factor**2 * own.covariance)
+
+
+@pytest.mark.parametrize(
+    "error",
+    [
+        effect(kind="belt_stretch", joint=2, deg_at_horizontal=0.06),
+        effect(kind="cable_windup", joint=1, deg_at_end=0.08),
+        effect(kind="cable_windup", joint=1, deg_at_end=0.08, tightens_deg=30.0),
+        effect(kind="platform_yaw", joint=1, share=0.02),
+        effect(kind="platform_yaw", joint=2, share=-0.02, arm_mm=80.0),
+    ],
+)
+def test_an_error_without_a_name_that_geometry_takes_up_leaves_the_zeros_right(
+    error: tuple[tuple[str, object], ...],
+) -> None:
+    found = explained(8, error)
+    assert found.decision.confirmed is not True or not found.findings
+    assert within(found, 2.5)
+    assert max(q.sd for q in found.parameters[:2]) < 0.08
+
+
+@pytest.mark.parametrize("seed", [0, 2])
+def test_a_link_that_slips_in_its_clamp_is_no_step_of_the_reading(seed: int) -> None:
+    drawn = draw(ROBOT, ("slipping_link",), 20_000 * 1_000_003 + seed)
+    found = explain(FiveBar(ROBOT, drawn.sequence), drawn.fresh)
+    assert found.decision.confirmed is not True or not found.findings
 
 
 @pytest.mark.parametrize("size", [0.003, 0.01])

@@ -238,9 +238,19 @@ def test_clean_document(tmp_path: Path) -> None:
 
 
 def test_terminal_says_it_in_words(explained: Run, unexplained: Run) -> None:
-    assert explained.result.output.startswith("backlash of joint 1 explained 9")
+    assert explained.result.output.startswith("Backlash of joint 1 explained 9")
     assert "reducer" in explained.result.output
     assert "Hint: " in unexplained.result.output
+
+
+def test_effects_have_their_names_on_the_terminal_and_on_the_page_and_their_labels_in_the_document(
+    explained: Run, unexplained: Run
+) -> None:
+    ids = [effect.id for effect in five_bar_catalogue() if "_" in effect.id]
+    for run in (explained, unexplained):
+        assert [id for id in ids if id in run.result.output + run.page.read_text()] == []
+    assert "Gear ripple of joint 1" in explained.page.read_text()
+    assert "gear_cyclic of joint 1" in [one["label"] for one in explained.json["invisible"]]
 
 
 def test_page_needs_nothing_but_itself(explained: Run) -> None:
@@ -258,7 +268,7 @@ def test_page_needs_nothing_but_itself(explained: Run) -> None:
 def test_page_of_the_unexplained_says_on_what_it_depends(unexplained: Run) -> None:
     text = unexplained.page.read_text()
     assert "What the rest depends on" in text
-    assert '<td class="text">unnamed error by approach' in text
+    assert '<td class="text">Unnamed error by approach' in text
     assert "something drags on the platform" in text
 
 

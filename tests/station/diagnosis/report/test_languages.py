@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import ast
 import html
-import json
 import re
 from collections import Counter
 from pathlib import Path
@@ -12,26 +10,20 @@ from pathlib import Path
 import pytest
 from click.testing import CliRunner
 
-import station
 from station.cli import main
-from station.diagnosis import Findings, page
-from station.diagnosis.naming import DEPENDENCES, MOUNTING, READING_STEP
-from station.effects import arm_catalogue, five_bar_catalogue
-from station.messages import LANGUAGES, Language, in_words, reason_text
+from station.diagnosis import Findings, WeighedFindings, page
+from station.diagnosis.report.wording import Wording
+from station.fitting import Outlier
+from station.fitting.separability import Tied
+from station.messages import LANGUAGES, Language
+from station.records import DataSource, Dependence, Phrase, ReasonValue, phrase, reason_in
 from station.report import Series as Drawn
 from station.report import Table, Words, line, place_map
 from station.run_kinds import diagnosed
 from tests.station.run_kinds.test_diagnose import BACKLASH, DRAG, ROBOT, machine, run
 
-PACKAGE = Path(station.__file__).parent
 SAME_EVERYWHERE = {"csv", "kg", "log", "mm", "ppm"}
 """Units, and what is diagnosed."""
-SAYING = (
-    "diagnosis/search/dependence.py", "diagnosis/report/detectability.py", "diagnosis/experiments/rating.py",
-    "diagnosis/tests_of_fit/confirmation.py", "five_bar/weak_direction.py", "fitting/outliers.py",
-    "fitting/separability.py",
-)  # fmt: skip
-"""Modules whose sentences reach the report as they are in English."""
 
 
 @pytest.fixture(scope="module", params=[BACKLASH, DRAG], ids=["backlash", "drag"])
@@ -56,7 +48,7 @@ def test_chinese_and_german_pages_have_no_english_words(findings: Findings) -> N
     english = words(shown(pages["en"]))
     assert len(english) > 150
     # words that are also German
-    assert english & words(shown(pages["de"])) <= SAME_EVERYWHERE | {"an", "in", "so", "um", "was"}
+    assert english & words(shown(pages["de"])) <= SAME_EVERYWHERE | {"Drift", "an", "in", "so", "um", "was"}
     for language, text in pages.items():
         assert text.startswith(f'<!doctype html>\n<html lang="{language}">')
 
@@ -77,75 +69,83 @@ def shown_of(findings: Findings, language: Language) -> list[str]:
     return shown(page(findings, "log.csv", language).to_html())
 
 
-def test_each_sentence_of_a_diagnosis_has_its_translation() -> None:
-    known = [json.loads((PACKAGE / f"messages/{one}-sentences.json").read_text()) for one in ("de", "zh")]
-    assert known[0].keys() == known[1].keys()
-    for english, *others in ((key, known[0][key], known[1][key]) for key in known[0]):
-        places = Counter(re.findall(r"\{\w*\}", english))
-        assert all(Counter(re.findall(r"\{\w*\}", other)) == places for other in others), english
-    effects = (*five_bar_catalogue(), *arm_catalogue(6, by_range=True))
-    whole = {text for one in effects for text in (one.physics, one.remedy, one.experiment)}
-    whole |= {text for one in (MOUNTING, READING_STEP) for text in (one.physics, one.remedy, one.experiment)}
-    whole |= {f"unnamed error {on}" for on in DEPENDENCES.values()}
-    untold = [text for text in whole if in_words(text, "zh") == text]
-    keys = " | ".join(without_values(key) for key in known[0])
-    pieces = [piece for file in SAYING for piece in pieces_in(PACKAGE / file)]
-    assert len(pieces) > 25
-    assert untold + [piece for piece in pieces if piece not in keys] == []
+def test_every_text_of_a_document_has_a_code_that_says_the_same_in_english(findings: Findings) -> None:
+    document = findings.document(DataSource(file="log.csv", readings=1, sha256=""))
+    weak = document.weak_direction
+    pairs: list[tuple[str | None, Phrase | None]] = [(one.text, one.said) for one in document.invisible]
+    pairs += [(one.text, one.said) for one in document.hints]
+    pairs += [(one.text, one.said) for one in document.experiments]
+    pairs += [(found.remedy, found.remedy_said) for found in document.findings]
+    pairs += [(one.separating_experiment, one.separating_experiment_said) for one in document.findings]
+    pairs += [(weak.text, weak.said), (weak.remedy, weak.remedy_said)]
+    pairs += [(one.text, one.said) for one in weak.remedies]
+    pairs += zip(weak.blind, weak.blind_said, strict=True)
+    assert len(pairs) > 10
+    assert [(text, said) for text, said in pairs if text and (said is None or said.text() != text)] == []
 
 
-def without_values(text: str) -> str:
-    return re.sub(r"\{\w*\}|\d+", "{}", text)
+def test_a_remedy_with_a_wrong_entry_is_in_the_language_of_the_reader() -> None:
+    """A gain of both joints is as probable from a wrong ratio in the robot file: both are in the remedy."""
+    gains: list[dict[str, object]] = [
+        {"kind": "transmission_gain", "joint": joint, "ppm": 3000.0} for joint in (1, 2)
+    ]
+    found = diagnosed(ROBOT, run(machine(*gains))[0])
+    entry = found.diagnosis.entry if isinstance(found, WeighedFindings) else None
+    assert entry is not None
+    [first, *_] = found.document(DataSource(file="log.csv", readings=1, sha256="")).findings
+    assert first.remedy.endswith(entry.text)
+    assert first.remedy_said is not None
+    german = first.remedy_said.text("de")
+    assert german.endswith(entry.said.text("de"))
+    assert words([german]) & {"the", "is", "wrong", "check", "or"} == set()
+    assert html.escape(german, quote=False) in page(found, "log.csv", "de").to_html()
 
 
-def pieces_in(file: Path) -> list[str]:
-    """What a module says, between the values: not its docstrings and not what it refuses."""
-    tree = ast.parse(file.read_text())
-    unsaid = {
-        id(part)
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Raise)
-        or (isinstance(node, ast.Expr) and isinstance(node.value, ast.Constant))
-        for part in ast.walk(node)
-    }
-    said = [node for node in ast.walk(tree) if isinstance(node, ast.Constant) and id(node) not in unsaid]
-    texts = [without_values(node.value) for node in said if isinstance(node.value, str)]
-    return [one for text in texts for one in text.split("{}") if re.search(r"[a-z]{2,} [a-z]{2,}", one)]
+def test_the_texts_of_a_record_of_an_older_version_are_in_english() -> None:
+    older = {"depends_on": "time", "strength": 0.5, "text": "The residual changes with time."}
+    hint = Dependence.model_validate(older)
+    assert Wording("de").sentence(hint.said, hint.text) == "The residual changes with time."
 
 
-def test_a_sentence_is_known_with_its_numbers_and_the_sentences_in_it() -> None:
-    text = (
-        "Most useful (83 % probable to decide): Read 40 further positions where the explanations differ most."
-    )
-    assert in_words(text, "en") == text
-    assert in_words(text, "de").startswith(
-        "Am nützlichsten (entscheidet mit 83 % Wahrscheinlichkeit): Messen"
-    )
-    wave = "The residual follows the angle of joint 2, about 1.25e+03 times a turn."
-    assert (
-        in_words(wave, "de")
-        == "Der Restfehler folgt dem Winkel von Gelenk 2, etwa 1,25e+03-mal je Umdrehung."
-    )
-    assert (
-        in_words("The residual follows the temperature. Nobody knows.", "zh")
-        == "残差随温度变化。Nobody knows."
-    )
-    tied = "dtheta1 (looks like rMx, rMy)"
-    assert in_words(tied, "de").startswith("Nullpunktabweichung von Gelenk 1 (sieht aus wie Anbaufehler")
+def test_an_outlier_is_named_in_each_language() -> None:
+    outlier = Outlier(reading=7, residual_mm=-0.0521, times_sd=11.7)
+    assert outlier.reason == "off by -52 µm, 12 times the scatter of the others"
+    assert outlier.said.text("de") == "weicht um -52 µm ab, das 12-Fache der Streuung der übrigen"
+
+
+def test_a_parameter_that_is_tied_has_its_name_in_other_languages() -> None:
+    said = Tied("dtheta1", ("rMx", "rMy")).said
+    assert said.text() == "dtheta1 (looks like rMx, rMy)"
+    assert said.text("de").startswith("Nullpunktabweichung von Gelenk 1 (sieht aus wie Anbaufehler")
 
 
 def test_a_reason_names_explanations_without_a_name_and_their_shares() -> None:
-    params: dict[str, float | int | str] = {
-        "causes": "backlash of joint 1 and unnamed error of joint 2",
+    others = phrase(
+        "followed_by",
+        first=phrase("share", causes="thermal_growth of the mounting", percent=22.0),
+        rest=phrase("share", causes="drift and no effect at all", percent=7.0),
+    )
+    params: dict[str, ReasonValue] = {
+        "causes": "gear_cyclic of joint 1 and unnamed error of joint 2",
         "probability_percent": 61.0,
-        "others": "thermal_growth of the mounting (22 %), drift and no effect at all (7 %)",
-        "experiment": "",
+        "others": others,
+        "experiment": phrase("most_useful", percent=83.2, experiment=phrase("experiment_motion", stops=40)),
     }
-    german = reason_text("ambiguous", params, "de")
-    assert "Getriebespiel von Gelenk 1 und unbenannter Fehler von Gelenk 2 (61 %)" in german
+    assert reason_in("ambiguous", params, "en") == (
+        "Not certain: these readings cannot distinguish gear ripple of joint 1 and unnamed error of joint 2 "
+        "(61 %) from thermal growth of the scale mounting (22 %), drift and no effect at all (7 %). "
+        "Most useful (83 % probable to decide): Read 40 further positions where the explanations differ most."
+    )
+    german = reason_in("ambiguous", params, "de")
+    assert "Getriebewelligkeit von Gelenk 1 und unbenannter Fehler von Gelenk 2 (61 %)" in german
     assert "Wärmedehnung von der Maßstabhalterung (22 %), Drift und keinem " in german
-    assert "光栅尺安装的热膨胀（22 %）、漂移和无任何效应（7 %）" in reason_text("ambiguous", params, "zh")
-    assert "von anderen" in reason_text("ambiguous", {**params, "others": "others"}, "de")
+    assert "Am nützlichsten (entscheidet mit 83 % Wahrscheinlichkeit): Messen" in german
+    assert "光栅尺安装的热膨胀（22 %）、漂移和无任何效应（7 %）" in reason_in("ambiguous", params, "zh")
+    alone = {**params, "others": phrase("other_explanations")}
+    assert "von anderen" in reason_in("ambiguous", alone, "de")
+    older = {**params, "others": "drift (7 %)", "experiment": "Most useful: read."}
+    text = reason_in("ambiguous", older, "de")
+    assert "von drift (7 %)" in text and text.endswith(" Most useful: read.")
 
 
 def test_a_chart_has_decimal_commas_and_the_words_of_its_language() -> None:

@@ -69,7 +69,7 @@ def test_a_period_is_named(along: str, per: float, says: str) -> None:
     noise = np.random.default_rng(3).normal(size=len(x)) * clean().row_sd
     strongest = hints(with_residual(noise + 4e-3 * np.sin(per * x)))[0]
     assert strongest.depends_on == along
-    assert re.search(says, strongest.text)
+    assert re.search(says, strongest.said.text())
 
 
 def test_temperature_is_named_where_it_is_recorded() -> None:

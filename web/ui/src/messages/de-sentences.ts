@@ -1,8 +1,5 @@
 /** Sentences that the station produces in English only: numbers are {}, in order. */
-import ofDiagnoses from "../../../../station/messages/de-sentences.json";
-
 export const sentences: Record<string, string> = {
-  ...ofDiagnoses,
   // zeros in the drives
   "The drives hold the old zero offsets.": "Die Antriebe haben die alten Nullpunkte.",
   "The drives hold these zero offsets.": "Die Antriebe haben diese Nullpunkte.",
@@ -14,18 +11,6 @@ export const sentences: Record<string, string> = {
     "Die Nullpunkte der Antriebe wurden seither für einen anderen Lauf geändert.",
   "Rolled back: the drives hold the old zero offsets again.":
     "Zurückgenommen: Die Antriebe haben wieder die alten Nullpunkte.",
-  // why an adaptive plan ended
-  "the plan has ended": "der Plan ist zu Ende",
-  "the most readings are taken": "mehr Messungen sind nicht vorgesehen",
-  "the wanted accuracy is reached": "die gewünschte Genauigkeit ist erreicht",
-  "readings cannot reach the wanted accuracy":
-    "mit Messungen ist die gewünschte Genauigkeit nicht zu erreichen",
-  "further readings would not help": "weitere Messungen würden nicht helfen",
-  // results of earlier calibrations
-  "geometry and mechanism as earlier calibrations found them":
-    "Geometrie und Messeinrichtung, wie frühere Kalibrierungen sie fanden",
-  "not used: it contradicts the new readings; has the mechanism been remounted?":
-    "nicht benutzt, denn sie widersprechen den neuen Messungen; wurde die Messeinrichtung neu angebaut?",
   // the examination of the devices
   "answers: {} replies, {} ms as a rule, {} ms the slowest":
     "antwortet: {} Antworten, in der Regel nach {} ms, die langsamste nach {} ms",

@@ -19,6 +19,7 @@ export const de: Messages = {
     dependent: (effect, on) => `${effect}, abhängig von: ${on}`,
   },
   parameters: shared.parameters,
+  labels: shared.labels,
   parts: shared.parts,
   dependences: shared.dependences,
   mounted: (name, mount) => `${name} (Anbauort ${mount})`,

@@ -42,6 +42,7 @@ export const en = {
   },
   /** By the identifier, with {n} for the number of a joint, link or wave and {axis} for x, y or z. */
   parameters: shared.parameters satisfies Record<string, Entry>,
+  labels: shared.labels satisfies Record<string, string>,
   parts: shared.parts satisfies Record<string, string>,
   dependences: shared.dependences satisfies Record<string, string>,
   mounted: (name: string, mount: string) => `${name} (mount ${mount})`,

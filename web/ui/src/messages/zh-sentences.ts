@@ -1,8 +1,5 @@
 /** Sentences that the station produces in English only: numbers are {}, in order. */
-import ofDiagnoses from "../../../../station/messages/zh-sentences.json";
-
 export const sentences: Record<string, string> = {
-  ...ofDiagnoses,
   // zeros in the drives
   "The drives hold the old zero offsets.": "驱动器中为旧零点。",
   "The drives hold these zero offsets.": "驱动器中为这些零点。",
@@ -12,16 +9,6 @@ export const sentences: Record<string, string> = {
   "The zeros of the drives have been changed since, for another run.":
     "此后驱动器的零点已因另一次运行而更改。",
   "Rolled back: the drives hold the old zero offsets again.": "已恢复：驱动器中又是旧零点。",
-  // why an adaptive plan ended
-  "the plan has ended": "方案已结束",
-  "the most readings are taken": "已达到最大读数次数",
-  "the wanted accuracy is reached": "已达到要求的精度",
-  "readings cannot reach the wanted accuracy": "增加读数无法达到要求的精度",
-  "further readings would not help": "更多读数没有帮助",
-  // results of earlier calibrations
-  "geometry and mechanism as earlier calibrations found them": "以前标定得到的几何与测量机构参数",
-  "not used: it contradicts the new readings; has the mechanism been remounted?":
-    "未使用：与新读数矛盾；测量机构是否重新安装过？",
   // the examination of the devices
   "answers: {} replies, {} ms as a rule, {} ms the slowest": "有应答：{} 次，通常 {} ms，最慢 {} ms",
   "reads {} mm": "读数为 {} mm",

@@ -19,6 +19,7 @@ export const zh: Messages = {
     dependent: (effect, on) => `取决于${on}的${effect}`,
   },
   parameters: shared.parameters,
+  labels: shared.labels,
   parts: shared.parts,
   dependences: shared.dependences,
   mounted: (name, mount) => `${name}（安装点 ${mount}）`,

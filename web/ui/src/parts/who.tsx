@@ -9,7 +9,7 @@ export function Who() {
   if (!known) return null;
   return (
     <p class="who">
-      {t.signIn.as(known.name, known.role ?? "")}{" "}
+      {t.signIn.as(known.name, known.role ? t.maintenance.roles[known.role] : "")}{" "}
       <button type="button" onClick={() => void signOut()}>
         {t.signIn.out}
       </button>

@@ -1,8 +1,8 @@
 /** The causes that a diagnosis found, by rank, and the dependences of an unexplained residual. */
 import { fixed, K, percent, quantity } from "../../format";
 import { t } from "../../messages";
-import { said } from "../../messages/said";
-import { effectExplanation, effectName, readable, shown } from "../../names";
+import { effectExplanation, effectName, shown } from "../../names";
+import { told } from "../../phrase";
 import type { Diagnosis, Finding } from "../../types";
 
 /** Whether the effects found are only an attempt. */
@@ -31,7 +31,8 @@ function title(tried: boolean, verdict: Diagnosis["verdict"]): string {
 
 /** Size, share, alternative explanations and remedy of one effect. */
 function Cause({ finding, rank, tried }: { finding: Finding; rank: number; tried: boolean }) {
-  const { share, probability, alias_set, remedy, separating_experiment } = finding;
+  const { share, probability, alias_set, remedy } = finding;
+  const experiment = finding.separating_experiment;
   const parameters = finding.parameters.map(shown);
   return (
     <dl class={probability == null ? "" : "probable"}>
@@ -80,8 +81,9 @@ function Cause({ finding, rank, tried }: { finding: Finding; rank: number; tried
         <div class="remedy">
           <dt>{t.diagnosis.remedy}</dt>
           <dd>
-            {readable(remedy)}
-            {separating_experiment && ` ${t.diagnosis.toDistinguish(said(separating_experiment))}`}
+            {told({ text: remedy, said: finding.remedy_said })}
+            {experiment &&
+              ` ${t.diagnosis.toDistinguish(told({ text: experiment, said: finding.separating_experiment_said }))}`}
           </dd>
         </div>
       )}
@@ -95,8 +97,8 @@ export function Hints({ found: { hints } }: { found: Diagnosis }) {
     <section class="panel wide" aria-label={t.diagnosis.hints}>
       <h2>{t.diagnosis.hintsTitle}</h2>
       <ul>
-        {hints.map(({ text, strength }) => (
-          <li key={text}>{t.diagnosis.hint(readable(text), fixed(100 * strength, 0))}</li>
+        {hints.map((hint) => (
+          <li key={hint.text}>{t.diagnosis.hint(told(hint), fixed(100 * hint.strength, 0))}</li>
         ))}
       </ul>
     </section>

@@ -1,7 +1,7 @@
 /** Experiments that would decide between the explanations, the best one first. */
 import { percent } from "../../format";
 import { t } from "../../messages";
-import { readable } from "../../names";
+import { told } from "../../phrase";
 import type { Diagnosis } from "../../types";
 
 export function Experiments({ found: { experiments = [] } }: { found: Diagnosis }) {
@@ -22,13 +22,13 @@ export function Experiments({ found: { experiments = [] } }: { found: Diagnosis 
           </tr>
         </thead>
         <tbody>
-          {ranked.map(({ kind, text, decides }) => (
-            <tr key={`${kind} ${text}`}>
-              <td class="text">{readable(text)}</td>
+          {ranked.map((one) => (
+            <tr key={`${one.kind} ${one.text}`}>
+              <td class="text">{told(one)}</td>
               <td class="share">
-                <progress value={decides} max={1} aria-hidden="true" />
+                <progress value={one.decides} max={1} aria-hidden="true" />
               </td>
-              <td>{percent(decides)}</td>
+              <td>{percent(one.decides)}</td>
             </tr>
           ))}
         </tbody>

@@ -1,7 +1,8 @@
 /** The detection limit of every effect that was not found. */
 import { MISSING, significant } from "../../format";
 import { t } from "../../messages";
-import { labelName, readable, shown } from "../../names";
+import { labelName, shown } from "../../names";
+import { told } from "../../phrase";
 import type { Diagnosis } from "../../types";
 
 export function Invisible({ found: { invisible } }: { found: Diagnosis }) {
@@ -33,7 +34,7 @@ export function Invisible({ found: { invisible } }: { found: Diagnosis }) {
                 </th>
                 <td>{limit}</td>
                 <td class="text">{name}</td>
-                <td class="text remark">{one.text && readable(one.text)}</td>
+                <td class="text remark">{one.text && told(one)}</td>
               </tr>
             );
           })}

@@ -1,7 +1,6 @@
 /** A wrong label in the data, without which the diagnosis continued. */
 import { t } from "../../messages";
-import { readable } from "../../names";
-import { phraseText } from "../../phrase";
+import { told } from "../../phrase";
 import type { Diagnosis } from "../../types";
 
 export function MistakeInData({ found: { mistake } }: { found: Diagnosis }) {
@@ -12,7 +11,7 @@ export function MistakeInData({ found: { mistake } }: { found: Diagnosis }) {
       <h2>
         <strong class="alarm warn">{t.diagnosis.mistakeTitle}</strong>
       </h2>
-      <p>{(mistake.said && phraseText(mistake.said)) ?? readable(mistake.text)}</p>
+      <p>{told(mistake)}</p>
       {mistake.rows.length > 0 && <p class="note">{rows(t.listed(stretches(mistake.rows)))}</p>}
     </section>
   );

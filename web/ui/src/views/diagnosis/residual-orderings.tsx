@@ -6,7 +6,7 @@
 import { useSignal } from "@preact/signals";
 import { micrometres, signedMicrometres } from "../../format";
 import { t } from "../../messages";
-import { inSentence, labelName } from "../../names";
+import { labelsInSentence } from "../../names";
 import { setQuery } from "../../parts/set-query";
 import { query } from "../../router";
 import type { Diagnosis, ResidualList, ResidualRow } from "../../types";
@@ -30,7 +30,7 @@ export function ResidualOrderings({ id, found, residuals: { effects, items } }: 
   const before: Series = { name: t.diagnosis.beforeName, of: (row) => row.before_mm };
   const after: Series = { name: t.diagnosis.afterName, of: (row) => row.after_mm };
   const contributions = effects.map((effect, k) => ({
-    name: t.diagnosis.contribution(inSentence(labelName(effect))),
+    name: t.diagnosis.contribution(labelsInSentence(effect)),
     of: (row: ResidualRow) => row.by_effect_mm[k]!,
   }));
   const choose = (by: string) => {

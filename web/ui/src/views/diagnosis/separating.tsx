@@ -3,7 +3,7 @@ import { newKey, separate, separating } from "../../api";
 import { duration, fixed } from "../../format";
 import { connected, station } from "../../live";
 import { t } from "../../messages";
-import { inSentence, labelName, readable } from "../../names";
+import { labelsInSentence, readable } from "../../names";
 import { keepOperator, operator } from "../../operator";
 import { ConfirmedButton } from "../../parts/confirm";
 import { useLoaded } from "../../parts/load";
@@ -43,7 +43,7 @@ function Offer({ id, serial }: { id: number; serial: string }) {
         <div>
           <p>
             {t.diagnosis.moreReadings(plan.stops.length)}
-            <strong>{t.listed(plan.apart.map((label) => inSentence(labelName(label))))}</strong>
+            <strong>{t.listed(plan.apart.map(labelsInSentence))}</strong>
             {t.diagnosis.freshReadings(FRESH, duration(plan.duration_s))}
           </p>
           <p class="note">{t.diagnosis.continues}</p>

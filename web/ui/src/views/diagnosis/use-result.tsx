@@ -5,6 +5,7 @@ import { fixed } from "../../format";
 import { t } from "../../messages";
 import { readable } from "../../names";
 import { saveFile } from "../../parts/save-file";
+import { told } from "../../phrase";
 import type { Solution, Target } from "../../types";
 import { commandsCsv, targetsOf } from "./targets";
 
@@ -63,7 +64,7 @@ export function UseResult({ id }: { id: number }) {
 }
 
 function Commands({ id, targets, solution }: Solved & { id: number }) {
-  const { commands, range, confirmed } = solution;
+  const { commands, range, range_said, confirmed } = solution;
   return (
     <>
       {confirmed === false && <p class="alarm warn">{t.diagnosis.refuted}</p>}
@@ -87,7 +88,7 @@ function Commands({ id, targets, solution }: Solved & { id: number }) {
           ))}
         </tbody>
       </table>
-      <p class="note">{readable(range)}</p>
+      <p class="note">{told({ text: range, said: range_said })}</p>
       <button
         type="button"
         onClick={() => saveFile(t.diagnosis.commandsName(id), "text/csv", commandsCsv(targets, solution))}

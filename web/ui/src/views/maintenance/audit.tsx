@@ -3,10 +3,10 @@ import { dateTime } from "../../format";
 import { t } from "../../messages";
 import { useLoaded } from "../../parts/load";
 import { navigate, query } from "../../router";
-import type { AuditEntry } from "../../types";
+import type { AuditEntry, Role, User } from "../../types";
 import { Pending } from "./action";
 import { Needs } from "./allowed";
-import { audit } from "./calls";
+import { audit, users } from "./calls";
 import { Table } from "./table";
 
 export function AuditPart() {
@@ -27,6 +27,7 @@ function Entries() {
   const contained: Record<string, string> = wanted.trim() ? { contains: wanted.trim() } : {};
   const asked = new URLSearchParams({ limit: "200", ...(cursor && { cursor }), ...contained });
   const { value: page, trouble } = useLoaded(String(asked), () => audit(asked)).value;
+  const known = useLoaded("", users).value.value?.items ?? [];
   if (!page) return <Pending trouble={trouble} />;
   return (
     <>
@@ -53,9 +54,11 @@ function Entries() {
             <td class="text">{entry.n}</td>
             <td class="text">{dateTime(entry.at)}</td>
             <td class="text">{entry.who ?? m.erased}</td>
-            <td class="text">{entry.role ? m.roles[entry.role] : entry.via}</td>
-            <td class="text">{entry.action}</td>
-            <td class="text wrapped">{entry.subject}</td>
+            <td class="text">{entry.role ? m.roles[entry.role] : m.via[entry.via]}</td>
+            <td class="text">
+              {m.actions[entry.action as keyof typeof m.actions]} <small>{entry.action}</small>
+            </td>
+            <td class="text wrapped">{subject(entry.subject, known)}</td>
             <td class="text wrapped">{change(entry)}</td>
           </tr>
         ))}
@@ -87,13 +90,22 @@ export function change({ before, after }: AuditEntry): string {
   return t.maintenance.from(told(before), after == null ? "–" : told(after));
 }
 
-/** `{"value": "20"}` as `value 20`. */
-function told(value: unknown): string {
+/** `user 4 (Ada)`: entries name users by number, so that a name can be erased. */
+function subject(text: string, known: User[]): string {
+  const user = known.find((one) => text === `user ${one.id}`);
+  return user ? `${text} (${user.name})` : text;
+}
+
+/** `{"value": "20"}` as `value 20`; parts without a value are left out. */
+function told(value: unknown, key = ""): string {
+  const m = t.maintenance;
+  if (typeof value === "boolean") return value ? m.yes : m.no;
+  if (key === "role") return m.roles[value as Role];
+  if (key === "until") return dateTime(String(value));
   if (typeof value !== "object" || value === null) return String(value);
   return Object.entries(value)
-    .filter(([, part]) => part !== null)
-    .map(
-      ([key, part]) => `${key.replaceAll("_", " ")} ${typeof part === "object" ? told(part) : String(part)}`,
-    )
+    .map(([name, part]): [string, string] => [name, part === null ? "" : told(part, name)])
+    .filter(([, part]) => part !== "")
+    .map(([name, part]) => `${m.auditFields[name] ?? name.replaceAll("_", " ")} ${part}`)
     .join(", ");
 }

@@ -52,6 +52,7 @@ export interface NewUser {
   pin: string | null;
 }
 export const addUser = (user: NewUser) => call<User>("POST", "/users", sent(user));
+export const removeUser = (id: number) => call<null>("DELETE", `/users/${id}`);
 /** Omitted fields are unchanged. */
 export interface UserChange {
   role?: Role;

@@ -7,7 +7,7 @@ import { ConfirmedButton } from "../../parts/confirm";
 import { useLoaded } from "../../parts/load";
 import type { Role, User } from "../../types";
 import { ActionButton, Pending } from "./action";
-import { addUser, changeUser, users } from "./calls";
+import { addUser, changeUser, removeUser, users } from "./calls";
 import { ChoiceField, TextField } from "./fields";
 import { SignInOf } from "./sign-in-of";
 import { Table } from "./table";
@@ -37,7 +37,7 @@ export function Users() {
       {value && value.items.length > 0 && (
         <Table label={m.users} head={[m.name, m.role, m.badge, m.created, m.state]}>
           {value.items.map((user) => (
-            <UserRow key={user.id} user={user} change={change} />
+            <UserRow key={user.id} user={user} change={change} removed={again} />
           ))}
         </Table>
       )}
@@ -53,9 +53,11 @@ export function Users() {
 interface RowProps {
   user: User;
   change: (id: number, what: { role?: Role; disabled?: boolean }) => Promise<void>;
+  removed: () => void;
 }
 
-function UserRow({ user, change }: RowProps) {
+/** A user is disabled before being removed: one press by mistake can be taken back. */
+function UserRow({ user, change, removed }: RowProps) {
   const m = t.maintenance;
   return (
     <tr>
@@ -77,9 +79,18 @@ function UserRow({ user, change }: RowProps) {
       <td class="text">
         <p>{user.disabled ? m.disabled : m.enabled}</p>
         {user.disabled ? (
-          <ActionButton label={m.enableOf(user.name)} act={() => change(user.id, { disabled: false })}>
-            {m.enable}
-          </ActionButton>
+          <div class="actions">
+            <ActionButton label={m.enableOf(user.name)} act={() => change(user.id, { disabled: false })}>
+              {m.enable}
+            </ActionButton>
+            <ConfirmedButton
+              label={m.removeOf(user.name)}
+              disabled={!connected.value}
+              act={() => removeUser(user.id).then(removed)}
+            >
+              {m.removeText(user.name)}
+            </ConfirmedButton>
+          </div>
         ) : (
           <ConfirmedButton
             label={m.disableOf(user.name)}

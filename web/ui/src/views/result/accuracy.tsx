@@ -1,8 +1,10 @@
 import { fixed } from "../../format";
 import { t } from "../../messages";
-import { said } from "../../messages/said";
 import { adviceText } from "../../names";
+import { toldInside } from "../../phrase";
 import type { Calibration } from "../../types";
+
+type Reached = NonNullable<Calibration["accuracy"]>;
 
 /**
  * The predicted position accuracy of a run, with the required one; for a check, the smallest detectable
@@ -21,7 +23,7 @@ export function Accuracy({ result: { accuracy, check, advice } }: { result: Cali
               {t.result.wanted(fixed(accuracy.wanted_mm, 3))}
             </p>
           )}
-          <p class="note">{t.result.stopped(said(accuracy.stopped_because ?? ""))}</p>
+          <p class="note">{t.result.stopped(stopReason(accuracy))}</p>
           <AdviceTable advice={advice} />
         </>
       )}
@@ -39,6 +41,10 @@ export function Accuracy({ result: { accuracy, check, advice } }: { result: Cali
 }
 
 /** Measures to improve the accuracy, with gain and duration. */
+/** Why no further readings were taken. */
+const stopReason = ({ stopped_because: text, stopped_because_said: said }: Reached) =>
+  text === null ? "" : toldInside({ text, said });
+
 function AdviceTable({ advice }: { advice: Calibration["advice"] }) {
   if (advice.length === 0) return null;
   return (

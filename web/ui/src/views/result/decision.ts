@@ -74,12 +74,12 @@ function sized(finding: Finding, rank: number): string {
 
 function undecided({ reason_code, reason_params }: Calibration): string | null {
   const { causes, others, probability_percent: percent } = paramsInWords(reason_params);
-  if (reason_code !== "ambiguous" || typeof percent !== "number") return null;
+  if (reason_code !== "ambiguous" || typeof percent !== "number" || others === undefined) return null;
   return capital(t.result.decision.undecided(String(causes), fixed(percent, 0), String(others)));
 }
 
 /** Without the word that precedes it already. */
 function withoutWord(text: string, word: string): string {
-  const [first = "", ...rest] = text.split(": ");
-  return rest.length > 0 && first.toUpperCase() === word ? capital(rest.join(": ")) : text;
+  const [, first = "", rest = ""] = /^(.*?)(?:: |：)(.*)$/s.exec(text) ?? [];
+  return first.toUpperCase() === word ? capital(rest) : text;
 }

@@ -2,7 +2,6 @@
 import { newKey, start } from "../../api";
 import { connected, station } from "../../live";
 import { t } from "../../messages";
-import { readable } from "../../names";
 import { keepOperator, operator } from "../../operator";
 import { ConfirmedButton } from "../../parts/confirm";
 import { MotionWarning } from "../../parts/motion-warning";
@@ -12,10 +11,14 @@ import { navigate } from "../../router";
 import type { Calibration } from "../../types";
 
 export function FindCause({ result }: { result: Calibration }) {
-  const { robot_serial, work_order, lack_of_fit } = result;
+  const { robot_serial, work_order, lack_of_fit, lack_of_fit_reason } = result;
   // that sentence is about the solver; its meaning is stated below
   const inside = result.reason_code === "not_identified";
-  const lack = lack_of_fit && readable(lack_of_fit);
+  const lack = reasonText({
+    reason: lack_of_fit,
+    reason_code: lack_of_fit_reason?.code ?? null,
+    reason_params: lack_of_fit_reason?.params ?? {},
+  });
   const idle = connected.value && !station.value?.run && operator.value.trim() !== "";
   const find = async () => {
     keepOperator();
@@ -31,7 +34,7 @@ export function FindCause({ result }: { result: Calibration }) {
           <p>
             <strong class="alarm warn">{t.result.misfit}</strong>
           </p>
-          {!inside && lack !== reasonText(result) && <p>{lack}</p>}
+          {!inside && lack_of_fit !== result.reason && <p>{lack}</p>}
           <p>{result.zero_offsets.length ? t.result.misfitOffsets : t.result.misfitNone}</p>
         </>
       )}

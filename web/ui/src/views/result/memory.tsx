@@ -4,11 +4,11 @@ import { forget, robot } from "../../api";
 import { fixed } from "../../format";
 import { connected, station } from "../../live";
 import { t } from "../../messages";
-import { inSentence, readable } from "../../names";
 import { operator } from "../../operator";
 import { ConfirmedButton } from "../../parts/confirm";
 import { Link } from "../../parts/link";
 import { useLoaded } from "../../parts/load";
+import { toldInside } from "../../phrase";
 import type { Calibration } from "../../types";
 
 export function Memory({ result: { memory, fleet, robot_serial } }: { result: Calibration }) {
@@ -49,7 +49,7 @@ function Used({ memory }: { memory: NonNullable<Calibration["memory"]> }) {
   return (
     <>
       {memory.used ? t.result.memoryUsed : <strong class="alarm warn">{t.result.memoryNotUsed}</strong>}
-      {t.result.memoryText(inSentence(readable(memory.text)))}
+      {t.result.memoryText(toldInside(memory))}
       <Link class="cell" to={`/result/${memory.from_calibration}`}>
         {t.shared.run(memory.from_calibration)}
       </Link>

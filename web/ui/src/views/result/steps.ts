@@ -2,6 +2,7 @@
 import { fixed } from "../../format";
 import { t } from "../../messages";
 import { adviceText, readable } from "../../names";
+import { told } from "../../phrase";
 import type { Calibration, Experiment, Plan } from "../../types";
 import { decisionOf } from "./decision";
 
@@ -150,12 +151,12 @@ function afterDiagnosis(result: Calibration, experiments: readonly Experiment[])
       const [best] = experiments.toSorted((a, b) => b.decides - a.decides);
       if (!best) return open("see", details);
       if (best.kind === "motion" && result.kind === "diagnose") {
-        return { why: "decide", act: { do: "separate" }, more: readable(best.text) };
+        return { why: "decide", act: { do: "separate" }, more: told(best) };
       }
       const plan = Object.hasOwn(PLAN_OF_EXPERIMENT, best.kind) ? PLAN_OF_EXPERIMENT[best.kind] : undefined;
       return plan && measured
-        ? { why: "decide_by_plan", act: { do: "prepare", plan }, more: readable(best.text) }
-        : open("decide_by_hand", details, readable(best.text));
+        ? { why: "decide_by_plan", act: { do: "prepare", plan }, more: told(best) }
+        : open("decide_by_hand", details, told(best));
     }
     case "not_verified":
     case "failed":

@@ -1,6 +1,6 @@
 import { fixed } from "../../format";
 import { t } from "../../messages";
-import { readable } from "../../names";
+import { told } from "../../phrase";
 import type { Calibration } from "../../types";
 
 /** The combination of parameters that the readings determine least, and the remedies. */
@@ -10,10 +10,12 @@ export function WeakDirection({ result: { weak_direction: weak } }: { result: Ca
     <>
       <h3>{t.result.weakDirection}</h3>
       <p>
-        {readable(weak.text)}
+        {told(weak)}
         {weak.sd_deg !== null && ` (${t.shared.standard(`${fixed(weak.sd_deg, 3)}°`)})`}
       </p>
-      {weak.remedy && <p class="note">{t.result.remedy(readable(weak.remedy))}</p>}
+      {weak.remedy && (
+        <p class="note">{t.result.remedy(told({ text: weak.remedy, said: weak.remedy_said }))}</p>
+      )}
     </>
   );
 }

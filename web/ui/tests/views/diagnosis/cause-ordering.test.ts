@@ -45,11 +45,11 @@ describe("the ordering that a diagnosis opens on", () => {
 
   it("is what the residual depends on most where there is no explanation either", () => {
     const hints = [
-      { depends_on: "theta1", strength: 0.3, text: "" },
-      { depends_on: "approach x place", strength: 0.6, text: "" },
+      { depends_on: "theta1", strength: 0.3, text: "", said: null },
+      { depends_on: "approach x place", strength: 0.6, text: "", said: null },
     ];
     expect(opens({ hints })).toBe("approach1");
-    expect(opens({ hints: [{ depends_on: "theta2", strength: 1, text: "" }] })).toBe("joint2");
+    expect(opens({ hints: [{ depends_on: "theta2", strength: 1, text: "", said: null }] })).toBe("joint2");
     expect(opens({})).toBe(ORDERINGS[0]!.id);
   });
 });

@@ -70,6 +70,7 @@ it("detection limits have two digits and the page's unit", () => {
       minimum_detectable: 0.0012345,
       unit: "mm",
       text: "",
+      said: null,
     },
     {
       effect: "count_slip",
@@ -80,6 +81,7 @@ it("detection limits have two digits and the page's unit", () => {
       minimum_detectable: null,
       unit: null,
       text: "not shown",
+      said: null,
     },
   ];
   const cells = [...drawn(Invisible, { invisible }).querySelectorAll("tbody tr")].map((one) =>

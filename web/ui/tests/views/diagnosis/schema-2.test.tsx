@@ -60,8 +60,8 @@ const open: Partial<Diagnosis> = {
     { effects: [held({ effect: "scale_gain", joint: null, part: "scale" })], probability: 0.33, named: true },
   ],
   experiments: [
-    { kind: "motion", text: "Run the further diagnosis.", decides: 0.41 },
-    { kind: "gauge", text: "Measure proximal link 1.", decides: 0.97 },
+    { kind: "motion", text: "Run the further diagnosis.", said: null, decides: 0.41 },
+    { kind: "gauge", text: "Measure proximal link 1.", said: null, decides: 0.97 },
   ],
   mistake: {
     kind: "position_labels",

@@ -7,6 +7,7 @@ import { UseResult } from "../../../src/views/diagnosis/use-result";
 const solution = {
   commands: [{ theta1_deg: 30.1234, theta2_deg: 150 }],
   range: "Learned on joint 1, with gear_cyclic of joint 1.",
+  range_said: { code: "of_a_newer_version", params: {} },
   confirmed: false,
 };
 

@@ -25,6 +25,7 @@ const BY_STATION: AuditEntry = {
   via: "terminal",
   role: null,
   action: "user.removed",
+  subject: "user 40",
   before: { role: "mes" },
   after: null,
 };
@@ -55,8 +56,9 @@ beforeEach(() => {
   next = null;
   navigate("/maintenance?part=audit");
   vi.stubGlobal("fetch", (address: string) => {
-    asked(address);
-    return Promise.resolve(new Response(JSON.stringify({ items: [ENTRY, BY_STATION], next })));
+    const items = address.endsWith("/users") ? [{ id: 4, name: "Carla" }] : [ENTRY, BY_STATION];
+    if (!address.endsWith("/users")) asked(address);
+    return Promise.resolve(new Response(JSON.stringify({ items, next })));
   });
   place = document.body.appendChild(document.createElement("div"));
 });
@@ -81,11 +83,17 @@ it("says who did what, in which role, and what it was before and after", async (
   expect(cells(0).slice(2)).toEqual([
     "Ada",
     "administrator",
-    "user.role_changed",
-    "user 4",
+    "role changed user.role_changed",
+    "user 4 (Carla)",
     "role operator → role viewer",
   ]);
-  expect(cells(1).slice(2)).toEqual(["(name erased)", "terminal", "user.removed", "user 4", "role mes → –"]);
+  expect(cells(1).slice(2)).toEqual([
+    "(name erased)",
+    "terminal",
+    "user removed user.removed",
+    "user 40",
+    "role MES → –",
+  ]);
   expect(place.textContent).toContain("2 entries on this page");
   expect(place.querySelector("a")!.getAttribute("href")).toBe("/api/v1/audit.csv");
 });

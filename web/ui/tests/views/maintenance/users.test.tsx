@@ -64,7 +64,7 @@ beforeEach(async () => {
   station.value = stationNow({});
   vi.stubGlobal("fetch", (address: string, options: RequestInit) => {
     if (options.method === "GET") return Promise.resolve(new Response(JSON.stringify({ items: known })));
-    sent(options.method, address, JSON.parse(options.body as string));
+    sent(options.method, address, options.body ? JSON.parse(options.body as string) : undefined);
     const status = refusal ? 409 : 200;
     return Promise.resolve(new Response(JSON.stringify(refusal ?? BO), { status }));
   });
@@ -102,6 +102,14 @@ describe("the users", () => {
     expect(sent).toHaveBeenLastCalledWith("PATCH", "/api/v1/users/4", { disabled: true });
     await press("Enable Cleo");
     expect(sent).toHaveBeenLastCalledWith("PATCH", "/api/v1/users/5", { disabled: false });
+  });
+
+  it("are removed only while disabled, and after a confirmation", async () => {
+    expect([...place.querySelectorAll("button")].map((one) => one.textContent)).not.toContain("Remove Bo");
+    await press("Remove Cleo");
+    expect(sent).not.toHaveBeenCalled();
+    await confirmed();
+    expect(sent).toHaveBeenLastCalledWith("DELETE", "/api/v1/users/5", undefined);
   });
 });
 

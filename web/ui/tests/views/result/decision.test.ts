@@ -1,4 +1,4 @@
-import { describe, expect, it } from "vitest";
+import { describe, expect, it, vi } from "vitest";
 import type { Calibration } from "../../../src/types";
 import { decisionOf, isValid } from "../../../src/views/result/decision";
 import { calibration, finding } from "../../samples";
@@ -14,6 +14,7 @@ const accuracy = (bound_95_mm: number | null, wanted_mm: number | null) => ({
   wanted_mm,
   reached: null,
   stopped_because: null,
+  stopped_because_said: null,
 });
 
 describe("the decision", () => {
@@ -66,10 +67,32 @@ describe("the decision", () => {
     );
   });
 
-  it("does not say the same word twice", () =>
+  it("is the sentence of the service until the phrases in it are loaded", () => {
+    const reason_params = {
+      causes: "gear_cyclic of joint 1",
+      probability_percent: 71.4,
+      others: { code: "share", params: { causes: "unnamed error by place", percent: 20 } },
+      experiment: "",
+    };
+    const reason = "Not certain: gear ripple or a bend.";
     expect(
-      line({ verdict: "fail", outcome: "unexplained", reason: "Unexplained: the residual is not noise." }),
-    ).toBe("UNEXPLAINED: The residual is not noise."));
+      line({ verdict: "fail", outcome: "ambiguous", reason_code: "ambiguous", reason, reason_params }),
+    ).toBe("NOT CERTAIN: Gear ripple or a bend.");
+  });
+
+  it("does not say the same word twice, in any language", async () => {
+    const unexplained: Partial<Calibration> = { verdict: "fail", outcome: "unexplained" };
+    expect(line({ ...unexplained, reason: "Unexplained: the residual is not noise." })).toBe(
+      "UNEXPLAINED: The residual is not noise.",
+    );
+    vi.resetModules();
+    localStorage.setItem("language", "zh");
+    const chinese = (await import("../../../src/views/result/decision")).decisionOf(
+      calibration({ ...unexplained, reason: "未解释：残差不是噪声。" }),
+    );
+    expect([chinese.look.word, chinese.sentence]).toEqual(["未解释", "残差不是噪声。"]);
+    localStorage.clear();
+  });
 
   it("gives the reason of a run that did not come to its end, and the step of one in progress", () => {
     expect(line({ state: "aborted", verdict: null, outcome: "aborted", reason: "Stopped by ada." })).toBe(

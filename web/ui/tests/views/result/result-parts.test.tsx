@@ -3,6 +3,7 @@ import { describe, expect, it } from "vitest";
 import { BeforeAfter } from "../../../src/parts/before-after";
 import type { Calibration } from "../../../src/types";
 import { statement } from "../../../src/views/result/drive-state";
+import { FindCause } from "../../../src/views/result/find-cause";
 import { ResultSummary, RunFacts, Ways } from "../../../src/views/result/result-summary";
 import { ZeroOffsets } from "../../../src/views/result/zero-offsets";
 import { calibration } from "../../samples";
@@ -43,6 +44,23 @@ describe("zero offsets", () => {
       "+1.500 ± 0.500 mm",
     ]);
   });
+});
+
+describe("the misfit of the model", () => {
+  const text = (given: Partial<Calibration>) =>
+    drawn(<FindCause result={calibration({ verdict: "fail", ...given })} />).textContent;
+  const misfit: Partial<Calibration> = {
+    lack_of_fit: "As the station says it.",
+    lack_of_fit_reason: { code: "verified", params: { rms_um: 3.14 } },
+  };
+
+  it("is stated by its code, and by its sentence in results of older versions", () => {
+    expect(text(misfit)).toContain("Verified: fresh readings agree within 3.1 µm.");
+    expect(text({ ...misfit, lack_of_fit_reason: null })).toContain("As the station says it.");
+  });
+
+  it("is not stated again where it is the reason of the run", () =>
+    expect(text({ ...misfit, reason: "As the station says it." })).not.toContain("Verified"));
 });
 
 describe("the statement about the drives", () => {

@@ -95,6 +95,7 @@ describe("the next step after a calibration", () => {
       wanted_mm: 0.5,
       reached: false,
       stopped_because: null,
+      stopped_because_said: null,
     };
     expect(stepAfter({ accuracy, application: drives() })).toEqual(["no_advice", null]);
     expect(stepAfter({ accuracy: { ...accuracy, bound_95_mm: null }, application: drives() })[0]).toBe(
