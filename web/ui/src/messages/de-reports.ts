@@ -384,6 +384,8 @@ export const reports: Record<string, string> = {
   "Badge or PIN is wrong.": "Ausweis oder PIN ist falsch.",
   "Too many failed sign-ins; wait {seconds} s.":
     "Zu viele fehlgeschlagene Anmeldungen; warten Sie {seconds} s.",
+  "There is an administrator already, who can add users.":
+    "Es gibt bereits einen Administrator, der Benutzer anlegen kann.",
   "This link was used already or is not this station's; start it again.":
     "Dieser Link wurde schon benutzt oder gehört nicht zu dieser Station; starten Sie sie neu.",
   "A badge needs a PIN, and a PIN a badge; give both or none.":

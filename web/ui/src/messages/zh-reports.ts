@@ -338,6 +338,7 @@ export const reports: Record<string, string> = {
   "Name or password is wrong.": "名称或密码错误。",
   "Badge or PIN is wrong.": "工卡或 PIN 错误。",
   "Too many failed sign-ins; wait {seconds} s.": "登录失败次数过多；请等待 {seconds} s。",
+  "There is an administrator already, who can add users.": "已有管理员，可由其添加用户。",
   "This link was used already or is not this station's; start it again.":
     "该链接已用过或不属于本站；请重新启动工作站。",
   "A badge needs a PIN, and a PIN a badge; give both or none.":
