@@ -34,7 +34,14 @@ def test_a_robot_that_is_not_known_is_not_found(service: Service) -> None:
 
 
 def test_a_result_says_whether_memory_took_part(service: Service) -> None:
-    used = {"used": True, "p_value": 0.4, "text": "as found", "from_calibration": 1, "age_days": 2.5}
+    used = {
+        "used": True,
+        "p_value": 0.4,
+        "text": "as found",
+        "said": None,
+        "from_calibration": 1,
+        "age_days": 2.5,
+    }
     store = service.runtime.store
     first, second = finish(store), finish(store, memory=MemoryUse.model_validate(used))
     answers = [service.client.get(f"/api/v1/calibrations/{run}").json()["memory"] for run in (first, second)]

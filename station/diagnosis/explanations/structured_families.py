@@ -22,8 +22,6 @@ NAMED = ((TURNS[0], 3), (TURNS[0], 4))
 """Once per turn square to the arm is an eccentric encoder; on a circle with the arm it is another length."""
 PLACE_FACTORS = 6
 LOADS = 4
-BOTH = 2
-DOWN = -np.pi / 2.0
 CHANGES = (-2.0, -1.0, -0.5, 0.5, 1.0, 2.0)
 TRAVEL = np.pi / 4.0
 """Travel of a joint, rad, at which its stiffness has changed by such a share."""
@@ -50,7 +48,6 @@ def structured_families() -> tuple[Family, ...]:
             for family in (
                 _shift("platform by place", axis, _place_factor, PLACE_FACTORS, 0.4, moves=moves),
                 _shift("platform by load", axis, _load, LOADS, 0.2, moves=moves),
-                _shift("platform by link", axis, _turn, BOTH, 0.05, moves=moves),
             )
         ),
         *(_tilt(moves=moves) for moves in (True, False)),
@@ -188,15 +185,6 @@ def _load(s: Situation, hidden: Sequence[Hidden]) -> Real:
         (own[:, 0] - own[:, 1], own[:, 0] + own[:, 1], pull[:, 0] - pull[:, 1], pull[:, 0] + pull[:, 1]),
         hidden,
     )
-
-
-def _turn(s: Situation, hidden: Sequence[Hidden]) -> Real:
-    """The angle of each distal link, from straight down: a tight joint at P turns the platform with it.
-
-    The constant is the mounting point's place at angle 0, which nobody measured.
-    """
-    one = np.ones(len(s))
-    return np.stack([np.column_stack([one, s.phi[:, int(h["form"])] - DOWN]) for h in hidden])
 
 
 def _shift(kind: str, axis: str, field: Field, count: int, weight: float, *, moves: bool) -> Family:

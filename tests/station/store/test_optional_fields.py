@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from typing import Any, get_args
 
 from pydantic import BaseModel
@@ -10,18 +9,19 @@ from pydantic import BaseModel
 from station.records import ResultParts
 
 
-def models(annotation: Any) -> Iterator[type[BaseModel]]:
-    """Every model within a type, once for each place where it stands."""
-    if isinstance(annotation, type) and issubclass(annotation, BaseModel):
-        yield annotation
+def models(annotation: Any, seen: set[type[BaseModel]]) -> set[type[BaseModel]]:
+    """Every model within a type; a phrase may contain phrases."""
+    if isinstance(annotation, type) and issubclass(annotation, BaseModel) and annotation not in seen:
+        seen.add(annotation)
         for field in annotation.model_fields.values():
-            yield from models(field.annotation)
+            models(field.annotation, seen)
     for part in get_args(annotation):
-        yield from models(part)
+        models(part, seen)
+    return seen
 
 
 def test_a_result_is_readable_without_its_nulls() -> None:
-    within = set(models(ResultParts))
+    within = models(ResultParts, set())
     assert len(within) > 10
     stuck = {
         f"{model.__name__}.{name}"

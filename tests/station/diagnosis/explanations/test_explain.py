@@ -117,8 +117,6 @@ def test_the_form_of_an_error_is_not_sure_where_zero_offsets_may_take_it_up(
         effect(kind="belt_stretch", joint=2, deg_at_horizontal=0.06),
         effect(kind="cable_windup", joint=1, deg_at_end=0.08),
         effect(kind="cable_windup", joint=1, deg_at_end=0.08, tightens_deg=30.0),
-        effect(kind="platform_yaw", joint=1, share=0.02),
-        effect(kind="platform_yaw", joint=2, share=-0.02, arm_mm=80.0),
     ],
 )
 def test_an_error_without_a_name_that_geometry_takes_up_leaves_the_zeros_right(

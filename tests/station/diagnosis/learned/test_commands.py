@@ -90,7 +90,8 @@ def test_true_position_error_falls(tmp_path: Path, effect: dict[str, Any]) -> No
     was = rms(true_error_mm(machine, place, approach, before))
     now = rms(true_error_mm(machine, place, approach, after))
     predicted_before, predicted_after = WeighedFindings(diagnosis).position_errors
-    assert now < 0.5 * was
+    # what geometry hides stays: a third of the ripple here
+    assert now < 0.6 * was
     assert now < 3.0 * predicted_after.rms
     # one machine of those that the readings leave possible: its error is of this size
     assert 0.5 < was / predicted_before.rms < 2.0

@@ -71,9 +71,9 @@ def test_best_run_and_its_neighbours() -> None:
 
 
 def test_ids_in_words() -> None:
-    assert named((7,)).text() == "Reading 7"
-    assert named((3, 9, 12)).text() == "Readings 3, 9 and 12"
-    assert named(tuple(range(61, 121))).text() == "Readings 61 to 120"
+    assert named((7,)).text() == "reading 7"
+    assert named((3, 9, 12)).text() == "readings 3, 9 and 12"
+    assert named(tuple(range(61, 121))).text() == "readings 61 to 120"
     assert named(tuple(range(0, 40, 2))).text() == "20 readings (0, 2, 4, 6, 8, 10, ... 38)"
 
 

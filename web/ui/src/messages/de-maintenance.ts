@@ -79,7 +79,6 @@ export const maintenance: typeof english = {
   tries: "Versuche",
   detail: "Letzte Antwort",
   resend: "Erneut senden",
-  nextTry: "nächster Versuch",
   resendOf: (id) => `Zustellung ${id} erneut senden`,
   noDeliveries: "Keine Zustellung passt.",
   deliveryStates: {

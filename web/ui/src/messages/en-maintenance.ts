@@ -82,7 +82,6 @@ export const maintenance = {
   tries: "Tries",
   detail: "Last reply",
   resend: "Send again",
-  nextTry: "next try",
   resendOf: (id: number) => `Send again: delivery ${id}`,
   noDeliveries: "No delivery matches.",
   deliveryStates: {

@@ -77,7 +77,6 @@ export const maintenance: typeof english = {
   tries: "次数",
   detail: "最近应答",
   resend: "重新发送",
-  nextTry: "下次尝试",
   resendOf: (id) => `重新发送投递 ${id}`,
   noDeliveries: "没有符合的投递。",
   deliveryStates: {

@@ -52,12 +52,6 @@ export function DeliveriesPart() {
               <td class="text">
                 <strong class={ALARM[delivery.state]}>{m.deliveryStates[delivery.state]}</strong>
                 {delivery.ended_at && <small> {dateTime(delivery.ended_at)}</small>}
-                {delivery.tries > 0 && delivery.next_at && (
-                  <small>
-                    {" "}
-                    {m.nextTry} {dateTime(delivery.next_at)}
-                  </small>
-                )}
               </td>
               <td class="text">{delivery.tries}</td>
               <td class="text wrapped">{delivery.detail}</td>
