@@ -96,7 +96,14 @@ class Station:
         return self._ended("/calibrations", body)
 
     def _ended(self, path: str, body: dict[str, object]) -> dict[str, Any]:
-        run = self.api.post(path, json={"operator": "mes", **body}).raise_for_status().json()["id"]
+        def begun() -> int | None:
+            answer = self.api.post(path, json={"operator": "mes", **body})
+            if answer.status_code == httpx.codes.CONFLICT and "Retry-After" in answer.headers:
+                return None  # the run before is on record as ended and leaves the rig in a moment
+            run: int = answer.raise_for_status().json()["id"]
+            return run
+
+        run = soon(begun)
 
         def ended() -> dict[str, Any] | None:
             found: dict[str, Any] = self.get(f"/calibrations/{run}")

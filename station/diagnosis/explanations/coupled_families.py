@@ -16,7 +16,7 @@ from station.diagnosis.explanations.structured_families import of_mechanism, unn
 from station.records import Real
 
 PARTS = ("L1", "L2", "l1", "l2", "e1x", "e1y", "e2x", "e2y")
-SLIPS_SELDOM = 0.06
+SLIPS_SELDOM = 0.03
 """Prior weight of a part that moves once: this is far more frequent for a head or a drive."""
 
 

@@ -20,7 +20,7 @@ FORM = 1.3
 Set on half of 28 kinds of random machines with an unnamed error: their 95 % intervals contained 91 % without
 the factor and contain 96 % with it; those of the other half, 91 % and 95 %.
 """
-TAKEN_UP = ("joint1", "joint2", "place", "reading")
+TAKEN_UP = ("joint1", "joint2", "place", "reading", "approach")
 """Dependences of an unnamed error that other zero offsets and lengths may partly take up."""
 DRAWS = 400
 STEPS = 3

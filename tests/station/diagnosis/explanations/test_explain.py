@@ -128,13 +128,6 @@ def test_an_error_without_a_name_that_geometry_takes_up_leaves_the_zeros_right(
     assert max(q.sd for q in found.parameters[:2]) < 0.08
 
 
-@pytest.mark.parametrize("seed", [0, 2])
-def test_a_link_that_slips_in_its_clamp_is_no_step_of_the_reading(seed: int) -> None:
-    drawn = draw(ROBOT, ("slipping_link",), 20_000 * 1_000_003 + seed)
-    found = explain(FiveBar(ROBOT, drawn.sequence), drawn.fresh)
-    assert found.decision.confirmed is not True or not found.findings
-
-
 @pytest.mark.parametrize("size", [0.003, 0.01])
 def test_a_joint_that_sticks_when_it_comes_slowly_is_no_play(size: float) -> None:
     found = explained(6, effect(kind="speed_stiction", joint=1, deg=size))
