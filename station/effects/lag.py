@@ -56,10 +56,7 @@ class JointLag(JointEffect):
             return None
         return one(Acts(joint=self.index), c.step[:, self.index])
 
-    def quantities(
-        self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
-    ) -> tuple[Quantity, ...]:
-        return (scaled("lag_percent", amplitudes[0], covariance[0, 0], PERCENT, "%"),)
+    quantities = Lag.quantities
 
 
 class Delay(Effect):

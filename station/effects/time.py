@@ -97,14 +97,6 @@ class ThermalLinks(ThermalGrowth):
             trials,
         )
 
-    def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
-        course = c.temperature_rise if "tau_s" not in hidden else _warming(c.t_s, hidden["tau_s"])
-        if course is None:
-            raise InputRefused(
-                "Thermal growth was learned on temperatures: a column temperature_c is needed."
-            )
-        return course[:, None]
-
 
 def _warming(t_s: Real, tau_s: float) -> Real:
     return np.asarray(1.0 - np.exp(-(t_s) / tau_s))

@@ -13,6 +13,7 @@ multiplication by i and a unit vector u(theta) is exp(i theta).
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import lru_cache
@@ -197,7 +198,7 @@ class Robot:
     @property
     def joint_sd_deg(self) -> float:
         """Standard deviation of a joint angle read from feedback; by default that of a uniform pulse."""
-        return _uniform_sd(self.pulse_deg) if self.feedback_sd_deg is None else self.feedback_sd_deg
+        return self.pulse_deg / math.sqrt(12.0) if self.feedback_sd_deg is None else self.feedback_sd_deg
 
     def workspace_grid(self, nx: int, ny: int) -> Complex:
         """(nx * ny,) evenly spaced points of the workspace, its edges included."""
@@ -316,13 +317,6 @@ class RobotFile(Section):
     workspace: _WorkspaceSection = _WorkspaceSection()
     joints: _JointsSection = _JointsSection()
 
-    @property
-    def _feedback_sd_deg(self) -> float | None:
-        """As specified; earlier versions stored the default of a robot file without it as if it were."""
-        joints = self.joints
-        stated, default = joints.feedback_sd_deg, _uniform_sd(360.0 / (joints.counts_per_rev * joints.ratio))
-        return None if stated is not None and np.isclose(stated, default, rtol=1e-9) else stated
-
     def to_robot(self, source: str) -> Robot:
         """:raises InputRefused: limits of the workspace are out of order or out of reach."""
         for axis, (low, high) in (("x", self.workspace.x), ("y", self.workspace.y)):
@@ -346,9 +340,12 @@ class RobotFile(Section):
             ratio=self.joints.ratio,
             zero_at_deg=self.joints.zero_at_deg,
             sign=self.joints.sign if isinstance(self.joints.sign, tuple) else (self.joints.sign,) * 2,
-            feedback_sd_deg=self._feedback_sd_deg,
             accuracy_mm=self.robot.accuracy_mm,
         )
+        stated = self.joints.feedback_sd_deg
+        # earlier versions stored the default as if it had been stated
+        if stated is not None and not math.isclose(stated, robot.joint_sd_deg):
+            robot = replace(robot, feedback_sd_deg=stated)
         try:
             robot = robot.informed(self.mechanism.reference)
         except InputRefused as error:
@@ -364,8 +361,3 @@ class RobotFile(Section):
 
 def _pair(value: float | Pair) -> Pair:
     return value if isinstance(value, tuple) else (value, value)
-
-
-def _uniform_sd(width: float) -> float:
-    """Standard deviation of a value that is anywhere within a width."""
-    return width / float(np.sqrt(12.0))

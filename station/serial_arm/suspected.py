@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import replace
+from functools import partial
 from itertools import combinations
 from typing import Literal
 
@@ -32,22 +33,20 @@ def wrong_entry(robot: Arm, m: Measurements, off_mm: float, misfit: Misfit) -> s
 
 
 def _entries(robot: Arm, m: Measurements) -> Iterator[tuple[Arm, Measurements, str]]:
-    joints = range(m.joints)
+    joints = list(range(m.joints))
     for i in joints:
-        yield (
-            robot,
-            replace(m, theta=m.theta * np.where(np.arange(m.joints) == i, -1.0, 1.0)),
-            (f"With the sign of joint {i + 1} reversed"),
-        )
+        sign = np.ones(m.joints)
+        sign[i] = -1.0
+        yield robot, replace(m, theta=sign * m.theta), f"With the sign of joint {i + 1} reversed"
     for i, j in combinations(joints, 2):
-        order = list(joints)
+        order = joints.copy()
         order[i], order[j] = j, i
         yield robot, replace(m, theta=m.theta[:, order]), f"With joints {i + 1} and {j + 1} exchanged"
     for name, factor in UNITS_MM.items():
-        yield robot, _measured(m, lambda values, f=factor: f * values), f"With the readings in {name}"  # type: ignore[misc]
-    for rows, where in ((1, "below"), (-1, "above")):
-        kept = np.arange(len(m)) >= 1 if rows < 0 else np.arange(len(m)) < len(m) - 1
-        moved = _measured(m, lambda values, by=rows: np.roll(values, -by, axis=0)).take(kept)  # type: ignore[misc]
+        yield robot, _measured(m, partial(np.multiply, factor)), f"With the readings in {name}"
+    rows = np.arange(len(m))
+    for by, kept, where in ((-1, rows[:-1], "below"), (1, rows[1:], "above")):
+        moved = _measured(m, partial(np.roll, shift=by, axis=0)).take(kept)
         yield robot, moved, f"With the readings of the row {where}"
     other: Literal["standard", "modified"] = "modified" if robot.convention == "standard" else "standard"
     yield replace(robot, convention=other), m, f"With the {other} convention in the robot file"

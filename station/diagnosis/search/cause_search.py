@@ -274,49 +274,54 @@ def _add(
     unit = _noise_square(current.cost - best.reduction, current.dof - best.size)
     worst = max(current.cost - best.reduction + ALTERNATIVES * unit, hopeful * current.cost)
     alternatives = [c for c in refined if current.cost - c.reduction < worst]
-    fits: list[tuple[float, Candidate, Fit]] = []
+    # readings that a fit has not used must be predicted better, block by block
+    most_mm = helpful * left_out_rms(current)
+    refits: list[_Refit] = []
     for c in sorted(alternatives, key=lambda c: -c.reduction)[:MOST_ALTERNATIVES]:
         try:
             refit = refitted(scan, c)
         except NotConvergedError:
             continue
-        fits.append((_score(refit, c), c, refit))
-    if not fits:
+        if _possible(refit) and (left_out_mm := left_out_rms(refit)) < most_mm:
+            refits.append(_Refit(c, refit, _score(refit, c), left_out_mm))
+    if not refits:
         return None
-    # readings that a fit has not used must be predicted better, block by block
-    most_mm = helpful * left_out_rms(current)
-    fits = [item for item in fits if _possible(item[2]) and left_out_rms(item[2]) < most_mm]
-    if not fits:
-        return None
-    fits.sort(key=lambda item: item[0])
-    fits = _common_first(fits)
-    _, winner, better = fits[0]
+    best_refit = _common(min(refits, key=lambda r: r.score), refits)
+    winner, better = best_refit.candidate, best_refit.fit
     unit = _noise_square(better.cost, better.dof - winner.size)
     aliases: dict[tuple[str, int | None], Term] = {}
     # where the model does not fit yet, a cost says too much: of one joint, left-out readings decide as well
-    most_mm = left_out_rms(better) / HELPFUL
-    for _, c, refit in fits[1:]:
-        as_good = (refit.cost - better.cost) / unit < ALIAS + 2.0 * (winner.freedom - c.freedom)
-        if as_good or (c.effect.joint == winner.effect.joint and left_out_rms(refit) < most_mm):
+    for one in sorted(refits, key=lambda r: r.score):
+        c = one.candidate
+        as_good = (one.fit.cost - better.cost) / unit < ALIAS + 2.0 * (winner.freedom - c.freedom)
+        if as_good or one.predicts_as_well_as(best_refit):
             aliases.setdefault(c.term().key, c.term())
     aliases.pop(winner.term().key, None)
     return Finding(winner.term(), winner.p_value, tuple(aliases.values())), better
 
 
-_Refit = tuple[float, Candidate, Fit]
+@dataclass(frozen=True)
+class _Refit:
+    """The fit with a candidate."""
+
+    candidate: Candidate
+    fit: Fit
+    score: float
+    left_out_mm: float
+    """Root mean square of the errors at readings that the fit has not used."""
+
+    def predicts_as_well_as(self, other: _Refit) -> bool:
+        """Whether it has an effect of the same joint and predicts left-out readings as well."""
+        same_joint = self.candidate.effect.joint == other.candidate.effect.joint
+        return same_joint and self.left_out_mm < other.left_out_mm / HELPFUL
 
 
-def _common_first(fits: list[_Refit]) -> list[_Refit]:
-    """Best first; a rare effect gives way to another of its joint that predicts left-out readings as well."""
-    _, winner, better = fits[0]
-    if not winner.effect.rare:
-        return fits
-    most_mm = left_out_rms(better) / HELPFUL
-    for item in fits[1:]:
-        effect = item[1].effect
-        if effect.joint == winner.effect.joint and not effect.rare and left_out_rms(item[2]) < most_mm:
-            return [item, *(other for other in fits if other is not item)]
-    return fits
+def _common(best: _Refit, refits: Sequence[_Refit]) -> _Refit:
+    """The best refit; one with a rare effect gives way to a common effect that predicts as well."""
+    if not best.candidate.effect.rare:
+        return best
+    as_good = [r for r in refits if not r.candidate.effect.rare and r.predicts_as_well_as(best)]
+    return min(as_good, key=lambda r: r.score, default=best)
 
 
 def _noise_square(cost: float, dof: int) -> float:
