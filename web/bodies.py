@@ -24,6 +24,7 @@ from station.records import (
     LARGEST_ID,
     AnyReference,
     CalibrationSummary,
+    KeptRobot,
     Measured,
     MemorySummary,
     Phrase,
@@ -265,6 +266,11 @@ class Robot(Record):
     serial: str
     file: Sections = Field(description="the sections of its robot file")
     memory: MemorySummary | None = Field(description="null when nothing is known")
+
+
+class RobotList(Record):
+    items: list[KeptRobot]
+    next: str | None = Field(description="cursor of the next page, null on the last")
 
 
 class CalibrationList(Record):

@@ -92,11 +92,17 @@ class RobotFiles(AuditTrail):
         except NotFound:
             return Robot.default(serial)
 
-    def robots(self) -> list[KeptRobot]:
-        """The latest version of each."""
+    def robots(self, after: str = "", limit: int | None = None) -> list[KeptRobot]:
+        """The latest version of each, by serial.
+
+        :param after: only serials after this one
+        :param limit: number of robots; None is all
+        """
         rows = self._readers.all(
             "SELECT serial, file, saved_ms FROM robots"
-            " WHERE id IN (SELECT max(id) FROM robots GROUP BY serial) ORDER BY serial"
+            " WHERE id IN (SELECT max(id) FROM robots GROUP BY serial) AND serial > ?"
+            " ORDER BY serial LIMIT ?",
+            [after, -1 if limit is None else limit],
         )
         return [
             KeptRobot(serial=row["serial"], saved_at=moment(row["saved_ms"]), file=json.loads(row["file"]))

@@ -48,6 +48,21 @@ def test_a_result_says_whether_memory_took_part(service: Service) -> None:
     assert answers == [None, used]
 
 
+def test_the_robots_are_listed_by_serial_page_by_page(service: Service) -> None:
+    empty = service.client.get("/api/v1/robots")
+    assert (empty.status_code, empty.json()) == (200, {"items": [], "next": None})
+    for serial in ("R3", "R1", "R2"):
+        service.runtime.store.save_robot(Robot.default(serial))
+    changed = {**Robot.default("R1").to_json(), "workspace": CHANGED["workspace"]}
+    service.client.put("/api/v1/robots/R1", json=changed)
+    first = service.client.get("/api/v1/robots", params={"limit": 2}).json()
+    assert [robot["serial"] for robot in first["items"]] == ["R1", "R2"]
+    assert first["items"][0]["file"]["workspace"] == changed["workspace"]
+    rest = service.client.get("/api/v1/robots", params={"limit": 2, "cursor": first["next"]}).json()
+    assert ([robot["serial"] for robot in rest["items"]], rest["next"]) == (["R3"], None)
+    assert service.client.get("/api/v1/robots", params={"limit": 3}).json()["next"] is None
+
+
 FILE = Robot.default("FB-9")
 CHANGED = {**FILE.to_json(), "workspace": {"x": [-200.0, 200.0], "y": [-780.0, -640.0]}}
 

@@ -1,10 +1,10 @@
-"""`/robots`: the data of one robot, and clearing its memory."""
+"""`/robots`: the robots of this station, the data of one, and clearing its memory."""
 
 from __future__ import annotations
 
 from typing import Annotated
 
-from fastapi import Request
+from fastapi import Query, Request
 from pydantic import JsonValue
 from starlette.exceptions import HTTPException
 
@@ -14,7 +14,7 @@ from station.people import Permission
 from station.records import Actor, CalibrationHolds, sections_of_toml
 from station.service import Runtime
 from web.aside import aside
-from web.bodies import ClearBody, Robot, Serial
+from web.bodies import ClearBody, Robot, RobotList, Serial
 from web.guarded import Router, needs
 from web.problems import documented
 from web.routes.parts import CallerName, TheRuntime
@@ -32,6 +32,18 @@ ROBOT_FILE: dict[str, JsonValue] = {
 }
 
 router = Router(prefix="/robots", tags=["robots"])
+
+
+@router.get("", response_model=RobotList, dependencies=[needs(Permission.READ)])
+def list_robots(
+    runtime: TheRuntime,
+    limit: Annotated[int, Query(ge=1, le=500)] = 50,
+    cursor: Annotated[str, Query(max_length=64, description="`next` of the page before")] = "",
+) -> RobotList:
+    """The latest robot file of each robot, by serial, page by page."""
+    items = runtime.store.robots(cursor, limit + 1)
+    more = len(items) > limit
+    return RobotList(items=items[:limit], next=items[limit - 1].serial if more else None)
 
 
 @router.get(
