@@ -8,8 +8,7 @@ found. The evidence of a set is that of its best members, times the price paid f
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from functools import cached_property
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -62,12 +61,13 @@ class Candidate:
     log_prior: float
     prices: tuple[float, ...] = ()
     """Log of the price paid for searching each error's member and size, where the set is settled."""
+    key: Key = field(init=False)
+    """Its families, sorted."""
 
-    @cached_property
-    def key(self) -> Key:
-        return tuple(sorted(c.family for c in self.choices))
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "key", tuple(sorted(c.family for c in self.choices)))
 
-    @cached_property
+    @property
     def log_posterior(self) -> float:
         """Up to a constant that all share."""
         return self.log_evidence + self.log_prior

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import combinations
 
 import numpy as np
 from scipy.special import logsumexp
@@ -182,10 +182,13 @@ def _weighed(
 def _bent_as(key: Key, bent: Mapping[Key, float]) -> float:
     """Settled less tangent's log evidence of the largest settled part of a set that was not settled itself.
 
-    Otherwise a large error alone, settled, would be compared with itself and a useless one on the tangent.
+    Of parts of one size the more probable.  Otherwise a large error alone, settled, would be compared with
+    itself and a useless one on the tangent.
     """
-    parts = [part for part in bent if part and not Counter(part) - Counter(key)]
-    return bent[max(parts, key=len)] if parts else 0.0
+    for size in range(len(key), 0, -1):
+        if parts := bent.keys() & set(combinations(key, size)):
+            return next(value for part, value in bent.items() if part in parts)
+    return 0.0
 
 
 def _wandering(
