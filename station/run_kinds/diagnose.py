@@ -61,8 +61,17 @@ def judged(
     fresh = yield MeasurementSequence(
         "Confirming at fresh positions", 2, diagnostic_fresh_stops(robot, zeros, _seed(sequence)), last=True
     )
-    found = diagnosed(robot, [*readings, *fresh])
-    result = result_of(found, readings, _described(readings), robot)
+    return concluded(robot, [*readings, *fresh], wanted_mm)
+
+
+def concluded(robot: Robot, readings: list[Reading], wanted_mm: float | None = None) -> CalibrationResult:
+    """The result of all readings of a run.
+
+    :raises InputRefused: as `diagnose`.
+    """
+    found = diagnosed(robot, readings)
+    learned = [r for r in readings if r.sequence == 1]
+    result = result_of(found, learned, _described(learned), robot)
     after = result.after.predicted_position_error_mm if result.after else None
     bound_mm, model_mm = found.zeros_only_bound_mm, after.bound_95 if after else None
     return with_accuracy(result, AccuracyReached.of(bound_mm, model_mm, wanted_mm, PLAN_ENDED))
@@ -132,4 +141,9 @@ def _seed(sequence: Measurements) -> int:
     return zlib.crc32(np.ascontiguousarray(sequence.distance).tobytes())
 
 
-DIAGNOSE = register(RunKind("diagnose", start_diagnostic))
+def concluded_again(start: Start, readings: list[Reading]) -> CalibrationResult:
+    """The result of the stored readings of a run."""
+    return concluded(start.robot, readings, start.wanted_mm)
+
+
+DIAGNOSE = register(RunKind("diagnose", start_diagnostic, concluded=concluded_again))

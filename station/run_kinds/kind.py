@@ -18,6 +18,7 @@ from station.records import (
     Beforehand,
     Calibration,
     CalibrationRequest,
+    CalibrationResult,
     CalibrationSummary,
     PlanName,
     Procedure,
@@ -90,6 +91,9 @@ class RunKind:
 
     :raises InputRefused: it is not possible for this robot.
     """
+    concluded: Callable[[Start, list[Reading]], CalibrationResult] | None = None
+    """The result of all readings of a complete run at once, without its procedure; None: the result needs
+    the steps. :raises InputRefused: the readings cannot be judged."""
     check: Callable[[Store, CalibrationRequest], None] = _nothing_to_check
     """Check before storing anything. :raises NotApplicable: the earlier run does not permit it."""
     done_by: Callable[[Store, int], int | None] | None = None

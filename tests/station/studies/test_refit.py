@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 import sqlite3
 from collections.abc import Iterator
 from contextlib import closing
@@ -20,6 +21,7 @@ from station.run_kinds import RUN_KINDS, Start
 from station.store import Store
 from station.studies.engine import Engine
 from station.studies.refit import Refitted, candidates, refit
+from station.studies.scale.simulated_runs import add_simulated
 from station.studies.simulation import SimulatedMachine
 from tests.station.simulated import carried_out, group
 
@@ -69,6 +71,21 @@ def test_what_would_change_is_named_with_both_reasons(history: Path) -> None:
     }  # fmt: skip
     outcome = next(change for change in found.changed if change.what == "outcome")
     assert outcome.reason.startswith("Then: Older. Now: ")
+
+
+def test_a_diagnosis_says_the_same_and_its_changed_causes_are_named(tmp_path: Path) -> None:
+    path = tmp_path / "station.db"
+    with closing(Store(path)) as store:
+        assert add_simulated(store, "diagnose", 1, 1, 1, QUIET) == 1
+        causes = [f"{finding.effect} {finding.part}" for finding in store.calibration(1).findings]
+    assert causes
+    changed = tmp_path / "changed.db"
+    shutil.copy(path, changed)
+    with closing(sqlite3.connect(changed)) as db, db:
+        db.execute("UPDATE results SET result = json_set(result, '$.findings[0].effect', 'drift')")
+    assert (of(path).runs, of(path).changed) == (1, ())
+    (change,) = of(changed).changed
+    assert (change.what, change.after) == ("causes", causes)
 
 
 def test_the_references_of_a_run_take_part_again(history: Path) -> None:
