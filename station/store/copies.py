@@ -38,7 +38,8 @@ def move_aside(database: Path) -> Path | None:
 
     :raises OSError:
     """
-    now = datetime.now(UTC).strftime("%Y%m%dT%H%M%SZ")
+    # to the microsecond: a second restore within the same second must not replace the first one's copy
+    now = datetime.now(UTC).strftime("%Y%m%dT%H%M%S.%fZ")
     aside = database.with_name(f"{database.stem}-replaced-{now}{database.suffix}")
     found = [suffix for suffix in _BESIDE if database.with_name(database.name + suffix).exists()]
     for suffix in found:

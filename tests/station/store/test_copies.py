@@ -89,6 +89,20 @@ def test_a_restore_is_one_command(tmp_path: Path) -> None:
     assert backup.exists()
 
 
+def test_two_restores_in_one_second_keep_both_histories(tmp_path: Path) -> None:
+    path, backup = tmp_path / "station.db", tmp_path / "monday.db"
+    with closing(Store(path)) as store:
+        store.backup(backup)
+        run_in(store, serial="R7")
+    restore(backup, path)
+    restore(backup, path)
+    kept = []
+    for aside in sorted(tmp_path.glob("station-replaced-*.db")):
+        with closing(Store(aside)) as store:
+            kept.append([run.robot_serial for run in store.calibrations().items])
+    assert kept == [["R7"], []]
+
+
 def test_a_restore_into_an_empty_home(tmp_path: Path) -> None:
     backup = tmp_path / "monday.db"
     with closing(Store(tmp_path / "station.db")) as store:
