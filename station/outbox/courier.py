@@ -18,6 +18,7 @@ from station.errors import InputRefused, StoreUnavailable
 from station.outbox.folder import Folder
 from station.outbox.mqtt import Mqtt
 from station.outbox.receiver import Receiver, Refused
+from station.outbox.trouble import in_words
 from station.outbox.webhook import Webhook
 from station.settings import OutboxSettings
 from station.store import Store
@@ -69,9 +70,9 @@ class Courier:
             self._store.settle(delivery.id, "refused", str(refusal)[:300])
         except Exception as error:  # noqa: BLE001 - whatever goes wrong on the way, it is tried again
             wait_s = min(2.0**delivery.tries, LONGEST_WAIT_S)
-            log.warning("%s: event %d is tried again in %g s: %s", name, event.n, wait_s, error)
-            detail = (str(error) or type(error).__name__)[:300]
-            self._store.postpone(delivery.id, self._now() + timedelta(seconds=wait_s), detail)
+            why = in_words(error)
+            log.warning("%s: event %d is tried again in %g s: %s", name, event.n, wait_s, why)
+            self._store.postpone(delivery.id, self._now() + timedelta(seconds=wait_s), why[:300])
         else:
             self._store.settle(delivery.id, "delivered", said[:300])
         return 0.0

@@ -567,4 +567,22 @@ export const reports: Record<string, string> = {
     "sein Adapter sendet zurück, was gesendet wird, wie echo=1 sagt",
   "{axis} has lost its power during this run and may count from elsewhere: no zero is written; calibrate again.":
     "{axis} war während dieses Laufs stromlos und zählt vielleicht von woanders: Es wird kein Nullpunkt geschrieben; kalibrieren Sie neu.",
+  // receivers of events
+  "nothing accepts connections there": "dort nimmt nichts Verbindungen an",
+  "the connection was closed before the answer was complete":
+    "die Verbindung wurde vor dem Ende der Antwort geschlossen",
+  "there is no way to that computer in the network": "im Netzwerk führt kein Weg zu diesem Rechner",
+  "the disk is full": "der Datenträger ist voll",
+  "the station may not write there": "die Station darf dort nicht schreiben",
+  "the folder is a file": "der Ordner ist eine Datei",
+  "its certificate is not accepted: {reason}": "sein Zertifikat wird nicht anerkannt: {reason}",
+  "no encrypted connection could be made": "es kam keine verschlüsselte Verbindung zustande",
+  "no computer of that name is known": "kein Rechner dieses Namens ist bekannt",
+  "no answer within the time limit": "keine Antwort innerhalb der Zeitgrenze",
+  "answered {status}": "antwortete {status}",
+  "no connection to the broker": "keine Verbindung zum Broker",
+  "the broker did not acknowledge": "der Broker hat nicht bestätigt",
+  "the broker answers: {reason}": "der Broker antwortet: {reason}",
+  "the broker refuses the connection: {reason}": "der Broker lehnt die Verbindung ab: {reason}",
+  acknowledged: "bestätigt",
 };

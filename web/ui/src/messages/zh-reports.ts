@@ -511,4 +511,21 @@ export const reports: Record<string, string> = {
   "its adapter sends back what it is sent, as echo=1 says": "其适配器按 echo=1 所述将收到的内容发回",
   "{axis} has lost its power during this run and may count from elsewhere: no zero is written; calibrate again.":
     "{axis}在本次运行中断过电，计数起点可能已变：不写入零点；请重新标定。",
+  // receivers of events
+  "nothing accepts connections there": "该处不接受连接",
+  "the connection was closed before the answer was complete": "连接在应答完成前被关闭",
+  "there is no way to that computer in the network": "网络无法到达该计算机",
+  "the disk is full": "磁盘已满",
+  "the station may not write there": "标定站无权写入该处",
+  "the folder is a file": "该文件夹是一个文件",
+  "its certificate is not accepted: {reason}": "其证书不被接受：{reason}",
+  "no encrypted connection could be made": "无法建立加密连接",
+  "no computer of that name is known": "没有该名称的计算机",
+  "no answer within the time limit": "在时限内没有应答",
+  "answered {status}": "应答为{status}",
+  "no connection to the broker": "未连接到代理",
+  "the broker did not acknowledge": "代理未确认",
+  "the broker answers: {reason}": "代理应答：{reason}",
+  "the broker refuses the connection: {reason}": "代理拒绝连接：{reason}",
+  acknowledged: "已确认",
 };

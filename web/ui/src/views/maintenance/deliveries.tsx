@@ -2,6 +2,7 @@
 import { useSignal } from "@preact/signals";
 import { dateTime } from "../../format";
 import { t } from "../../messages";
+import { said } from "../../messages/said";
 import { useLoaded } from "../../parts/load";
 import { navigate, query } from "../../router";
 import type { Delivery } from "../../types";
@@ -54,7 +55,7 @@ export function DeliveriesPart() {
                 {delivery.ended_at && <small> {dateTime(delivery.ended_at)}</small>}
               </td>
               <td class="text">{delivery.tries}</td>
-              <td class="text wrapped">{delivery.detail}</td>
+              <td class="text wrapped">{delivery.detail && said(delivery.detail)}</td>
               <td class="text">
                 <ActionButton
                   label={m.resendOf(delivery.id)}
