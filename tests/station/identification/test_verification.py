@@ -20,12 +20,14 @@ from station.identification.verification import (
     Verification,
     fresh_stops,
     not_identified,
+    predicted_result,
     prediction_fault,
+    residuals_of,
     result_of,
     verify,
 )
 from station.model.model import Fit
-from station.records import Complex, Measurements, Reading, Real, from_readings
+from station.records import Complex, JointAngle, Measurements, Reading, Real, from_readings
 from tests.station.simulated import group, measure
 
 ROBOT = replace(Robot.default(), feedback_sd_deg=0.0)
@@ -200,6 +202,57 @@ def test_a_model_that_does_not_fit_its_own_readings_fails_whatever_the_fresh_one
     assert (result.verdict, result.outcome, result.reason.code) == ("fail", "unexplained", "lack_of_fit")
     assert result.reason.params == {"p": 1e-4}
     assert (result.lack_of_fit, result.lack_of_fit_reason) == (result.reason.text, result.reason)
+
+
+def wrong_reference() -> JointAngle:
+    """The angle of joint 1, read half a degree off."""
+    reads = -3.0 + float(np.degrees(group(1)[0])) + 0.5
+    return JointAngle(joint=1, at_deg=-3.0, reads_deg=reads, sd_deg=0.005)
+
+
+def test_a_reference_that_the_readings_contradict_fails_and_is_named() -> None:
+    readings, fresh = both()
+    reference = wrong_reference()
+    fit = identify(ROBOT.informed((reference,)), fitted().measurements)
+    (use,) = fit.references
+    assert use.residual == pytest.approx(0.5, abs=0.2)
+    for result in (result_of(fit, readings, fresh), predicted_result(fit, readings)):
+        assert (result.verdict, result.outcome, result.reason.code) == (
+            "fail",
+            "unexplained",
+            "reference_contradicted",
+        )
+        assert result.reason.params == {
+            "reference": reference.words,
+            "difference": use.residual,
+            "sd": use.sd,
+            "unit": "deg",
+        }
+        assert (result.lack_of_fit, result.lack_of_fit_reason) == (result.reason.text, result.reason)
+        assert result.references == fit.references
+
+
+def test_readings_that_were_predicted_before_they_were_used_pass_or_fail_by_their_own_p_value() -> None:
+    readings, _ = both()
+    good = predicted_result(fitted(), readings)
+    assert (good.verdict, good.outcome, good.reason.code) == ("pass", "good", "readings_as_predicted")
+    assert good.reason.params == {"readings": len(readings)}
+    assert [row.reading for row in good.residuals] == [r.reading for r in readings]
+    poor = predicted_result(replace(fitted(), lack_of_fit_p=1e-4), readings)
+    assert (poor.verdict, poor.outcome, poor.reason.code) == ("fail", "unexplained", "predictions_disagree")
+    assert poor.reason.params == {"p": 1e-4}
+
+
+def test_residuals_are_also_those_of_readings_that_took_no_part() -> None:
+    readings, fresh = both(off_mm=0.3)
+    rows = residuals_of(fitted(), [*readings, *fresh])
+    assert [row.reading for row in rows] == [r.reading for r in (*readings, *fresh)]
+    assert [row.residual_mm for row in rows[: len(readings)]] == pytest.approx(fitted().residual_mm.tolist())
+    expected = from_readings(fresh)
+    observed = FiveBar(ROBOT, expected).observe(fitted().p, expected.theta).value
+    off = [row.residual_mm for row in rows[len(readings) :]]
+    assert off == pytest.approx((expected.distance - observed).tolist())
+    assert (expected.distance - observed)[4] > 0.2
 
 
 def test_parameters_that_are_no_numbers_fail() -> None:
