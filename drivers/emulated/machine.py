@@ -215,6 +215,13 @@ class Machine:
             self._look()
             return self._scene(self._clock()).r_mm
 
+    def arms_deg(self) -> tuple[float, float]:
+        """True angles of the proximal links, as a level on each shows them."""
+        with self._lock:
+            self._look()
+            first, second = self._scene(self._clock()).theta_deg
+            return first, second
+
     def temperature_rise_k(self) -> float:
         """Rise since switching on, as a thermometer on the machine shows it."""
         t_s = self._clock() - self._on_s

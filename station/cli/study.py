@@ -15,10 +15,12 @@ from station.studies.arms import figures as arms_figures
 from station.studies.confusion import figures as confusion_figures
 from station.studies.confusion import run as confusion
 from station.studies.engine import Engine, digest
+from station.studies.experiments import experiments
+from station.studies.experiments import figures as experiment_figures
 from station.studies.options import resume_option, seed_option, workers_option
 from station.studies.population import FIGURES, population
 
-_KINDS = (*FIGURES, "confusion", "arms")
+_KINDS = (*FIGURES, "confusion", "arms", "experiments")
 _PLANS = ("full", "rapid")
 """Plans with one measurement and one fit."""
 
@@ -37,14 +39,14 @@ _PLANS = ("full", "rapid")
     type=click.Choice(_PLANS),
     default="full",
     show_default=True,
-    help="Plan to measure; not for confusion and arms.",
+    help="Plan to measure; not for confusion, arms and experiments.",
 )
 @click.option(
     "--tolerance",
     type=click.FloatRange(0, 3, min_open=True),
     default=0.03,
     show_default=True,
-    help="Standard deviation of lengths and base joints, mm; not for confusion and arms.",
+    help="Standard deviation of lengths and base joints, mm; not for confusion, arms and experiments.",
 )
 @workers_option
 @click.option("--scheduler", metavar="tcp://HOST:PORT", help="Dask cluster that does the computing.")
@@ -64,8 +66,9 @@ def study_command(
     """Calibrate or diagnose many random machines and summarise the results.
 
     STUDY is accuracy, coverage or capability (one calibration for each machine), confusion (one diagnosis
-    for each machine), or arms (one diagnosis for each log of a serial arm).  The digest is the same on one
-    core, on several cores and on a cluster.
+    for each machine), arms (one diagnosis for each log of a serial arm), or experiments (those that a
+    diagnosis suggests, carried out on each machine).  The digest is the same on one core, on several cores
+    and on a cluster.
     """
     check_folders(json_file)
     engine = Engine(Console(stderr=True), workers, resume, scheduler)
@@ -75,6 +78,8 @@ def study_command(
         found = confusion_figures(confusion(machines, seed, engine))
     elif study == "arms":
         found = arms_figures(arms(machines, seed, engine))
+    elif study == "experiments":
+        found = experiment_figures(experiments(machines, seed, engine))
     else:
         found = FIGURES[study](population(machines, seed, engine, plan, tolerance))
     seconds = round(time.perf_counter() - began, 1)

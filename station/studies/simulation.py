@@ -118,6 +118,23 @@ class SimulatedMachine:
         """(K,) mm, where the platform truly stands at drive angles theta_deg (K, 2), come to in order."""
         return np.array([complex(*r.true_point_mm) for r in self._taken(theta_deg)])
 
+    def arrive(self, theta: Real, before: Real) -> Measurements:
+        """One reading at each of drive angles theta (K, 2), rad, each reached from `before` (K, 2)."""
+        way = np.degrees(np.stack([before, theta], axis=1)).reshape(-1, 2)
+        return self.visit(way).take(np.arange(1, len(way), 2))
+
+    def arms(self, theta: Real, before: Real) -> Real:
+        """(K, 2) rad, true angles of the proximal links less the feedback of the drives, reached likewise."""
+        out = []
+        for there, here in zip(before, theta, strict=True):
+            reading = self._taken(np.degrees([there, here]))[1]
+            out.append(np.subtract(self._rig.machine.arms_deg(), reading.theta_deg))
+        return np.radians(out)
+
+    def remount(self, c_mm: tuple[float, float]) -> None:
+        """Mount the mechanism there, with a mounting error of its own."""
+        self._rig.machine.remount(c_mm)
+
     def _taken(self, theta_deg: Real, samples: int = 1) -> list[VirtualReading]:
         return self._rig.measure([(float(a), float(b)) for a, b in theta_deg], samples=samples)
 

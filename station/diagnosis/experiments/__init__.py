@@ -7,20 +7,38 @@ additional motion. `by_hand` lists the experiments that a person has to do. `rat
 
 from __future__ import annotations
 
+from station.diagnosis.experiments.asking import asked
+from station.diagnosis.experiments.by_hand import (
+    REFERENCE_SD,
+    at_second_mount,
+    joint_reference,
+    reference_rows,
+    second_mount,
+)
 from station.diagnosis.experiments.further_motion import INSET_MM, PLACES, Motion, motion
 from station.diagnosis.experiments.in_question import Hypothesis, hypotheses
-from station.diagnosis.experiments.outcomes import Outcome, decides
-from station.diagnosis.experiments.rating import Rated, rated
+from station.diagnosis.experiments.outcomes import SURE, Outcome, decides, probabilities
+from station.diagnosis.experiments.rating import COARSE, STOPS, Rated, rated
 
 __all__ = [
+    "COARSE",
     "INSET_MM",
     "PLACES",
+    "REFERENCE_SD",
+    "STOPS",
+    "SURE",
     "Hypothesis",
     "Motion",
     "Outcome",
     "Rated",
+    "asked",
+    "at_second_mount",
     "decides",
     "hypotheses",
+    "joint_reference",
     "motion",
+    "probabilities",
     "rated",
+    "reference_rows",
+    "second_mount",
 ]

@@ -32,6 +32,12 @@ LOADED = frozenset(
 
 def second_mount(found: ExplanationSet, some: Sequence[Hypothesis]) -> list[Outcome]:
     """The mechanism at another point of the base, known as well as the first one."""
+    mechanism, known = at_second_mount(found, some)
+    return [outcome(found, mechanism, one) for one in known]
+
+
+def at_second_mount(found: ExplanationSet, some: Sequence[Hypothesis]) -> tuple[FiveBar, list[Hypothesis]]:
+    """The planned readings there, and the explanations with the unknown errors of that mounting."""
     learned = found.mechanism
     robot = learned.robot
     mounts = {**robot.mounts, MOUNT: (robot.c[0] + MOUNT_BESIDE_MM, robot.c[1])}
@@ -41,15 +47,13 @@ def second_mount(found: ExplanationSet, some: Sequence[Hypothesis]) -> list[Outc
     known = [one.of(mechanism, learned) for one in some]
     before = np.asarray(m.came_from)[:, :2]
     p = known[0].settled.x[: known[0].settled.size]
-    later = mechanism.of(placed(mechanism, p, before))
-    return [outcome(found, later, one) for one in known]
+    return mechanism.of(placed(mechanism, p, before)), known
 
 
 def joint_reference(found: ExplanationSet, some: Sequence[Hypothesis], joint: int) -> list[Outcome]:
     """The angle of one proximal link against the drive's feedback, over the range of the joint."""
-    situation = found.weighing.frame.situation
-    rows = _spread(situation.theta[:, joint - 1], ANGLES)
-    s = _at_once(situation.take(rows))
+    rows = reference_rows(found, joint)
+    s = _at_once(found.weighing.frame.situation.take(rows))
     out = []
     for one in some:
         settled = one.settled
@@ -59,6 +63,11 @@ def joint_reference(found: ExplanationSet, some: Sequence[Hypothesis], joint: in
             jacobian[:, where] = _on(family, s, choice.member, f"joint{joint}")
         out.append(Outcome.linear(jacobian @ settled.x, jacobian, settled.covariance, REFERENCE_SD))
     return out
+
+
+def reference_rows(found: ExplanationSet, joint: int) -> Index:
+    """Readings at whose angles that joint is seen."""
+    return _spread(found.weighing.frame.situation.theta[:, joint - 1], ANGLES)
 
 
 def payload(found: ExplanationSet, some: Sequence[Hypothesis]) -> list[Outcome]:

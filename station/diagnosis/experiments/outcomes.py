@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from scipy.linalg import solve_triangular
@@ -32,6 +33,11 @@ class Outcome:
         """(N, N) of the readings."""
         return np.asarray(self.root @ self.root.T + np.diag(self.noise))
 
+    @cached_property
+    def lower(self) -> Real:
+        """(N, N) Cholesky factor of the covariance."""
+        return np.linalg.cholesky(self.covariance)
+
     @classmethod
     def linear(cls, mean: Real, jacobian: Real, covariance: Real, noise_sd: Real | float) -> Outcome:
         """An outcome from derivatives (N, X) by unknowns with this covariance (X, X)."""
@@ -55,19 +61,21 @@ def decides(outcomes: Sequence[Outcome], probability: Sequence[float], seed: int
     """
     rng = np.random.default_rng(seed)
     prior = np.array(probability) / np.sum(probability)
-    count = rng.multinomial(DRAWS, prior)
-    roots = [np.linalg.cholesky(o.covariance) for o in outcomes]
-    logs = [float(2.0 * np.sum(np.log(np.diag(root)))) for root in roots]
     done = 0
-    for truth, draws in enumerate(count):
+    for truth, draws in enumerate(rng.multinomial(DRAWS, prior)):
         if not draws:
             continue
-        noise = rng.standard_normal((len(outcomes[truth].mean), draws))
-        read = outcomes[truth].mean[:, None] + roots[truth] @ noise
-        posterior = np.empty((len(outcomes), draws))
-        for k, (o, root, log) in enumerate(zip(outcomes, roots, logs, strict=True)):
-            z = solve_triangular(root, read - o.mean[:, None], lower=True)
-            posterior[k] = np.log(prior[k]) - 0.5 * (np.sum(z**2, axis=0) + log)
-        top = np.exp(posterior.max(axis=0) - logsumexp(posterior, axis=0))
-        done += int(np.sum(top >= SURE))
+        expected = outcomes[truth]
+        noise = rng.standard_normal((len(expected.mean), draws))
+        read = expected.mean[:, None] + expected.lower @ noise
+        done += int(np.sum(probabilities(outcomes, prior, read).max(axis=0) >= SURE))
     return done / DRAWS
+
+
+def probabilities(outcomes: Sequence[Outcome], prior: Sequence[float] | Real, read: Real) -> Real:
+    """(H, D) of each explanation, after the experiment gave readings (N, D) in each of D repetitions."""
+    log = np.empty((len(outcomes), read.shape[1]))
+    for k, o in enumerate(outcomes):
+        z = solve_triangular(o.lower, read - o.mean[:, None], lower=True)
+        log[k] = np.log(prior[k]) - 0.5 * np.sum(z**2, axis=0) - np.sum(np.log(np.diag(o.lower)))
+    return np.asarray(np.exp(log - logsumexp(log, axis=0)))
