@@ -2,12 +2,13 @@
 
 `in_question` holds the explanations to decide between. `outcomes` predicts the readings of an experiment
 under each explanation, and how often one explanation would then remain. `further_motion` chooses the stops of
-additional motion. `by_hand` lists the experiments that a person has to do. `rating` sorts all of them.
+additional motion. `by_hand` has those with another mount or instrument, `other_conditions` those that repeat
+the positions with a payload, warm, or with another start of the scale. `rating` sorts all of them.
 """
 
 from __future__ import annotations
 
-from station.diagnosis.experiments.asking import asked
+from station.diagnosis.experiments.asking import STOPS, asked
 from station.diagnosis.experiments.by_hand import (
     REFERENCE_SD,
     at_second_mount,
@@ -18,7 +19,7 @@ from station.diagnosis.experiments.by_hand import (
 from station.diagnosis.experiments.further_motion import INSET_MM, PLACES, Motion, motion
 from station.diagnosis.experiments.in_question import Hypothesis, hypotheses
 from station.diagnosis.experiments.outcomes import SURE, Outcome, decides, probabilities
-from station.diagnosis.experiments.rating import COARSE, STOPS, Rated, rated
+from station.diagnosis.experiments.rating import COARSE, Rated, rated
 
 __all__ = [
     "COARSE",

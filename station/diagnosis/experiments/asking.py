@@ -10,9 +10,21 @@ from station.diagnosis.experiments.in_question import Hypothesis
 from station.diagnosis.experiments.outcomes import Outcome
 from station.diagnosis.explanations import ExplanationSet, specified_as, tangent
 from station.five_bar import FiveBar, inverse
+from station.plans import SIDES
 from station.records import Complex, Measurements, Real
 
 RUN_UP = np.radians(1.0)
+GRID = (8, 5)
+STOPS = GRID[0] * GRID[1]
+START_SD_MM = 10.0
+"""Of the start of a scale about which nothing is known."""
+
+
+def over_workspace(found: ExplanationSet) -> tuple[Complex, Real]:
+    """Positions (K,) over the workspace and sides (K, 2): each approached otherwise than the one before."""
+    places = found.mechanism.robot.workspace_grid(*GRID)
+    sides = np.array([SIDES[k % len(SIDES)] for k in range(len(places))], dtype=float)
+    return places, sides
 
 
 def asked(found: ExplanationSet, places: Complex, sides: Real, stops: int) -> Measurements:
@@ -51,9 +63,17 @@ def _all(column: Real | None, count: int) -> Real | None:
     return None if column is None else np.full(count, column[-1])
 
 
-def outcome(found: ExplanationSet, mechanism: FiveBar, hypothesis: Hypothesis) -> Outcome:
-    """What one explanation predicts for the readings of a mechanism."""
+def outcome(
+    found: ExplanationSet, mechanism: FiveBar, hypothesis: Hypothesis, more: Real | None = None
+) -> Outcome:
+    """What one explanation predicts for the readings of a mechanism.
+
+    :param more: (N, X) what other conditions add to the derivatives by its unknowns; None: nothing
+    """
     settled = hypothesis.settled
     residual, jacobian = tangent(mechanism, found.weighing.reference, settled)
+    mean = mechanism.measured - residual
+    if more is not None:
+        mean, jacobian = mean + more @ settled.x, jacobian + more
     sd = specified_as(found.weighing, mechanism) * settled.level
-    return Outcome.linear(mechanism.measured - residual, jacobian, settled.covariance, sd)
+    return Outcome.linear(mean, jacobian, settled.covariance, sd)

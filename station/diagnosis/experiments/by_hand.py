@@ -1,4 +1,4 @@
-"""Experiments that a person has to do, with the readings that each explanation predicts."""
+"""Experiments with another instrument or mount, and the readings that each explanation predicts."""
 
 from __future__ import annotations
 
@@ -7,27 +7,19 @@ from dataclasses import replace
 
 import numpy as np
 
-from station.diagnosis.experiments.asking import asked, outcome, placed
+from station.diagnosis.experiments.asking import START_SD_MM, STOPS, asked, outcome, over_workspace, placed
 from station.diagnosis.experiments.in_question import Hypothesis
 from station.diagnosis.experiments.outcomes import Outcome
-from station.diagnosis.explanations import ExplanationSet, Family, Situation, at_readings
+from station.diagnosis.explanations import ExplanationSet, Family, Situation
 from station.five_bar import FiveBar
-from station.plans import SIDES
-from station.records import Complex, Index, Real
+from station.records import Index, Real
 
 MOUNT = "second"
 MOUNT_BESIDE_MM = 200.0
-GRID = (8, 5)
 ANGLES = 5
 REFERENCE_SD = np.radians(0.005)
 """Standard uncertainty of a good level or index."""
-GAUGE_PLACES, GAUGE_SD_MM, START_SD_MM = 10, 2e-3, 10.0
-KNOWN_SHARE = 0.5
-"""Relative standard deviation of the effect of a payload: compliance per kilogram is not known."""
-LOADED = frozenset(
-    {"platform by load", "mechanism by load", "bearing under load", "frame under load", "link under load"}
-)
-"""Unnamed errors that grow with the load; the named one is sag."""
+GAUGE_PLACES, GAUGE_SD_MM = 10, 2e-3
 
 
 def second_mount(found: ExplanationSet, some: Sequence[Hypothesis]) -> list[Outcome]:
@@ -41,7 +33,7 @@ def at_second_mount(found: ExplanationSet, some: Sequence[Hypothesis]) -> tuple[
     learned = found.mechanism
     robot = learned.robot
     mounts = {**robot.mounts, MOUNT: (robot.c[0] + MOUNT_BESIDE_MM, robot.c[1])}
-    m = asked(found, *_stops(found), GRID[0] * GRID[1])
+    m = asked(found, *over_workspace(found), STOPS)
     elsewhere = replace(m, mount=np.full(len(m), len(m.mounts)), mounts=(*m.mounts, MOUNT))
     mechanism = FiveBar(replace(robot, mounts=mounts), elsewhere)
     known = [one.of(mechanism, learned) for one in some]
@@ -70,24 +62,6 @@ def reference_rows(found: ExplanationSet, joint: int) -> Index:
     return _spread(found.weighing.frame.situation.theta[:, joint - 1], ANGLES)
 
 
-def payload(found: ExplanationSet, some: Sequence[Hypothesis]) -> list[Outcome]:
-    """The same positions with a payload that about doubles the sag."""
-    places, sides = _stops(found)
-    mechanism = found.mechanism.of(asked(found, places, sides, len(places)))
-    out = []
-    for one in some:
-        said, settled = outcome(found, mechanism, one), one.settled
-        s = at_readings(mechanism, settled.x[: settled.size], found.weighing.reference, first=False)
-        more = np.zeros(len(places))
-        for family, choice, amplitudes in zip(
-            settled.families, settled.choices, settled.amplitudes, strict=True
-        ):
-            if _loaded(family):
-                more += family.columns(s, choice.member)[0] @ amplitudes
-        out.append(replace(said, mean=said.mean + more).beside(KNOWN_SHARE * more))
-    return out
-
-
 def gauge(found: ExplanationSet, some: Sequence[Hypothesis]) -> list[Outcome]:
     """The reading against a known length, over the travel; its start is not known."""
     situation = found.weighing.frame.situation
@@ -104,22 +78,11 @@ def gauge(found: ExplanationSet, some: Sequence[Hypothesis]) -> list[Outcome]:
     return out
 
 
-def _stops(found: ExplanationSet) -> tuple[Complex, Real]:
-    """Positions over the workspace, each approached from a different side than the previous one."""
-    places = found.mechanism.robot.workspace_grid(*GRID)
-    sides = np.array([SIDES[k % len(SIDES)] for k in range(len(places))], dtype=float)
-    return places, sides
-
-
 def _at_once(s: Situation) -> Situation:
     """The same time and temperature during the whole experiment."""
     count = len(s)
     rise = None if s.rise is None else np.full(count, s.rise[-1])
     return replace(s, t_s=np.full(count, s.t_s.max()), rise=rise)
-
-
-def _loaded(family: Family) -> bool:
-    return family.kind in LOADED or any(part.effect == "compliance" for part in family.parts)
 
 
 def _on(family: Family, s: Situation, member: int, target: str) -> Real:

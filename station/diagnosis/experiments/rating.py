@@ -8,15 +8,22 @@ from typing import Literal
 
 import numpy as np
 
-from station.diagnosis.experiments.by_hand import gauge, joint_reference, payload, second_mount
+from station.diagnosis.experiments.asking import STOPS
+from station.diagnosis.experiments.by_hand import gauge, joint_reference, second_mount
 from station.diagnosis.experiments.further_motion import motion
 from station.diagnosis.experiments.in_question import Hypothesis, hypotheses
+from station.diagnosis.experiments.other_conditions import (
+    SHIFT_MM,
+    WARMER_K,
+    payload,
+    scale_start,
+    warm_up,
+)
 from station.diagnosis.experiments.outcomes import Outcome, decides
 from station.diagnosis.explanations import ExplanationSet
 from station.records import Phrase, phrase
 
-Kind = Literal["motion", "second_mount", "joint_reference", "payload", "gauge"]
-STOPS = 40
+Kind = Literal["motion", "second_mount", "joint_reference", "payload", "warm_up", "scale_start", "gauge"]
 PAYLOAD_KG = 1.0
 """A payload that about doubles the sag; its prediction needs no mass."""
 COARSE = (9, 5)
@@ -42,6 +49,8 @@ def rated(found: ExplanationSet) -> tuple[Rated, ...]:
         ("motion", phrase("experiment_motion", stops=STOPS), _motion),
         ("second_mount", phrase("experiment_second_mount"), second_mount),
         ("payload", phrase("experiment_payload", payload_kg=PAYLOAD_KG), payload),
+        ("warm_up", phrase("experiment_warm_up", kelvin=WARMER_K), warm_up),
+        ("scale_start", phrase("experiment_scale_start", shift_mm=SHIFT_MM), scale_start),
         ("gauge", phrase("experiment_gauge"), gauge),
     ]
     out = [Rated(kind, said, decides(run(found, some), probability)) for kind, said, run in simulated]
