@@ -324,6 +324,39 @@ def test_stops_go_out_one_after_the_other_before_any_is_repeated() -> None:
         first.join()
 
 
+def test_a_drive_that_does_not_confirm_its_stop_is_not_accused_of_the_other_ones_answers() -> None:
+    """The answers of both are collected together."""
+    stop_2, look_2 = rtu("02 06 6002 0040"), (rtu("02 03 0B05 0001"), rtu("02 03 02 0002"))
+    silent = [(STOP, SILENCE)] * 2
+    with rtu_bus((STOP, SILENCE), (stop_2, stop_2), look_2, *silent, timeout_s=0.3) as bus:
+        causes: list[str] = []
+
+        def stop_1() -> None:
+            with pytest.raises(LinkLost) as error:
+                bus.stop(1, 0x6002, 0x0040, look_at=0x0B05)
+            causes.append(str(error.value))
+
+        first = threading.Thread(target=stop_1)
+        first.start()
+        bus.stop(2, 0x6002, 0x0040, look_at=0x0B05)
+        first.join()
+    assert causes[0].startswith("Drive 1 does not answer on ")
+
+
+def test_a_drive_is_read_while_a_reply_of_another_is_overdue() -> None:
+    """Otherwise one silent drive would hide that the other has come to standstill."""
+    echoed, other = (READ_1000, READ_1000), (rtu("02 03 1000 0001"), rtu("02 03 02 2222"))
+    with PtyEnd([echoed, other]) as end:
+        bus = ModbusBus(f"modbus+rtu://{end.port}?baud=115200", timeout_s=1000.0, budget_s=0.0)
+        bus.open("test")
+        with pytest.raises(GarbledReply, match="echo"):
+            bus.read(1, 0x1000, 1)
+        read: list[int] = []
+        threading.Thread(target=lambda: read.extend(bus.read(2, 0x1000, 1)), daemon=True).start()
+        assert soon(lambda: read) == [0x2222]
+        bus.release("test")
+
+
 def test_a_stop_does_not_wait_for_a_reply_that_is_overdue() -> None:
     silent = (READ_1000, SILENCE)
     answered = (READ_1000, rtu("01 03 02 1111"))
