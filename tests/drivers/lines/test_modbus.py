@@ -8,6 +8,7 @@ import time
 import tty
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -373,6 +374,29 @@ def test_a_stop_does_not_wait_for_a_reply_that_is_overdue() -> None:
 def test_a_stop_on_a_line_that_nobody_opened() -> None:
     with PtyEnd([*STOPPED]) as end:
         ModbusBus(f"modbus+rtu://{end.port}").stop(1, 0x6002, 0x0040, look_at=0x0B05)
+
+
+def test_a_line_whose_port_was_gone_during_a_stop_recovers(tmp_path: Path) -> None:
+    """Both drives keep the line open: nobody opens it anew."""
+    port = tmp_path / "port"
+    with PtyEnd([]) as end:
+        port.symlink_to(Path(end.port).readlink())
+        bus = ModbusBus(f"modbus+rtu://{port}?baud=115200", timeout_s=0.1, budget_s=0.0)
+        for owner in ("axis 1", "axis 2"):
+            bus.open(owner)
+    port.unlink()
+    for ask in (
+        lambda: bus.read(1, 0x1000, 1),
+        lambda: bus.stop(1, 0x6002, 0x0040, look_at=0x0B05),
+        lambda: bus.read(1, 0x1000, 1),
+    ):
+        with pytest.raises(LinkLost, match=r"broke while|there is no such port"):
+            ask()
+    with PtyEnd([(READ_1000, rtu("01 03 02 1111"))]) as end:
+        port.symlink_to(Path(end.port).readlink())
+        assert bus.read(1, 0x1000, 1) == [0x1111]
+        for owner in ("axis 1", "axis 2"):
+            bus.release(owner)
 
 
 def test_rtu_frames_over_tcp() -> None:
