@@ -1,7 +1,8 @@
 """Modbus RTU: one half-duplex line, on a serial port or through a serial device server.
 
-RTU frames have no number, so a late reply would be taken for the next one: after a missing reply, ordinary
-requests wait until none can come any more. A stop does not wait for that.
+RTU frames have no number, so a late reply would be taken for the next one of that drive: after a missing
+reply, ordinary requests wait until none can come any more. A stop does not wait for that, nor does a read of
+another drive: at worst it collides with the late reply, and is repeated.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from threading import Lock
 
 from drivers.errors import DeviceError, GarbledReply, LinkLost
 from drivers.lines.lane import Gate, Lane
-from drivers.lines.modbus_frames import Request, find_rtu_reply, other_rtu_reply
+from drivers.lines.modbus_frames import Request, find_rtu_reply, other_rtu_reply, with_check_sum
 from drivers.lines.serial import SerialLine
 from drivers.lines.url import SerialAddress
 
@@ -57,9 +58,10 @@ class RtuLink:
             self._byte_s = line.address.format.bits_per_byte / line.address.baud
         self._gap_s = max(_LEAST_GAP_S, _SILENCE_BYTES * self._byte_s)
         self._free_from_s = 0.0
-        self._stale_until_s = 0.0
-        self._overdue = False
-        """Whether a missing reply may still come."""
+        self._stale_until_s: dict[int, float] = {}
+        """Until when a missing reply of a drive may still come."""
+        self._overdue: set[int] = set()
+        """Drives of which a reply was missing, and may have come since for that to a later request."""
 
     def exchange(self, request: Request, gate: Gate) -> bytes:
         """The PDU of the reply.
@@ -69,9 +71,9 @@ class RtuLink:
         :raises GarbledReply: the reply is not a possible one
         """
         while True:
-            time.sleep(max(0.0, self._stale_until_s - time.monotonic()))
+            time.sleep(max(0.0, self._waits_until_s(request) - time.monotonic()))
             with self._lane.hold(urgent=False):
-                if time.monotonic() >= self._stale_until_s:
+                if time.monotonic() >= self._waits_until_s(request):
                     return self._exchange(request, gate)
 
     def stop(self, request: Request, timeout_s: float, *, first: bool) -> bytes:
@@ -95,6 +97,11 @@ class RtuLink:
         with self._lane.hold(urgent=False):
             self._line.close()
 
+    def _waits_until_s(self, request: Request) -> float:
+        if request.is_read:
+            return self._stale_until_s.get(request.unit, 0.0)
+        return max(tuple(self._stale_until_s.values()), default=0.0)
+
     # An ordinary exchange -------------------------------------------------------------------------
 
     def _exchange(self, request: Request, gate: Gate) -> bytes:
@@ -112,12 +119,12 @@ class RtuLink:
                     self._line.refuse_echo(frame, received)
                 pdu = find_rtu_reply(received, request)
                 if pdu is not None:
-                    self._let_overdue_replies_pass()
+                    self._let_overdue_replies_pass(request.unit)
                     self._free_from_s = time.monotonic() + self._gap_s
                     return pdu
             raise self._no_reply(request, received)
         except DeviceError:
-            self._expect_late_reply()
+            self._expect_late_reply(request.unit)
             raise
 
     def _send(self, frame: bytes, gate: Gate) -> None:
@@ -142,22 +149,22 @@ class RtuLink:
             " check the line for noise and double addresses."
         )
 
-    def _let_overdue_replies_pass(self) -> None:
+    def _let_overdue_replies_pass(self, unit: int) -> None:
         """The reply to a repetition may have been the late one to the first request: then the reply to the
         repetition follows, and would be taken for that to the next request.
         """
-        if not self._overdue:
+        if unit not in self._overdue:
             return
         silent_from_s = time.monotonic()
         while (now_s := time.monotonic()) < silent_from_s + self._timeout_s and not self._lane.urgent_waiting:
             if self._line.read_some(now_s + _SLICE_S):
                 silent_from_s = time.monotonic()
-        self._overdue = False
+        self._overdue.discard(unit)
 
-    def _expect_late_reply(self) -> None:
-        self._overdue = True
+    def _expect_late_reply(self, unit: int) -> None:
+        self._overdue.add(unit)
         longest_s = self._timeout_s + _LONGEST_FRAME_BYTES * self._byte_s
-        self._stale_until_s = time.monotonic() + longest_s
+        self._stale_until_s[unit] = time.monotonic() + longest_s
         self._free_from_s = time.monotonic() + self._gap_s
 
     # Stops ----------------------------------------------------------------------------------------
@@ -181,13 +188,16 @@ class RtuLink:
                     stop.reply = find_rtu_reply(received, stop.request)
                     if stop.reply is not None:
                         self._free_from_s = time.monotonic() + self._gap_s
+                        answer = with_check_sum(bytes((stop.request.unit,)) + stop.reply)
+                        received = received.replace(answer, b"", 1)  # it is no answer to the other stops
                     elif time.monotonic() > stop.sent_at_s + stop.timeout_s:
                         stop.error = self._no_reply(stop.request, received)
             except DeviceError as error:  # an error of the line itself
                 for stop in stops:
                     stop.error = error
-            if any(stop.error for stop in stops):
-                self._expect_late_reply()
+            for stop in stops:
+                if stop.error is not None:
+                    self._expect_late_reply(stop.request.unit)
 
     def _open_stops(self) -> list[_Stop]:
         with self._stops_lock:

@@ -80,10 +80,12 @@ class SerialLine:
     def open(self) -> None:
         """Open for this process exclusively; open it again after each failure, until it is closed.
 
+        If this fails on a line that was open, its next use tries again.
+
         :raises LinkLost: the port is missing, busy or unreachable
         :raises DeviceError: the port cannot carry the line format
         """
-        self.close()
+        self._drop()
         self._opened(first=True)
         self._wanted = True
 

@@ -6,7 +6,7 @@ head answers error 83h if the gap to the tape is too large, the absolute value i
 5 m/s.
 
 An exclusive or does not detect two flipped bits of one weight, so a position is accepted only if it is read
-twice.
+twice, or, while the head moves, if it lies between those read directly before and after it.
 """
 
 from __future__ import annotations
@@ -40,8 +40,6 @@ _SILENCE_S = 0.03
 """Silence after a missing reply."""
 _AGREEMENT_COUNTS = 2
 _MOST_READS = 5
-_STEADY_MM = 0.5
-"""Maximum change of the motion between three reads of a moving head."""
 
 
 class SikoSettings(DriverSettings):
@@ -107,9 +105,8 @@ class SikoHead(Readout):
                 counts.append(self._position())
                 if abs(counts[-1] - counts[-2]) <= _AGREEMENT_COUNTS:
                     return counts[-1] * self._resolution_mm
-            first, second, third = counts[-3:]
-            if abs(third - 2 * second + first) * self._resolution_mm <= _STEADY_MM:
-                return third * self._resolution_mm  # it moves steadily
+                if len(counts) > 2 and counts[-2] == sorted(counts[-3:])[1]:
+                    return counts[-2] * self._resolution_mm  # it moves; reads need not be equally spaced
         raise GarbledReply(
             f"The {self._name} answered {', '.join(f'{count}' for count in counts)} counts in a row;"
             " check the line for noise, and whether the head stands still."

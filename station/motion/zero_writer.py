@@ -20,7 +20,8 @@ from station.motion.positioner import Positioner
 from station.records import Angles, SetZeros, Stop, ZeroWrite
 from station.store import Store
 
-READ_BACK_PULSES = 1.0
+READ_BACK_PULSES = 4.5
+"""Feedback comes in whole pulses, and a servo at standstill moves by some: eq. 35 is 1.3 (sd)."""
 SETTLE_PULSES = 20.0
 """Maximum distance of the feedback from one of the two possible positions after an interrupted write."""
 

@@ -88,5 +88,8 @@ class LateRecords:
                     log.critical("Not recorded: %s", ", ".join(one.what for one in self._waiting))
                     return
                 continue
+            except Exception:  # a record that can never be written must not hold up those after it
+                log.critical("Not recorded: %s", late.what, exc_info=True)
+            else:
+                late.written.set()
             self._waiting.popleft()
-            late.written.set()

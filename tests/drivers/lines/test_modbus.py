@@ -8,6 +8,7 @@ import time
 import tty
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 
 import pytest
 from hypothesis import given
@@ -324,6 +325,39 @@ def test_stops_go_out_one_after_the_other_before_any_is_repeated() -> None:
         first.join()
 
 
+def test_a_drive_that_does_not_confirm_its_stop_is_not_accused_of_the_other_ones_answers() -> None:
+    """The answers of both are collected together."""
+    stop_2, look_2 = rtu("02 06 6002 0040"), (rtu("02 03 0B05 0001"), rtu("02 03 02 0002"))
+    silent = [(STOP, SILENCE)] * 2
+    with rtu_bus((STOP, SILENCE), (stop_2, stop_2), look_2, *silent, timeout_s=0.3) as bus:
+        causes: list[str] = []
+
+        def stop_1() -> None:
+            with pytest.raises(LinkLost) as error:
+                bus.stop(1, 0x6002, 0x0040, look_at=0x0B05)
+            causes.append(str(error.value))
+
+        first = threading.Thread(target=stop_1)
+        first.start()
+        bus.stop(2, 0x6002, 0x0040, look_at=0x0B05)
+        first.join()
+    assert causes[0].startswith("Drive 1 does not answer on ")
+
+
+def test_a_drive_is_read_while_a_reply_of_another_is_overdue() -> None:
+    """Otherwise one silent drive would hide that the other has come to standstill."""
+    echoed, other = (READ_1000, READ_1000), (rtu("02 03 1000 0001"), rtu("02 03 02 2222"))
+    with PtyEnd([echoed, other]) as end:
+        bus = ModbusBus(f"modbus+rtu://{end.port}?baud=115200", timeout_s=1000.0, budget_s=0.0)
+        bus.open("test")
+        with pytest.raises(GarbledReply, match="echo"):
+            bus.read(1, 0x1000, 1)
+        read: list[int] = []
+        threading.Thread(target=lambda: read.extend(bus.read(2, 0x1000, 1)), daemon=True).start()
+        assert soon(lambda: read) == [0x2222]
+        bus.release("test")
+
+
 def test_a_stop_does_not_wait_for_a_reply_that_is_overdue() -> None:
     silent = (READ_1000, SILENCE)
     answered = (READ_1000, rtu("01 03 02 1111"))
@@ -340,6 +374,29 @@ def test_a_stop_does_not_wait_for_a_reply_that_is_overdue() -> None:
 def test_a_stop_on_a_line_that_nobody_opened() -> None:
     with PtyEnd([*STOPPED]) as end:
         ModbusBus(f"modbus+rtu://{end.port}").stop(1, 0x6002, 0x0040, look_at=0x0B05)
+
+
+def test_a_line_whose_port_was_gone_during_a_stop_recovers(tmp_path: Path) -> None:
+    """Both drives keep the line open: nobody opens it anew."""
+    port = tmp_path / "port"
+    with PtyEnd([]) as end:
+        port.symlink_to(Path(end.port).readlink())
+        bus = ModbusBus(f"modbus+rtu://{port}?baud=115200", timeout_s=0.1, budget_s=0.0)
+        for owner in ("axis 1", "axis 2"):
+            bus.open(owner)
+    port.unlink()
+    for ask in (
+        lambda: bus.read(1, 0x1000, 1),
+        lambda: bus.stop(1, 0x6002, 0x0040, look_at=0x0B05),
+        lambda: bus.read(1, 0x1000, 1),
+    ):
+        with pytest.raises(LinkLost, match=r"broke while|there is no such port"):
+            ask()
+    with PtyEnd([(READ_1000, rtu("01 03 02 1111"))]) as end:
+        port.symlink_to(Path(end.port).readlink())
+        assert bus.read(1, 0x1000, 1) == [0x1111]
+        for owner in ("axis 1", "axis 2"):
+            bus.release(owner)
 
 
 def test_rtu_frames_over_tcp() -> None:

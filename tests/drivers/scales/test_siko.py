@@ -63,9 +63,22 @@ def test_two_flipped_bits_that_the_check_byte_misses_are_never_a_value() -> None
         assert head.read_mm() == pytest.approx(5.15)
 
 
-def test_a_moving_head_is_read_too() -> None:
-    with connected(*(at(515 + 100 * k) for k in range(5))) as head:
-        assert head.read_mm() == pytest.approx(9.15)
+@pytest.mark.parametrize(
+    ("counts", "value_mm"),
+    [
+        ((515, 615, 715), 6.15),
+        ((715, 615, 515), 6.15),
+        ((515, 615, 1615), 6.15),  # the program was delayed between two reads
+        ((515, 1515, 1615), 15.15),
+        # a damaged reply may be one of the three, but not the one in the middle
+        ((9999, 515, 615, 715), 6.15),
+        ((515, 9999, 615, 715, 815), 7.15),
+        ((515, 615, 9999), 6.15),
+    ],
+)
+def test_a_moving_head_is_at_a_position_between_two_others(counts: tuple[int, ...], value_mm: float) -> None:
+    with connected(*map(at, counts)) as head:
+        assert head.read_mm() == pytest.approx(value_mm)
 
 
 def test_values_that_agree_with_nothing_are_refused() -> None:

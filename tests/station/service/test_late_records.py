@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sqlite3
+
 import pytest
 
 from station.errors import StoreUnavailable
@@ -32,3 +34,19 @@ def test_a_stop_and_a_deed_are_written_in_order(store: Store) -> None:
     assert records.deed(STATION, "station.stopped", "both axes").wait(10.0)
     records.close(10.0)
     assert [entry.action for entry in store.audit()] == ["station.stopped"]
+
+
+def test_a_record_that_can_never_be_written_does_not_hold_up_those_after_it(
+    store: Store, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture
+) -> None:
+    def refused(*_: object) -> None:
+        raise sqlite3.IntegrityError("events.kind may not be null")
+
+    monkeypatch.setattr(store, "add_event", refused)
+    records = LateRecords(store)
+    records.stop(None, "ada", {})
+    assert records.deed(STATION, "run.aborted", "run 1").wait(10.0)
+    records.close(10.0)
+    assert [entry.action for entry in store.audit()] == ["run.aborted"]
+    assert "Not recorded: stop by ada" in caplog.text
+    assert "events.kind may not be null" in caplog.text

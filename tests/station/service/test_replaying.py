@@ -136,4 +136,7 @@ def test_the_run_that_ships(tmp_path: Path) -> None:
     with closing(Store(EXAMPLE / "station.db", read_only=True)) as store:
         found = replay(store, 1)
         readings: list[Reading] = store.readings(1)
+        made_by = store.made_by(1)
+    assert made_by is not None, "it shows all that a run of today has"
+    assert [device.driver for device in made_by.devices] == ["heidenhain-nd", *["leadshine-el7"] * 2]
     assert (found.departed, found.readings, found.of) == ("", len(readings), len(readings))
