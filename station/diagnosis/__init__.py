@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from station.diagnosis.closed_loop import AnyDiagnosis, diagnose
 from station.diagnosis.decision import Decision, StageFigures, decide
+from station.diagnosis.experiments import Trial, trials
 from station.diagnosis.explanations import Around, ExplanationSet, explain
 from station.diagnosis.learned import (
     Transfer,
@@ -56,6 +57,7 @@ __all__ = [
     "TracedDiagnosis",
     "TracedFindings",
     "Transfer",
+    "Trial",
     "WeighedDiagnosis",
     "WeighedFindings",
     "commands_csv",
@@ -84,6 +86,7 @@ __all__ = [
     "targets_of",
     "traced",
     "transfer",
+    "trials",
     "weighed",
     "without_a_quarter",
 ]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from station.studies.experiments.one import Tried, experiments
+from station.studies.experiments.one import experiments
 from station.studies.experiments.summary import figures
 
-__all__ = ["Tried", "experiments", "figures"]
+__all__ = ["experiments", "figures"]

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from station.diagnosis import Trial
 from station.five_bar import Robot, inverse
-from station.studies.experiments import Tried, figures
+from station.studies.experiments import figures
 from station.studies.experiments.one import tried
 from station.studies.simulation import SimulatedMachine
 from tests.station.simulated import group
@@ -50,9 +51,9 @@ def test_a_clean_machine_has_no_question() -> None:
 
 def test_shares_are_counted_by_kind_and_by_prediction() -> None:
     machines = [
-        (Tried("motion", 0.05, False), Tried("gauge", 1.0, True)),
+        (Trial("motion", 0.05, False), Trial("gauge", 1.0, True)),
         (),
-        (Tried("motion", 0.95, True), Tried("gauge", 0.9, False)),
+        (Trial("motion", 0.95, True), Trial("gauge", 0.9, False)),
     ]
     found = figures(machines)
     assert (found["machines"], found["questions"]) == (3, 2)
@@ -72,5 +73,5 @@ def test_shares_are_counted_by_kind_and_by_prediction() -> None:
 
 
 @pytest.mark.parametrize("machines", [[], [()]])
-def test_nothing_to_decide_is_no_error(machines: list[tuple[Tried, ...]]) -> None:
+def test_nothing_to_decide_is_no_error(machines: list[tuple[Trial, ...]]) -> None:
     assert figures(machines)["experiments"] == {}
