@@ -1,6 +1,6 @@
 """What the station takes and answers.  Made by `make reference`; do not edit.
 
-From schemas with SHA-256 2974c42bbeea04c577cec9cef0d6715fe4fa44742321573f8d7fd35cebe482f7.
+From schemas with SHA-256 8ca366bc2af8fc4dfcfecb1a7549e59c447b19b7cfee1dc30f28df6e52c64e1b.
 """
 
 from __future__ import annotations
@@ -970,6 +970,11 @@ class Problem(BaseModel):
     calibration_id: int | None = None
     """
     the run that holds the rig or the key
+    """
+
+    said: Phrase | None = None
+    """
+    `detail` by its code, for other languages
     """
 
     missing: list[str] | None = None

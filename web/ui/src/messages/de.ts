@@ -465,7 +465,8 @@ export const de: Messages = {
     translate: {
       title: "Gelernte Positionen",
       note: "Gelenkpositionen, die unter den Nullpunkten vor diesem Lauf gelernt wurden, werden dieselben Positionen im Raum unter den Nullpunkten der Antriebe.",
-      positions: "Positionen, je Zeile eine: Name, θ₁ und θ₂ in Grad",
+      positions:
+        "Positionen, je Zeile eine: Name, θ₁ und θ₂ in Grad; oder eine CSV-Datei oder ein Programm in KRL oder RAPID",
       back: "Zurück: sie wurden schon umgerechnet",
       button: "Umrechnen",
       none: "Geben Sie die Positionen ein, oder fügen Sie sie ein.",
@@ -476,6 +477,8 @@ export const de: Messages = {
       near: "◆ nahe an einer Grenze",
       save: "Positionen speichern (CSV)",
       file: (id) => `gelernt-lauf-${id}.csv`,
+      saveProgram: "Programm speichern",
+      programFile: (id) => `gelernt-lauf-${id}.txt`,
     },
     promised: "Zugesagte Genauigkeit",
     bound: (drives, model) =>

@@ -482,7 +482,8 @@ export const en = {
     translate: {
       title: "Taught positions",
       note: "Joint positions that were taught under the zero offsets before this run become the same physical positions under those in the drives.",
-      positions: "Positions, one a line: name, θ₁ and θ₂ in degrees",
+      positions:
+        "Positions, one a line: name, θ₁ and θ₂ in degrees; or a CSV file, or a program in KRL or RAPID",
       back: "Back: they were translated before",
       button: "Translate",
       none: "Type or paste the positions.",
@@ -493,6 +494,8 @@ export const en = {
       near: "◆ near a limit",
       save: "Save the positions (CSV)",
       file: (id: number) => `taught-run-${id}.csv`,
+      saveProgram: "Save the program",
+      programFile: (id: number) => `taught-run-${id}.txt`,
     },
     promised: "Promised accuracy",
     bound: (drives: string, model: string) =>

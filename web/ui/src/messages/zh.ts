@@ -391,7 +391,7 @@ export const zh: Messages = {
     translate: {
       title: "示教位置",
       note: "在本次运行之前的零点下示教的关节位置，换算为驱动器现有零点下的相同物理位置。",
-      positions: "位置，每行一个：名称、θ₁ 和 θ₂（度）",
+      positions: "位置，每行一个：名称、θ₁ 和 θ₂（度）；或 CSV 文件，或 KRL、RAPID 程序",
       back: "反向：这些位置已换算过",
       button: "换算",
       none: "请输入或粘贴位置。",
@@ -402,6 +402,8 @@ export const zh: Messages = {
       near: "◆ 接近限位",
       save: "保存位置（CSV）",
       file: (id) => `taught-run-${id}.csv`,
+      saveProgram: "保存程序",
+      programFile: (id) => `taught-run-${id}.txt`,
     },
     promised: "承诺的精度",
     bound: (drives, model) =>
