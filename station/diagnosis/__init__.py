@@ -6,6 +6,7 @@ from station.diagnosis.closed_loop import AnyDiagnosis, diagnose
 from station.diagnosis.decision import Decision, StageFigures, decide
 from station.diagnosis.explanations import Around, ExplanationSet, explain
 from station.diagnosis.learned import (
+    TargetRefused,
     Transfer,
     commands_csv,
     learned_model,
@@ -53,6 +54,7 @@ __all__ = [
     "MistakeRefused",
     "Scan",
     "StageFigures",
+    "TargetRefused",
     "TracedDiagnosis",
     "TracedFindings",
     "Transfer",
