@@ -10,7 +10,7 @@ import numpy as np
 
 from station.diagnosis import Context, Findings, diagnose, findings_of
 from station.five_bar import Robot
-from station.identification import PLAN_ENDED, with_accuracy
+from station.identification import PLAN_ENDED, advice_of, identify, with_accuracy
 from station.plans import diagnostic_fresh_stops, make_plan
 from station.records import (
     Accuracy,
@@ -63,6 +63,8 @@ def judged(
     )
     found = diagnosed(robot, [*readings, *fresh])
     result = result_of(found, readings, _described(readings), robot)
+    if result.outcome == "good":  # no effect is missing from the model that the advice is computed with
+        result = result.model_copy(update={"advice": advice_of(identify(robot, sequence))})
     after = result.after.predicted_position_error_mm if result.after else None
     bound_mm, model_mm = found.zeros_only_bound_mm, after.bound_95 if after else None
     return with_accuracy(result, AccuracyReached.of(bound_mm, model_mm, wanted_mm, PLAN_ENDED))

@@ -210,8 +210,9 @@ export const de: Messages = {
     mounting: "Anbaufehler seitlich, mm",
     mountingSd: "Seine Standardunsicherheit, mm",
     wishWrong: "Geben Sie eine Zahl an, oder lassen Sie alle zusammengehörigen Felder leer.",
-    promise: (readings, time, bound) =>
-      `${readings} Messungen, etwa ${time}; ein Roboter innerhalb seiner Toleranzen weicht danach höchstens ${bound} mm ab (95 %).`,
+    effort: (readings, time) => `${readings} Messungen, etwa ${time}.`,
+    promise: (bound) =>
+      ` Ein Roboter innerhalb seiner Toleranzen weicht danach höchstens ${bound} mm ab (95 %).`,
     promptValue: (unit) => `Wert, ${unit}`,
     promptNumber: (unit) => `Geben Sie eine Zahl ein, in ${unit}.`,
     promptLeft: (time) => `Der Lauf endet, wenn niemand innerhalb von ${time} antwortet.`,
@@ -383,11 +384,11 @@ export const de: Messages = {
       },
       raise: {
         button: "Genauigkeit erhöhen",
-        text: "Das erhöht die Genauigkeit am meisten für die Zeit, die es braucht.",
+        text: "Das erhöht die Genauigkeit wie gewünscht oder am meisten für die Zeit, die es braucht.",
       },
       raise_by_hand: {
         button: "Zur Station",
-        text: "Das erhöht die Genauigkeit am meisten für die Zeit, die es braucht. Geben Sie den Wert beim Start als Referenz ein.",
+        text: "Das erhöht die Genauigkeit wie gewünscht oder am meisten für die Zeit, die es braucht. Geben Sie den Wert beim Start als Referenz ein.",
       },
       no_advice: {
         text: "Keine weitere Messung erhöht die Genauigkeit merklich. Nötig ist eine weitere Grenze oder ein besserer Maßstab.",
@@ -400,11 +401,10 @@ export const de: Messages = {
       drm_x: () => "Messen Sie den seitlichen Anbaufehler der Messeinrichtung.",
       second_mount: () => "Messen Sie von einem zweiten Anbauort.",
     },
-    advised: (text, gain, minutes) =>
-      `${text} Die Grenze sinkt um ${gain} mm; es dauert etwa ${minutes} min.`,
+    advised: (text, gain, time) => `${text} Die Grenze sinkt um ${gain} mm; es dauert etwa ${time}.`,
     advice: "Was die Genauigkeit erhöhen würde",
     gain: "Gewinn, mm",
-    minutes: "Zeit, min",
+    time: "Zeit",
 
     map: {
       title: "Positionsfehler über dem Arbeitsraum",

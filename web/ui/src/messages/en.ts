@@ -233,8 +233,8 @@ export const en = {
     mounting: "Mounting error sideways, mm",
     mountingSd: "Its standard uncertainty, mm",
     wishWrong: "Give a number, or leave all fields that belong together empty.",
-    promise: (readings: number, time: string, bound: string) =>
-      `${readings} readings, about ${time}; a robot within its tolerances then errs by at most ${bound} mm (95 %).`,
+    effort: (readings: number, time: string) => `${readings} readings, about ${time}.`,
+    promise: (bound: string) => ` A robot within its tolerances then errs by at most ${bound} mm (95 %).`,
     promptValue: (unit: string) => `Value, ${unit}`,
     promptNumber: (unit: string) => `Type a number, in ${unit}.`,
     promptLeft: (time: string) => `The run ends if nobody answers within ${time}.`,
@@ -401,10 +401,13 @@ export const en = {
         button: "Repaired: measure again",
         text: "Repair the cause. Then measure again: the run shows whether it is removed.",
       },
-      raise: { button: "Raise the accuracy", text: "This raises the accuracy most for the time it takes." },
+      raise: {
+        button: "Raise the accuracy",
+        text: "This raises the accuracy as required, or most for the time it takes.",
+      },
       raise_by_hand: {
         button: "Go to the station",
-        text: "This raises the accuracy most for the time it takes. Enter the value as a reference when you start.",
+        text: "This raises the accuracy as required, or most for the time it takes. Enter the value as a reference when you start.",
       },
       no_advice: {
         text: "No further measurement raises the accuracy noticeably. A wider limit or a better scale is necessary.",
@@ -418,11 +421,11 @@ export const en = {
       drm_x: () => "Measure the sideways mounting error of the mechanism.",
       second_mount: () => "Measure from a second mounting point.",
     } as Record<string, (joint: string) => string>,
-    advised: (text: string, gain: string, minutes: string) =>
-      `${text} The bound falls by ${gain} mm; it takes about ${minutes} min.`,
+    advised: (text: string, gain: string, time: string) =>
+      `${text} The bound falls by ${gain} mm; it takes about ${time}.`,
     advice: "What would raise the accuracy",
     gain: "Gain, mm",
-    minutes: "Time, min",
+    time: "Time",
 
     map: {
       title: "Position error over the workspace",

@@ -186,8 +186,8 @@ export const zh: Messages = {
     mounting: "横向安装误差，mm",
     mountingSd: "其标准不确定度，mm",
     wishWrong: "请输入数字，或将相关字段全部留空。",
-    promise: (readings, time, bound) =>
-      `${readings} 次读数，约 ${time}；公差内的机器人之后误差至多 ${bound} mm（95 %）。`,
+    effort: (readings, time) => `${readings} 次读数，约 ${time}。`,
+    promise: (bound) => `公差内的机器人之后误差至多 ${bound} mm（95 %）。`,
     promptValue: (unit) => `数值，${unit}`,
     promptNumber: (unit) => `请输入数字，单位 ${unit}。`,
     promptLeft: (time) => `若 ${time} 内无人应答，运行将结束。`,
@@ -318,10 +318,10 @@ export const zh: Messages = {
       decide_by_plan: { button: "准备试验", text: "工作站会显示启动表单，并已填入该机器人和试验的方案。" },
       decide_by_hand: { button: "显示试验", text: "一次手动试验可区分可能的原因。" },
       repaired: { button: "已修理：重新测量", text: "请修理原因，然后重新测量：运行会显示是否已排除。" },
-      raise: { button: "提高精度", text: "就所需时间而言，这样最能提高精度。" },
+      raise: { button: "提高精度", text: "这样可达到所需精度，或就所需时间而言最能提高精度。" },
       raise_by_hand: {
         button: "前往工作站",
-        text: "就所需时间而言，这样最能提高精度。开始时请将该值作为参考输入。",
+        text: "这样可达到所需精度，或就所需时间而言最能提高精度。开始时请将该值作为参考输入。",
       },
       no_advice: { text: "进一步测量不会明显提高精度。需要放宽限值或使用更好的光栅尺。" },
       see: { button: "显示诊断", text: "诊断显示残差取决于什么。" },
@@ -332,10 +332,10 @@ export const zh: Messages = {
       drm_x: () => "测量机构的横向安装误差。",
       second_mount: () => "从第二个安装点测量。",
     },
-    advised: (text, gain, minutes) => `${text} 上限降低 ${gain} mm；约需 ${minutes} min。`,
+    advised: (text, gain, time) => `${text} 上限降低 ${gain} mm；约需 ${time}。`,
     advice: "提高精度的办法",
     gain: "收益，mm",
-    minutes: "时间，min",
+    time: "时间",
 
     map: {
       title: "工作空间内的位置误差",
