@@ -13,7 +13,6 @@ from station.plans.plan import PlanDesign, Visits, each_once, register
 from station.plans.tour import sweeps
 from station.records import JointAngle
 
-
 LEVEL = JointAngle(joint=1, at_deg=0.0, reads_deg=0.0, sd_deg=0.005)
 """The reading of a level, as expected."""
 

@@ -1,6 +1,6 @@
 """What the station takes and answers.  Made by `make reference`; do not edit.
 
-From schemas with SHA-256 8ca366bc2af8fc4dfcfecb1a7549e59c447b19b7cfee1dc30f28df6e52c64e1b.
+From schemas with SHA-256 eeff8a9667b41608c77876b0394a4b76ad50aa0168f08b126d2e37c0ac48a32d.
 """
 
 from __future__ import annotations
@@ -188,6 +188,11 @@ class CheckFound(BaseModel):
     valid_until: AwareDatetime | None
     """
     End of the check's validity; null if it failed.
+    """
+
+    known_by: int | None
+    """
+    The newer calibration that has found this shift and is not applied; null if there is none.
     """
 
 

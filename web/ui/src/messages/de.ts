@@ -354,6 +354,10 @@ export const de: Messages = {
         button: "Mit Plan full kalibrieren",
         text: "Die Schritte der Anzeige sind für diesen Plan zu grob.",
       },
+      apply_known: {
+        button: "Zu diesem Ergebnis",
+        text: "Eine neuere Kalibrierung hat diese Verschiebung gefunden, aber die Antriebe haben die alten Nullpunkte. Wenden Sie sie an.",
+      },
       shifted: {
         button: "Neu kalibrieren",
         text: "Die Nullpunkte haben sich seit der letzten Kalibrierung verschoben.",

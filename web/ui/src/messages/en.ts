@@ -376,6 +376,10 @@ export const en = {
         button: "Calibrate with plan full",
         text: "The steps of the readout are too coarse for this plan.",
       },
+      apply_known: {
+        button: "Go to that result",
+        text: "A newer calibration has found this shift, but the drives hold the old zero offsets. Apply it.",
+      },
       shifted: { button: "Calibrate again", text: "The zeros have shifted since the last calibration." },
       calibrate: {
         button: "Calibrate",

@@ -305,6 +305,10 @@ export const zh: Messages = {
       look: { text: "请阅读上面的原因。" },
       recalibrate: { button: "重新标定", text: "驱动器中不是这些零点。请重新标定。" },
       too_coarse: { button: "用计划 full 标定", text: "读数步长对此计划过于粗糙。" },
+      apply_known: {
+        button: "前往该结果",
+        text: "较新的标定已发现此偏移，但驱动器仍为旧零点。请写入该结果。",
+      },
       shifted: { button: "重新标定", text: "自上次标定以来零点已偏移。" },
       calibrate: {
         button: "标定",

@@ -93,6 +93,7 @@ function afterWriting({ of, outcome, kind }: Calibration): Step {
 
 function afterCheck(result: Calibration): Step {
   if (decisionOf(result).look.good) return nothing("produce");
+  if (result.check?.known_by != null) return open("apply_known", `/result/${result.check.known_by}`);
   return result.outcome === "repair" ? start("shifted", QUICK) : start("find_cause", DIAGNOSTIC);
 }
 

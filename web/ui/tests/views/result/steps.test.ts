@@ -187,6 +187,11 @@ describe("the next step after what belongs to another run", () => {
       "shifted",
       "adaptive",
     ]);
+    const check = { known_by: 7 } as Calibration["check"];
+    const { act } = nextStep(
+      calibration({ kind: "check", plan: "check", verdict: "fail", outcome: "repair", check }),
+    );
+    expect(act).toEqual({ do: "open", to: "/result/7" });
   });
 });
 
