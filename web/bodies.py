@@ -14,6 +14,7 @@ from pydantic import (
     ValidationInfo,
     WithJsonSchema,
     field_validator,
+    model_validator,
 )
 
 from drivers.strict_numbers import StrictNumbers
@@ -155,9 +156,14 @@ class AnswerBody(Body):
 
 
 class TranslateBody(Body):
-    """Positions that were taught under other zeros."""
+    """Positions that were taught under other zeros: listed, or as the text of a file."""
 
-    positions: list[TaughtPosition] = Field(min_length=1, max_length=10_000)
+    positions: list[TaughtPosition] | None = Field(default=None, min_length=1, max_length=10_000)
+    text: str | None = Field(
+        default=None,
+        max_length=1_000_000,
+        description="instead of `positions`: a CSV file, or a program in KRL or RAPID with joint targets",
+    )
     taught_under: int | None = Field(
         default=None, ge=1, le=LARGEST_ID, description="the run after whose application they were taught"
     )
@@ -165,11 +171,18 @@ class TranslateBody(Body):
         default=False, strict=True, description="take translated positions back to what they were"
     )
 
+    @model_validator(mode="after")
+    def _one_source(self) -> TranslateBody:
+        if (self.positions is None) == (self.text is None):
+            raise ValueError("give either positions or text")
+        return self
+
 
 class TranslatedList(Record):
     """Translated positions, in the order of the request."""
 
     items: list[TranslatedPosition]
+    program: str | None = Field(default=None, description="the program of `text` with the new angles")
     next: None = None
 
 

@@ -13,6 +13,7 @@ from fastapi.responses import JSONResponse
 from pydantic import BaseModel, Field
 from starlette.exceptions import HTTPException
 
+from station.diagnosis import TargetRefused
 from station.errors import (
     Busy,
     FieldRefused,
@@ -25,7 +26,7 @@ from station.errors import (
     StoreUnavailable,
     TooManyTries,
 )
-from station.records import said
+from station.records import Phrase, said
 from web.live_messages import LIVE_MESSAGE
 from web.methods import allowed
 
@@ -53,6 +54,7 @@ class Problem(BaseModel):
     field: str | None = Field(default=None, description="the first field at fault")
     errors: list[FieldAtFault] | None = None
     calibration_id: int | None = Field(default=None, description="the run that holds the rig or the key")
+    said: Phrase | None = Field(default=None, description="`detail` by its code, for other languages")
     missing: list[str] | None = Field(default=None, description="what keeps the station from being ready")
 
 
@@ -138,6 +140,11 @@ def add(app: FastAPI) -> None:
     async def field_refused(request: Request, error: FieldRefused) -> ProblemResponse:
         errors = [FieldAtFault(field=error.field, detail=str(error))]
         return problem(422, str(error), kind="refused", field=error.field, errors=errors)
+
+    @app.exception_handler(TargetRefused)
+    async def target_refused(request: Request, error: TargetRefused) -> ProblemResponse:
+        errors = [FieldAtFault(field=error.field, detail=str(error))]
+        return problem(422, str(error), kind="refused", field=error.field, errors=errors, said=error.said)
 
     @app.exception_handler(Busy)
     async def busy(request: Request, error: Busy) -> ProblemResponse:

@@ -7,6 +7,7 @@ from station.diagnosis.decision import Decision, StageFigures, decide
 from station.diagnosis.experiments import Trial, trials
 from station.diagnosis.explanations import Around, ExplanationSet, explain
 from station.diagnosis.learned import (
+    TargetRefused,
     Transfer,
     commands_csv,
     learned_model,
@@ -54,6 +55,7 @@ __all__ = [
     "MistakeRefused",
     "Scan",
     "StageFigures",
+    "TargetRefused",
     "TracedDiagnosis",
     "TracedFindings",
     "Transfer",

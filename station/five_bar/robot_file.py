@@ -49,6 +49,8 @@ MOST_ZERO_OFFSET = 4.0
 """Maximum zero offset, in tolerances."""
 MOST_MOUNTING_SDS = 20.0
 """Maximum mounting error, in standard deviations; more is a wrong entry."""
+LEAST_REFERENCE_SD = 1e-5
+"""Smallest standard uncertainty of a reference, deg or mm: no instrument of a plant measures better."""
 SECOND = "second"
 ASIDE_MM = 200.0
 """Displacement of the second mounting point, if the robot file does not define one."""
@@ -213,14 +215,21 @@ class Robot:
             if isinstance(reference, JointAngle):
                 size, unit = reference.offset_deg, "deg"
                 most = MOST_ZERO_OFFSET * self.tolerances.zero_offset_deg
+                sd = reference.sd_deg
             else:
                 axis = 0 if reference.kind == "drm_x" else 1
                 size, unit = reference.value_mm - self.drm[axis], "mm"
                 most = MOST_MOUNTING_SDS * self.drm_sd[axis]
+                sd = reference.sd_mm
             if abs(size) > most:
                 raise InputRefused(
                     f"Reference {reference.words} is {abs(size):.3g} {unit} from what the robot file expects;"
                     f" at most {most:.3g} {unit} is believed. Check the value, its sign and the robot file."
+                )
+            if not LEAST_REFERENCE_SD <= sd <= most:
+                raise InputRefused(
+                    f"Reference {reference.words} has a standard uncertainty of {sd:.3g} {unit};"
+                    f" {LEAST_REFERENCE_SD:g} to {most:.3g} {unit} is believed. Check the value and its unit."
                 )
         return replace(self, references=(*self.references, *references))
 

@@ -71,8 +71,8 @@ def with_accuracy(
     wanted_mm = accuracy.wanted_mm or 0.0
     if accuracy.bound_95_mm is None:
         reason = because("accuracy_unknown", wanted_mm=wanted_mm)
+    elif possible_mm is not None and possible_mm < accuracy.bound_95_mm:
+        reason = because("accuracy_out_of_reach", wanted_mm=wanted_mm, possible_mm=possible_mm)
     else:
-        reason = because(
-            "not_accurate_enough", wanted_mm=wanted_mm, possible_mm=possible_mm or accuracy.bound_95_mm
-        )
+        reason = because("not_accurate_enough", wanted_mm=wanted_mm, possible_mm=accuracy.bound_95_mm)
     return result.model_copy(update={"verdict": "fail", "outcome": "not_accurate_enough", "reason": reason})

@@ -29,14 +29,18 @@ from station.five_bar import (
 )
 from station.mechanism import Conditions
 from station.model.model import Fit, Term
-from station.records import Complex, PositionError, Real
+from station.records import Complex, Phrase, PositionError, Real, phrase
 
 SETTLED_RAD = 1e-12
 MOST_STEPS = 60
 
 
 class NotInvertible(ArithmeticError):
-    """The joint effects are so steep that no command reaches the position."""
+    """No command reaches the position; `said` is the reason."""
+
+    def __init__(self, said: Phrase) -> None:
+        super().__init__(said.text())
+        self.said = said
 
 
 @dataclass(frozen=True)
@@ -101,7 +105,7 @@ class IdentifiedMachine:
             theta = better
             if change < SETTLED_RAD:
                 return theta
-        raise NotInvertible("the joint effects are too steep to be inverted")
+        raise NotInvertible(phrase("effects_too_steep"))
 
     def position_error(self, commander: IdentifiedMachine | None = None) -> PositionError:
         """RMS and maximum over the workspace, mm, with the commands of `commander` (default: this machine).

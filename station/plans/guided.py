@@ -11,6 +11,10 @@ from station.plans.boundary import on_the_boundary
 from station.plans.full import chosen_by_exchange, full_positions
 from station.plans.plan import PlanDesign, Visits, each_once, register
 from station.plans.tour import sweeps
+from station.records import JointAngle
+
+LEVEL = JointAngle(joint=1, at_deg=0.0, reads_deg=0.0, sd_deg=0.005)
+"""The reading of a level, as expected."""
 
 
 def boundary_and_home(robot: Robot) -> Visits:
@@ -27,6 +31,6 @@ def both_sides_once(robot: Robot) -> Visits:
     return Visits(places, found.order, found.approach)
 
 
-REFERENCE = register(PlanDesign("reference", boundary_and_home))
-TWO_MOUNTS = register(PlanDesign("two_mounts", both_sides_once))
+REFERENCE = register(PlanDesign("reference", boundary_and_home, references=(LEVEL,)))
+TWO_MOUNTS = register(PlanDesign("two_mounts", both_sides_once, mounts=2))
 GAUGE_STUDY = register(PlanDesign("gauge_study", chosen_by_exchange, run_kind="gauge_study"))

@@ -19,7 +19,16 @@ from station.errors import InputRefused
 from station.five_bar import Robot, excess_mm, inverse
 from station.plans.duration import USUAL, Pace
 from station.plans.prediction import predict
-from station.records import Complex, PlanDocument, PlanName, PlannedStop, PlanPrediction, Real, Stop
+from station.records import (
+    AnyReference,
+    Complex,
+    PlanDocument,
+    PlanName,
+    PlannedStop,
+    PlanPrediction,
+    Real,
+    Stop,
+)
 
 ROUNDING_MM = 1e-6
 """By which a position on the edge of the workspace may miss it."""
@@ -51,6 +60,10 @@ class PlanDesign:
     """For a robot.  :raises InputRefused: this robot cannot be measured so."""
     run_kind: str = "calibrate"
     """Name of the run kind in `station.run_kinds` that measures by this plan."""
+    mounts: int = 1
+    """Mounting points from which all positions are measured."""
+    references: tuple[AnyReference, ...] = ()
+    """What a person measures during the run, for the predicted accuracy: its value is the expected one."""
 
 
 RECOMMENDED: PlanName = "full"
@@ -82,7 +95,9 @@ class Plan:
     def predicted(self) -> PlanPrediction:
         """The predicted accuracy of the stops, and their duration."""
         places = np.array([complex(*stop.target_mm) for stop in self.stops])
-        accuracy = predict(self.robot, places, self.pace.samples)
+        design = PLANS[self.name]
+        robot = self.robot.informed(design.references)
+        accuracy = predict(robot, places, self.pace.samples, mounts=design.mounts)
         travel_deg, duration_s = self.pace.along(
             np.array([stop.theta_deg for stop in self.stops]),
             np.array([stop.approach for stop in self.stops]),

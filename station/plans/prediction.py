@@ -5,21 +5,26 @@ from __future__ import annotations
 import numpy as np
 
 from station.fitting import largest_error_bound, position_error_summary, tolerance_prior
-from station.five_bar import FiveBar, Robot, common_sd_deg, inverse
+from station.five_bar import FiveBar, Robot, common_sd_deg, inverse, with_second_mount
 from station.records import Complex, Measurements, PlanPrediction, PredictedSd, Real
 
 FLAT_PRIOR_SD_MM = 1e4
 """Prior of an unknown reading offset while designing."""
 
 
-def predict(robot: Robot, places: Complex, samples: int = 1) -> PlanPrediction:
+def predict(robot: Robot, places: Complex, samples: int = 1, *, mounts: int = 1) -> PlanPrediction:
     """Predicted accuracy from one reading at each of positions (K,), by specification.
 
     :param samples: number of samples of the head in the mean of a reading
+    :param mounts: 2: the same readings are taken from a second mounting point, too
     """
     mechanism = measured_at(robot, places, samples)
     rows = information_rows(mechanism)
-    covariance = np.linalg.inv(known_beforehand(mechanism) + rows.T @ rows)
+    information = known_beforehand(mechanism) + rows.T @ rows
+    covariance = np.linalg.inv(information)
+    if mounts == 2:
+        size = len(information)
+        covariance = with_second_mount(mechanism, mechanism.row_sd, np.zeros(2), information)[:size, :size]
     mean = mechanism.start
     error, jacobian = mechanism.position_errors(mean)
     sd = np.degrees(np.sqrt(np.diag(covariance)[:2]))

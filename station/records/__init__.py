@@ -166,7 +166,8 @@ from station.records.sections import (
     sections_to_toml,
 )
 from station.records.study_design import StudyDesign
-from station.records.taught import TaughtPosition, TranslatedPosition, read_taught, translated_to_csv
+from station.records.taught import TaughtPosition, TranslatedPosition, translated_to_csv
+from station.records.taught_program import TaughtProgram, read_taught_file
 from station.records.training import (
     Blamed,
     Challenge,
@@ -349,6 +350,7 @@ __all__ = [
     "Submitted",
     "Table",
     "TaughtPosition",
+    "TaughtProgram",
     "TemperatureReference",
     "TermOfModel",
     "TrainingView",
@@ -387,7 +389,7 @@ __all__ = [
     "read_foreign",
     "read_measurements",
     "read_table",
-    "read_taught",
+    "read_taught_file",
     "readings_to_csv",
     "readout_step_mm",
     "reason_in",

@@ -125,6 +125,8 @@ class CheckFound(Record):
     """The smallest shift detected along it."""
     valid_until: datetime | None = None
     """End of the check's validity; null if it failed."""
+    known_by: int | None = None
+    """The newer calibration that has found this shift and is not applied; null if there is none."""
 
 
 class LastingParameters(Record):

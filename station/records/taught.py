@@ -5,15 +5,17 @@ from __future__ import annotations
 import csv
 import io
 import math
+import re
 from collections.abc import Sequence
-
-from pydantic import ValidationError
 
 from station.errors import InputRefused
 from station.records.record import Record
-from station.records.sections import Finite, Section, said
+from station.records.sections import Finite, Section
 
 COLUMNS = ("position", "theta1_deg", "theta2_deg")
+IN_RADIANS = {"theta1_rad": "theta1_deg", "theta2_rad": "theta2_deg"}
+SEPARATORS = (",", ";", "\t")
+DECIMAL_COMMA = re.compile(r"\s*[+-]?\d+,\d+([eE][+-]?\d+)?\s*")
 
 
 class TaughtPosition(Section):
@@ -39,22 +41,64 @@ class TranslatedPosition(Record):
 
 
 def read_taught(text: str, source: str) -> tuple[TaughtPosition, ...]:
-    """Positions from a CSV file; other columns are ignored. :raises InputRefused: with row and column."""
-    rows = csv.DictReader(io.StringIO(text.removeprefix("\ufeff")))
-    missing = [name for name in COLUMNS if name not in (rows.fieldnames or ())]
-    if missing:
-        raise InputRefused(f"{source}: column {missing[0]} is missing; {', '.join(COLUMNS)} are needed.")
+    """Positions from a CSV file, its columns in any order; other columns are ignored.
+
+    Cells are separated by comma, semicolon or tab; between the last two a decimal comma is read.
+
+    :raises InputRefused: with row and column.
+    """
+    text = text.removeprefix("\ufeff").lstrip("\r\n")
+    separator = _separator(text.partition("\n")[0])
+    rows = csv.reader(io.StringIO(text), delimiter=separator)
+    columns = _columns(next(rows, []), source)
     out = []
-    for number, row in enumerate(rows, start=1):
-        try:
-            out.append(TaughtPosition.model_validate({name: row[name] for name in COLUMNS}))
-        except ValidationError as error:
-            first = error.errors()[0]
-            where = f"{source}: row {number}: column {first['loc'][0]}"
-            raise InputRefused(f"{where}: {said(first).lower()} (given: {first['input']!r}).") from error
+    for number, row in enumerate((row for row in rows if any(cell.strip() for cell in row)), start=1):
+        cells = {name: row[at] if at < len(row) else None for name, at in columns.items()}
+        out.append(_position(cells, f"{source}: row {number}", decimal_comma=separator != ","))
     if not out:
         raise InputRefused(f"{source}: no positions.")
     return tuple(out)
+
+
+def _separator(header: str) -> str:
+    """The separator with which the first line has the most columns."""
+    return max(SEPARATORS, key=header.count)
+
+
+def _columns(header: Sequence[str], source: str) -> dict[str, int]:
+    """Index of each needed column; angles may be in radians."""
+    names = [name.strip().lower() for name in header]
+    known = {*COLUMNS, *IN_RADIANS}
+    meaning = [IN_RADIANS.get(name, name) for name in names if name in known]
+    missing = [name for name in COLUMNS if name not in meaning]
+    if missing:
+        raise InputRefused(f"{source}: column {missing[0]} is missing; {', '.join(COLUMNS)} are needed.")
+    twice = [name for name in COLUMNS if meaning.count(name) > 1]
+    if twice:
+        raise InputRefused(f"{source}: column {twice[0]} is given twice; leave one of them out.")
+    return {name: names.index(name) for name in names if name in known}
+
+
+def _position(cells: dict[str, str | None], where: str, *, decimal_comma: bool) -> TaughtPosition:
+    angles = {}
+    for name in COLUMNS[1:]:
+        column = name if name in cells else next(own for own, of in IN_RADIANS.items() if of == name)
+        value = _number(cells[column], decimal_comma=decimal_comma)
+        if value is None:
+            raise InputRefused(f"{where}: column {column} needs a number (given: {cells[column] or ''!r}).")
+        angles[name] = value if column == name else math.degrees(value)
+    return TaughtPosition(position=cells["position"] or "", **angles)
+
+
+def _number(cell: str | None, *, decimal_comma: bool) -> float | None:
+    text = cell or ""
+    if decimal_comma and DECIMAL_COMMA.fullmatch(text):
+        text = text.replace(",", ".")
+    try:
+        value = float(text)
+    except ValueError:
+        return None
+    return value if math.isfinite(value) else None
 
 
 def translated_to_csv(positions: Sequence[TranslatedPosition]) -> str:

@@ -67,6 +67,8 @@ the first readings aim at.
 """
 TIGHTEST = 1.02
 """The same where the requirement is tighter than that."""
+LOOSEST = 1e3
+"""The same where the requirement is met by any readings; its square remains a number."""
 CLEARLY = 1.15
 """Share of the requirement above which the best bound must be before a run stops early."""
 POWER = 0.985
@@ -169,7 +171,7 @@ class Situation:
         weight, stays = self._by_zeros
         best = stays + float(np.trace(with_readings(known.covariance, self._rows_of_full) @ weight))
         wanted = self.aim.wanted_mm
-        spare = NEARER if wanted is None else max(TIGHTEST, wanted / self.best_mm)
+        spare = NEARER if wanted is None else min(max(TIGHTEST, wanted / self.best_mm), LOOSEST)
         chosen = Quickest(
             covariance=known.covariance,
             rows=known.rows(places),

@@ -10,7 +10,7 @@ import numpy as np
 
 from station.diagnosis import Context, Findings, diagnose, findings_of
 from station.five_bar import Robot
-from station.identification import PLAN_ENDED, with_accuracy
+from station.identification import PLAN_ENDED, advice_of, identify, with_accuracy
 from station.plans import diagnostic_fresh_stops, make_plan
 from station.records import (
     Accuracy,
@@ -30,6 +30,8 @@ from station.records import (
 from station.run_kinds.kind import RunKind, Start, register
 
 METHOD = "diagnosis"
+COMPLETE = ("good", "not_accurate_enough")
+"""Outcomes with no effect missing from the model that advice is computed with."""
 
 
 def start_diagnostic(start: Start) -> Procedure:
@@ -61,7 +63,10 @@ def judged(
     fresh = yield MeasurementSequence(
         "Confirming at fresh positions", 2, diagnostic_fresh_stops(robot, zeros, _seed(sequence)), last=True
     )
-    return concluded(robot, [*readings, *fresh], wanted_mm)
+    result = concluded(robot, [*readings, *fresh], wanted_mm)
+    if result.outcome in COMPLETE:
+        return result.model_copy(update={"advice": advice_of(identify(robot, sequence))})
+    return result
 
 
 def concluded(robot: Robot, readings: list[Reading], wanted_mm: float | None = None) -> CalibrationResult:

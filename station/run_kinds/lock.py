@@ -37,16 +37,20 @@ def calibration_holds(store: Store, serial: str) -> CalibrationHolds:
 def _newest(store: Store, serial: str) -> CalibrationSummary | None:
     """The failed check that is still in force, otherwise the last passed one; None without either.
 
-    A failed check is in force until a calibration has passed or a person has cleared it; a check that passes
-    later does not clear it.
+    A failed check is in force until a calibration has passed, the one that had found its shift is applied, or
+    a person has cleared it; a check that passes later does not clear it.
     """
     passed = None
+    applied: set[int] = set()
     for run in store.calibrations(limit=MOST_LOOKED_AT, robot_serial=serial).items:
         if run.verdict == "pass" and has_offsets(run):
             return passed
         if run.kind == "check" and run.verdict == "pass" and passed is None:
             passed = run
-        if run.kind == "check" and run.verdict == "fail" and not _cleared(store, run.id):
+        if run.kind == "apply" and run.verdict == "pass" and run.of is not None:
+            applied.add(run.of)
+        failed = run.kind == "check" and run.verdict == "fail"
+        if failed and _known_by(store, run.id) not in applied and not _cleared(store, run.id):
             return run
     return passed
 
@@ -56,6 +60,8 @@ def check_not_locked(store: Store, calibration_id: int) -> None:
     run = store.summary(calibration_id)
     holds = calibration_holds(store, run.robot_serial)
     if holds.locked and holds.check is not None and holds.check > calibration_id:
+        if _known_by(store, holds.check) == calibration_id:
+            return
         raise NotApplicable(f"{holds.text} Run {calibration_id} was made before it: calibrate again.")
 
 
@@ -70,6 +76,12 @@ def clear_failed_check(store: Store, serial: str, who: str, reason: str) -> None
         store.robot(serial)
         raise NotApplicable(f"Nothing is locked for robot {serial}.")
     store.add_event(holds.check, CLEARED, {"by": who, "reason": reason})
+
+
+def _known_by(store: Store, check_id: int) -> int | None:
+    """The calibration that has found the shift of a failed check."""
+    found = store.calibration(check_id).check
+    return found.known_by if found else None
 
 
 def _cleared(store: Store, check_id: int) -> bool:

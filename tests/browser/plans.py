@@ -152,6 +152,7 @@ def referenced(operator: Operator, run: int) -> None:
     level = float(drive[1].replace("−", "-")) + zeros[0]["value_deg"]
     operator.answer(f"{level:.3f}")
     operator.end()
+    expect(operator.page.locator(".maps figure")).to_have_count(2)
     operator.picture("reference-result")
 
 
@@ -163,6 +164,7 @@ def mounted_twice(operator: Operator) -> None:
     operator.asked("back at its first")
     operator.answer(None)
     operator.end()
+    expect(operator.page.locator(".maps figure")).to_have_count(2)
     operator.picture("two-mounts-result")
 
 
@@ -174,7 +176,9 @@ def taught_by_a_fleet(operator: Operator) -> None:
         sections["robot"] |= {"serial": serial, "type": TYPE}
         station.api.put(f"/robots/{serial}", json=sections).raise_for_status()
         operator.run(serial, "rapid")
+    expect(page.locator(".maps figure")).to_have_count(2)
     page.get_by_text("Stored parameters").first.click()
+    expect(page.locator(".memory")).to_contain_text("starts from run")
     page.get_by_text(f"type {TYPE}").first.scroll_into_view_if_needed()
     operator.picture("fleet")
 

@@ -69,6 +69,38 @@ def test_apply_and_rollback_are_runs_of_their_own(service: Service) -> None:
     assert service.client.get(f"{LIST}/{run}").json()["application"]["state"] == "rolled back"
 
 
+KRL = "DECL E6AXIS XP1={A1 10.5,A2 170.25,A3 0.0} ; pick"
+
+
+def test_taught_positions_move_with_the_zeros_of_the_drives(service: Service) -> None:
+    """As a list, a file, and a program, which is returned with other angles; and back."""
+    run = service.complete(robot_serial="R1", plan="rapid")
+    ended(service, service.client.post(f"{LIST}/{run}/apply", json=ADA))
+    address = f"{LIST}/{run}/translate"
+    listed = [{"position": "XP1", "theta1_deg": 10.5, "theta2_deg": 170.25}]
+    table = "theta2_deg;theta1_deg;position\n170,25;10,5;XP1\n"
+    answers = [
+        service.client.post(address, json=body).json()
+        for body in ({"positions": listed}, {"text": table}, {"text": KRL})
+    ]
+    (new,) = answers[0]["items"]
+    assert [new["theta1_deg"] - 10.5, new["theta2_deg"] - 170.25] == pytest.approx(OFFSETS, abs=0.01)
+    assert all(answer["items"] == [new] for answer in answers)
+    angles = f"A1 {new['theta1_deg']:.6f},A2 {new['theta2_deg']:.6f},A3 0.0"
+    assert [answer["program"] for answer in answers] == [
+        None, None, f"DECL E6AXIS XP1={{{angles}}} ; pick",
+    ]  # fmt: skip
+    again = service.client.post(address, json={"text": answers[2]["program"], "back": True}).json()
+    assert [again["items"][0][name] for name in ("theta1_deg", "theta2_deg")] == pytest.approx([10.5, 170.25])
+
+
+@pytest.mark.parametrize("body", [{}, {"positions": [], "text": "x"}, {"text": "position,theta1_deg\n"}])
+def test_taught_positions_that_cannot_be_read_are_refused(service: Service, body: dict[str, Any]) -> None:
+    run = service.complete(robot_serial="R1", plan="rapid")
+    ended(service, service.client.post(f"{LIST}/{run}/apply", json=ADA))
+    assert service.client.post(f"{LIST}/{run}/translate", json=body).status_code == 422
+
+
 @pytest.mark.parametrize("what", ["apply", "rollback"])
 def test_a_refusal_is_a_problem_that_says_why(service: Service, what: str) -> None:
     run = service.hold()

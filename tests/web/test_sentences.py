@@ -29,8 +29,9 @@ REPORTING = {
 """What is made with a sentence for the page: errors, prompts, titles, states, findings of an examination."""
 SHOWN = (
     "drivers/lines", "drivers/scales", "drivers/servos", "station/certificate/facts.py", "station/doctor",
-    "station/errors.py", "station/motion", "station/people", "station/run_kinds", "station/service",
-    "station/store", "web/late.py", "web/problems.py", "web/routes",
+    "station/errors.py", "station/motion", "station/people", "station/records/taught.py",
+    "station/records/taught_program.py", "station/run_kinds", "station/service", "station/store",
+    "web/late.py", "web/problems.py", "web/routes",
 )  # fmt: skip
 ELSEWHERE = (
     "drivers/lines/url.py", "station/people/openid.py", "station/people/provider.py",

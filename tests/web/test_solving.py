@@ -9,7 +9,7 @@ import pytest
 
 from station.diagnosis.explanations import Around
 from station.diagnosis.weighed_loop import weighed
-from station.records import Complex, Real
+from station.records import Complex, Phrase, Real
 from tests.station.diagnosis.learned.test_commands import BACKLASH, rms, true_error_mm
 from tests.station.simulated import ROBOT, Drawn, to_csv
 from tests.web.conftest import Service
@@ -79,6 +79,27 @@ def test_a_refusal_names_target_and_field(service: Service, worn: str, name: str
     )
     assert document["field"] == field
     assert said in document["detail"]
+    if "said" in document:
+        assert Phrase(**document["said"]).text() == document["detail"]
+
+
+def test_a_refusal_has_a_code_for_other_languages(service: Service, worn: str) -> None:
+    """English beside it, with numbers in the form of the language and the display name of the effect."""
+    target = {"x_mm": 0, "y_mm": -2500.5, "approach1": 1, "approach2": 1}
+    refusals = [
+        problem_of(service.client.post(f"{worn}/solve", json={"targets": [{**target, **change}]}), 422)
+        for change in ({}, {"y_mm": -700, "approach1": 0})
+    ]
+    far, missing = (Phrase(**document["said"]) for document in refusals)
+    assert far.text("de") == (
+        "Ziel 0, x_mm, y_mm: Position (0,0; -2500,5) mm ist nicht erreichbar;"
+        " Ziele müssen im Arbeitsraum liegen."
+    )
+    assert missing.text("de") == (
+        "Ziel 0, approach1: fehlt oder ist 0, davon hängt aber ab: Getriebespiel von Gelenk 1;"
+        " geben Sie -1 oder 1 an."
+    )
+    assert missing.text("zh").startswith("目标 0，approach1：缺失或为 0，但“")
 
 
 def test_none_and_too_many_targets_are_refused(service: Service, worn: str) -> None:

@@ -18,6 +18,7 @@ from station.records import (
     CalibrationSummary,
     Record,
     State,
+    read_taught_file,
 )
 from station.run_kinds import application, change_of, kind_of_plan, translated
 from station.service import Runtime
@@ -180,7 +181,11 @@ def translate(calibration_id: CalibrationId, body: TranslateBody, runtime: TheRu
     """Convert taught joint positions to the same physical positions under the zeros of this run."""
     change = change_of(runtime.store, calibration_id, body.taught_under)
     change = change.back() if body.back else change
-    return TranslatedList(items=list(translated(change, body.positions, runtime.settings.joints)))
+    positions, program = tuple(body.positions or ()), None
+    if body.text is not None:
+        positions, program = read_taught_file(body.text, "text")
+    items = list(translated(change, positions, runtime.settings.joints))
+    return TranslatedList(items=items, program=program.rewritten(items) if program else None)
 
 
 @router.post(

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from station.messages import labels_in_words
-
 
 @dataclass(frozen=True)
 class Acting:
@@ -18,8 +16,3 @@ class Acting:
     """Joints whose side of approach has to be given."""
     by_payload: bool = False
     """Whether the payload has to be given."""
-
-    @property
-    def name(self) -> str:
-        """For the middle of an English sentence."""
-        return labels_in_words(self.label, "en")

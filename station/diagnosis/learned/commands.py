@@ -35,9 +35,12 @@ def solve_targets(model: LearnedModel, targets: Targets) -> Real:
         theta = machine.commands(targets.place, Situation(targets.approach, rise, payload))
     except Unreachable as error:
         k = int(error.indices[0])
-        raise targets.refuse(k, "x_mm, y_mm", f"{error} Targets must be within the workspace.") from error
+        at = targets.place[k]
+        why = phrase("target_out_of_reach", x_mm=float(at.real), y_mm=float(at.imag))
+        raise targets.refusal(k, "x_mm, y_mm", why) from error
     except NotInvertible as error:
-        raise targets.refuse(0, "x_mm, y_mm", f"no command was found: {error}.") from error
+        why = phrase("no_command_found", why=error.said)
+        raise targets.refusal(0, "x_mm, y_mm", why) from error
     _check_range(model, theta, targets)
     return theta
 
@@ -45,13 +48,12 @@ def solve_targets(model: LearnedModel, targets: Targets) -> Real:
 def _check_given(effect: Acting, targets: Targets) -> None:
     """Refuse an effect that depends on a quantity the file does not contain: it cannot be compensated."""
     if effect.by_payload and targets.payload_kg is None:
-        what = f"is missing, but {effect.name} was learned with payloads; give kg."
-        raise targets.refuse(0, "payload_kg", what)
+        raise targets.refusal(0, "payload_kg", phrase("learned_with_payloads", causes=effect.label))
     for joint in effect.by_approach:
         missing = np.flatnonzero(targets.approach[:, joint - 1] == 0)
         if missing.size:
-            what = f"is missing or 0, but {effect.name} depends on it; give -1 or 1."
-            raise targets.refuse(int(missing[0]), APPROACH[joint - 1], what)
+            why = phrase("depends_on_approach", causes=effect.label)
+            raise targets.refusal(int(missing[0]), APPROACH[joint - 1], why)
 
 
 def _check_range(model: LearnedModel, theta: Real, targets: Targets) -> None:
@@ -65,11 +67,15 @@ def _check_range(model: LearnedModel, theta: Real, targets: Targets) -> None:
             outside = np.flatnonzero((degrees[:, i] < low - margin) | (degrees[:, i] > high + margin))
             if outside.size:
                 k = int(outside[0])
-                what = (
-                    f"joint {joint} would go to {degrees[k, i]:.2f} deg, but {effect.name} was learned from "
-                    f"{low:.2f} to {high:.2f} deg only; choose a target inside or measure a wider range."
+                why = phrase(
+                    "outside_learned_range",
+                    joint=joint,
+                    angle_deg=float(degrees[k, i]),
+                    causes=effect.label,
+                    low_deg=low,
+                    high_deg=high,
                 )
-                raise targets.refuse(k, "x_mm, y_mm", what)
+                raise targets.refusal(k, "x_mm, y_mm", why)
 
 
 def range_said(model: LearnedModel) -> Phrase:

@@ -36,6 +36,7 @@ from station.records import (
     MixtureDocument,
     Real,
     ReferenceOfReadings,
+    phrase,
     visited_in_degrees,
     visited_ranges,
 )
@@ -144,7 +145,7 @@ class MixtureMachine:
         """
         theta = self.mixture.commands(place, _around(situation))
         if not np.isfinite(theta).all():
-            raise NotInvertible("the explanations leave no finite command")
+            raise NotInvertible(phrase("no_finite_command"))
         return theta
 
     def positions(self, theta: Real, situation: Situation) -> Complex:

@@ -12,7 +12,7 @@ from typing import Protocol
 import numpy as np
 
 from station.errors import FieldRefused, InputRefused
-from station.records import Complex, Real, Table, approaches, content_of, read_table
+from station.records import Complex, Phrase, Real, Table, approaches, content_of, phrase, read_table
 
 REQUIRED = ("x_mm", "y_mm")
 APPROACH = ("approach1", "approach2")
@@ -22,17 +22,36 @@ OPTIONAL = (*APPROACH, "temperature_c", "payload_kg")
 class Source(Protocol):
     """The origin of targets, for messages."""
 
-    def refuse(self, row: int, column: str, what: str) -> InputRefused:
+    def refusal(self, row: int, column: str, what: Phrase) -> InputRefused:
         """A refusal that names the position in the source."""
+
+
+class TargetRefused(FieldRefused):
+    """A target of a request; `said` is the refusal by its code, for other languages."""
+
+    def __init__(self, field: str, said: Phrase) -> None:
+        super().__init__(field, said.text())
+        self.said = said
 
 
 class Rows:
     """The targets of a request."""
 
-    def refuse(self, row: int, column: str, what: str) -> InputRefused:
+    def refusal(self, row: int, column: str, what: Phrase) -> InputRefused:
         """Names the target by its index; of several columns the field is the first."""
         field = f"targets.{row}.{column.partition(',')[0]}"
-        return FieldRefused(field, f"Target {row}, {column}: {what}")
+        return TargetRefused(field, phrase("target_refused", number=row, column=column, why=what))
+
+
+@dataclass(frozen=True)
+class File:
+    """The targets of a file."""
+
+    table: Table
+
+    def refusal(self, row: int, column: str, what: Phrase) -> InputRefused:
+        """Names the row of the file."""
+        return self.table.refuse(row, column, what.text())
 
 
 @dataclass(frozen=True)
@@ -50,9 +69,9 @@ class Targets:
     def __len__(self) -> int:
         return len(self.place)
 
-    def refuse(self, row: int, column: str, what: str) -> InputRefused:
+    def refusal(self, row: int, column: str, what: Phrase) -> InputRefused:
         """A refusal that names the position in the source."""
-        return self.source.refuse(row, column, what)
+        return self.source.refusal(row, column, what)
 
 
 def targets_of(rows: Sequence[Mapping[str, float | None]]) -> Targets:
@@ -67,7 +86,7 @@ def targets_of(rows: Sequence[Mapping[str, float | None]]) -> Targets:
         if len(missing) == len(rows):
             return None
         if missing:
-            raise source.refuse(missing[0], column, "is missing, but other targets have it; give it for all.")
+            raise source.refusal(missing[0], column, phrase("others_have_it"))
         return numbers(column)
 
     def numbers(column: str) -> Real:
@@ -86,7 +105,7 @@ def read_targets(path: Path) -> tuple[Table, Targets]:
     """:raises InputRefused: the file is malformed; the error gives row and column."""
     table = read_table(content_of(path), REQUIRED, OPTIONAL, path.name)
     targets = Targets(
-        table,
+        File(table),
         table.numbers("x_mm") + 1j * table.numbers("y_mm"),
         np.column_stack([approaches(table, name) for name in APPROACH]),
         table.optional_numbers("temperature_c"),

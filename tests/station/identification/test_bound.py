@@ -85,7 +85,18 @@ def test_the_wish_decides(
     assert (accuracy.reached, result.outcome) == (reached, outcome)
     assert (result.verdict == "pass") == (outcome == "good")
     if bound_mm == 0.201:
-        assert "0.201 mm; 0.200 mm are wanted" in result.reason.text
+        assert "0.201 mm; 0.2 mm are wanted" in result.reason.text
+
+
+def test_what_further_readings_could_reach_is_not_stated_as_reached() -> None:
+    accuracy = AccuracyReached.of(1.585, 1.585, 0.8, PLAN_ENDED)
+    reason = with_accuracy(result_of([]), accuracy, possible_mm=1.068).reason
+    assert (reason.code, reason.params) == (
+        "accuracy_out_of_reach",
+        {"possible_mm": 1.068, "wanted_mm": 0.8},
+    )
+    reached = with_accuracy(result_of([]), accuracy, possible_mm=1.585).reason
+    assert (reached.code, reached.params["possible_mm"]) == ("not_accurate_enough", 1.585)
 
 
 def test_a_failure_keeps_its_own_reason() -> None:

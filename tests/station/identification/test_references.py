@@ -52,6 +52,23 @@ def test_a_reference_is_one_more_row_of_the_fit(readings: Measurements) -> None:
     np.testing.assert_allclose(with_it.dtheta, expected[:2], atol=2e-2 * sd)
 
 
+@pytest.mark.parametrize(
+    ("reference", "words"),
+    [
+        (
+            JointAngle(joint=1, at_deg=0.0, reads_deg=0.0, sd_deg=1e300),
+            "uncertainty of 1e\\+300 deg; 1e-05 to 12",
+        ),
+        (JointAngle(joint=2, at_deg=180.0, reads_deg=180.0, sd_deg=1e-12), "uncertainty of 1e-12 deg"),
+        (MountingError(kind="drm_x", value_mm=1.0, sd_mm=1e-300), "uncertainty of 1e-300 mm"),
+        (MountingError(kind="drm_y", value_mm=1.0, sd_mm=5.0), "uncertainty of 5 mm"),
+    ],
+)
+def test_an_uncertainty_that_no_instrument_has_is_refused(reference: AnyReference, words: str) -> None:
+    with pytest.raises(InputRefused, match=words):
+        ROBOT.informed([reference])
+
+
 def test_it_ties_down_what_readings_cannot(readings: Measurements) -> None:
     plain, with_it = sd_deg(fit(readings)), sd_deg(fit(readings, seen(TRUTH)))
     assert (plain > 0.03).all()

@@ -13,6 +13,7 @@ from station.plans import PLANS, PlanDesign, each_once, make_plan, register
 from station.plans.boundary import on_the_boundary
 from station.plans.duration import Pace
 from station.run_kinds import RUN_KINDS, kind_of_plan
+from station.studies.drawn import robot_of
 
 ROBOT = Robot.default()
 
@@ -53,6 +54,15 @@ def test_every_stop_lies_in_the_workspace(name: str) -> None:
         x, y = stop.target_mm
         assert x0 <= x <= x1
         assert y0 <= y <= y1
+
+
+@pytest.mark.parametrize(("plan", "measured_mm"), [("reference", 0.182), ("two_mounts", 0.473)])
+def test_what_a_person_contributes_is_predicted(plan: str, measured_mm: float) -> None:
+    """Against the medians of the bounds of emulated machines, docs/accuracy.md."""
+    predicted_mm = make_plan(plan, robot_of(0.03)).predicted.bound_95_mm
+    assert predicted_mm == pytest.approx(measured_mm, rel=0.4)
+    without_mm = make_plan("full", robot_of(0.03)).predicted.bound_95_mm
+    assert predicted_mm < without_mm
 
 
 def test_the_predicted_accuracy_counts_the_samples_of_a_reading() -> None:

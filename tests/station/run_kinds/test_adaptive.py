@@ -78,7 +78,15 @@ def test_a_wish_that_cannot_be_met_is_answered_early(struck: Struck) -> None:
     assert len(walked.readings) <= 6
     assert result.accuracy is not None
     assert result.accuracy.stopped_because == "readings cannot reach the wanted accuracy"
-    assert "0.020 mm are wanted" in result.reason.text
+    assert result.reason.code == "accuracy_out_of_reach"
+    assert "0.02 mm are wanted" in result.reason.text
+    assert result.reason.params["possible_mm"] < (result.accuracy.bound_95_mm or 0.0)  # type: ignore[operator]
+
+
+def test_a_wish_that_anything_meets_ends_after_the_fewest_readings(struck: Struck) -> None:
+    walked = struck.run(1e308)
+    assert walked.result.verdict == "pass"
+    assert len(walked.readings) <= 5
 
 
 def test_without_a_wish_it_ends_where_more_would_not_help(struck: Struck) -> None:

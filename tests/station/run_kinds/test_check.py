@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from datetime import UTC, datetime
 from functools import cache
 from pathlib import Path
@@ -13,9 +14,10 @@ from station.errors import NotApplicable
 from station.five_bar import FiveBar, Robot
 from station.identification import Identification, identify
 from station.plans import make_plan
-from station.records import CalibrationResult, State
+from station.records import CalibrationResult, CheckFound, State
 from station.run_kinds import RUN_KINDS
-from station.run_kinds.check import check_run, compared_with
+from station.run_kinds.check import Calibrated, check_run, compared_with
+from station.run_kinds.lock import calibration_holds, check_not_locked
 from station.store.store import Store
 from station.studies.drawn import Drawn, drawn, robot_of
 from station.studies.walked import walk
@@ -68,6 +70,45 @@ def test_the_smallest_shift_is_found(joint: int) -> None:
     assert failed.check is not None
     assert failed.check.valid_until is None
     assert failed.check.shift_deg[joint] > 0.5 * stated.smallest_by_joint_deg[joint]
+
+
+def test_a_shift_that_a_newer_calibration_has_found_is_to_be_applied() -> None:
+    """The joints have slipped, the newer run has found it, the drives hold the zeros of the older one."""
+    machine, fit = calibrated(3)
+    truth = machine.truth.copy()
+    truth[:2] += np.radians([0.9, -0.2])
+    slipped = Drawn(ROBOT, truth, 3)
+    newer = identify(ROBOT, slipped.machine(2).run(make_plan("full", ROBOT).stops, 5))
+    result = walk(check_run(fit, 0.0, TOMORROW, Calibrated(8, newer, 0.0)), slipped.machine(1)).result
+    assert (result.verdict, result.reason.code) == ("fail", "shift_known")
+    assert result.check is not None
+    assert result.check.known_by == 8
+    assert result.check.shift_deg == pytest.approx((0.9, -0.2), abs=0.05)
+    other = walk(check_run(fit, 0.0, TOMORROW, Calibrated(8, fit, 0.0)), slipped.machine(1)).result
+    assert (other.reason.code, other.check and other.check.known_by) == ("zero_shifted", None)
+
+
+def test_the_calibration_that_knows_the_shift_may_be_applied_and_clears_the_lock(store: Store) -> None:
+    def run(kind: str, verdict: str, check: CheckFound | None = None, of: int | None = None) -> int:
+        request = asked("R1", "full" if kind == "calibrate" else kind)
+        number = store.create(replace(request, kind=kind, of=of), Robot.default("R1"))
+        result = result_of([], verdict).model_copy(update={"check": check})
+        store.finish(number, State.SUCCEEDED, result)
+        return number
+
+    older, newer = run("calibrate", "pass"), run("calibrate", "pass")
+    known = checked(0).check
+    assert known is not None
+    run("check", "fail", known.model_copy(update={"known_by": newer}))
+    check_not_locked(store, newer)
+    with pytest.raises(NotApplicable, match="Locked"):
+        check_not_locked(store, older)
+    assert calibration_holds(store, "R1").locked
+    run("apply", "pass", of=older)
+    assert calibration_holds(store, "R1").locked
+    run("apply", "pass", of=newer)
+    assert not calibration_holds(store, "R1").locked
+    store.close()
 
 
 def test_what_no_shift_explains_is_told_apart() -> None:

@@ -62,6 +62,7 @@ def test_a_clean_machine_lacks_nothing() -> None:
     assert (result.verdict, result.outcome) == ("pass", "good")
     assert (result.method, result.findings) == ("diagnosis", ())
     assert result.reason.code == "adequate_confirmed"
+    assert {"joint_angle", "drm_x", "second_mount"} <= {one.kind for one in result.advice}
     assert [r.sequence for r in readings] == [1] * 120 + [2] * 40
     for zero, truth in zip(result.zero_offsets, (0.8, -0.6), strict=True):
         assert abs(zero.value - truth) < 4 * zero.sd

@@ -9,7 +9,7 @@ from station.errors import InputRefused
 from station.five_bar import inverse
 from station.identification import identify, zero_difference
 from station.plans import make_plan
-from station.records import JointAngle, TaughtPosition, read_taught, translated_to_csv
+from station.records import JointAngle, TaughtPosition, read_taught_file, translated_to_csv
 from station.run_kinds.translate import Change, translated
 from station.settings import DEFAULT_JOINTS
 from station.studies.drawn import drawn, robot_of
@@ -98,7 +98,10 @@ def test_limits_and_singularities_are_marked() -> None:
 
 
 def test_a_file_of_positions_is_read_and_written() -> None:
-    read = read_taught("position,note,theta1_deg,theta2_deg\nA,x,1.5,178\nB,,2,177.5\n", "t.csv")
+    read, program = read_taught_file(
+        "position,note,theta1_deg,theta2_deg\nA,x,1.5,178\nB,,2,177.5\n", "t.csv"
+    )
+    assert program is None
     assert [p.position for p in read] == ["A", "B"]
     text = translated_to_csv(translated(Change(ROBOT, np.zeros(2), np.eye(2) * 1e-8), read, DEFAULT_JOINTS))
     lines = text.splitlines()
@@ -118,4 +121,4 @@ def test_a_file_of_positions_is_read_and_written() -> None:
 )
 def test_what_is_no_such_file_is_refused(text: str, words: str) -> None:
     with pytest.raises(InputRefused, match=words):
-        read_taught(text, "t.csv")
+        read_taught_file(text, "t.csv")

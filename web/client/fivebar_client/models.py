@@ -1,6 +1,6 @@
 """What the station takes and answers.  Made by `make reference`; do not edit.
 
-From schemas with SHA-256 2974c42bbeea04c577cec9cef0d6715fe4fa44742321573f8d7fd35cebe482f7.
+From schemas with SHA-256 eeff8a9667b41608c77876b0394a4b76ad50aa0168f08b126d2e37c0ac48a32d.
 """
 
 from __future__ import annotations
@@ -188,6 +188,11 @@ class CheckFound(BaseModel):
     valid_until: AwareDatetime | None
     """
     End of the check's validity; null if it failed.
+    """
+
+    known_by: int | None
+    """
+    The newer calibration that has found this shift and is not applied; null if there is none.
     """
 
 
@@ -970,6 +975,11 @@ class Problem(BaseModel):
     calibration_id: int | None = None
     """
     the run that holds the rig or the key
+    """
+
+    said: Phrase | None = None
+    """
+    `detail` by its code, for other languages
     """
 
     missing: list[str] | None = None

@@ -2,7 +2,9 @@
 import { attendance } from "./attended";
 import { stationTime } from "./live";
 import { t } from "./messages";
+import { loadPhrases } from "./messages/phrases";
 import { said } from "./messages/said";
+import { phraseText } from "./phrase";
 import type {
   Calibration,
   CalibrationBody,
@@ -25,7 +27,7 @@ import type {
   Summary,
   Target,
   TaughtPosition,
-  TranslatedPosition,
+  TranslatedList,
   Trend,
 } from "./types";
 
@@ -64,8 +66,10 @@ export async function call<T>(
   const body: unknown = await response.json().catch(() => null);
   if (!response.ok && !(accepted === response.status && body)) {
     const problem = body as Partial<Problem> | null;
+    const { detail, said: phrase = null } = problem ?? {};
+    if (phrase) await loadPhrases();
     throw new Refused(
-      problem?.detail ? said(problem.detail) : t.refusals.status(response.status),
+      detail ? ((phrase && phraseText(phrase)) ?? said(detail)) : t.refusals.status(response.status),
       problem?.field ?? null,
       response.status,
     );
@@ -163,10 +167,14 @@ export const solve = (id: number, targets: Target[]) =>
     body: JSON.stringify({ targets }),
   });
 
-export const translate = (id: number, positions: TaughtPosition[], back: boolean) =>
-  call<{ items: TranslatedPosition[] }>("POST", `/calibrations/${id}/translate`, {
+export const translate = (
+  id: number,
+  taught: { positions: TaughtPosition[] } | { text: string },
+  back: boolean,
+) =>
+  call<TranslatedList>("POST", `/calibrations/${id}/translate`, {
     headers: { "Content-Type": "application/json" },
-    body: JSON.stringify({ positions, back }),
+    body: JSON.stringify({ ...taught, back }),
   });
 
 export const calibrationHolds = async () =>

@@ -31,6 +31,7 @@ export type ErrorMap = Schemas["ErrorMap"];
 export type Target = Schemas["SolveBody"]["targets"][number];
 export type Solution = Schemas["Solution"];
 export type TaughtPosition = Schemas["TaughtPosition"];
+export type TranslatedList = Schemas["TranslatedList"];
 export type TranslatedPosition = Schemas["TranslatedPosition"];
 export type Separating = Schemas["Separating"];
 export type Robot = Schemas["Robot"];

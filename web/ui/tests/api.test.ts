@@ -21,6 +21,15 @@ describe("a refusal", () => {
     expect(refused).toMatchObject({ message: "The serial has a space.", field: "robot_serial" });
   });
 
+  it("is made of its code where there is one", async () => {
+    const why = { code: "depends_on_approach", params: { causes: "backlash of joint 2" } };
+    const said = { code: "target_refused", params: { number: 3, column: "approach2", why } };
+    answer(422, { detail: "English", field: "targets.3.approach2", said });
+    await expect(api.solve(1, [])).rejects.toMatchObject({
+      message: "Target 3, approach2: is missing or 0, but backlash of joint 2 depends on it; give -1 or 1.",
+    });
+  });
+
   it("without words names the status", async () => {
     fetched.mockResolvedValueOnce(new Response("<html>", { status: 502 }));
     await expect(api.calibration(1)).rejects.toMatchObject({ message: t.refusals.status(502), field: null });

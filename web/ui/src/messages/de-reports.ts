@@ -285,6 +285,16 @@ export const reports: Record<string, string> = {
     "Die Nullpunkte der Antriebe wurden seither von Lauf {run} geändert.",
   "The readings do not determine the machine: {why_text}.":
     "Die Messungen bestimmen die Maschine nicht: {why_text}.",
+  // taught positions
+  "{source}: column {column} is missing; {columns} are needed.":
+    "{source}: Die Spalte {column} fehlt; nötig sind {columns}.",
+  "{source}: column {column} is given twice; leave one of them out.":
+    "{source}: Die Spalte {column} ist zweimal angegeben; lassen Sie eine weg.",
+  "{place}: column {column} needs a number (given: {value}).":
+    "{place}: Die Spalte {column} braucht eine Zahl (angegeben: {value}).",
+  "{source}: no positions.": "{source}: keine Positionen.",
+  "{source}: line {line}: {name} has no angle of axis {axis}; both are needed.":
+    "{source}: Zeile {line}: {name} hat keinen Winkel der Achse {axis}; beide sind nötig.",
   // the station
   "Run {run} holds the rig; wait for its end or abort it.":
     "Lauf {run} belegt die Station; warten Sie sein Ende ab, oder brechen Sie ihn ab.",
@@ -412,6 +422,8 @@ export const reports: Record<string, string> = {
     "Name {name} enthält das Steuerzeichen {character}; lassen Sie es weg.",
   "Serial {serial}": "Seriennummer {serial}",
   // references and readings
+  "Reference {what} has a standard uncertainty of {sd} {unit}; {least} to {most} {unit} is believed. Check the value and its unit.":
+    "Die Referenz {what} hat eine Standardunsicherheit von {sd} {unit}; geglaubt werden {least} bis {most} {unit}. Prüfen Sie den Wert und seine Einheit.",
   "Reference {what} is {size} {unit} from what the robot file expects; at most {most} {unit} is believed. Check the value, its sign and the robot file.":
     "Referenz {what} liegt {size} {unit} neben dem, was die Roboterdatei erwarten lässt; geglaubt werden höchstens {most} {unit}. Prüfen Sie den Wert, sein Vorzeichen und die Roboterdatei.",
   "Readings {names} disagree with the rest, more than a tenth of {readings}; measure again and check the scale and its mounting.":

@@ -210,8 +210,9 @@ export const de: Messages = {
     mounting: "Anbaufehler seitlich, mm",
     mountingSd: "Seine Standardunsicherheit, mm",
     wishWrong: "Geben Sie eine Zahl an, oder lassen Sie alle zusammengehörigen Felder leer.",
-    promise: (readings, time, bound) =>
-      `${readings} Messungen, etwa ${time}; ein Roboter innerhalb seiner Toleranzen weicht danach höchstens ${bound} mm ab (95 %).`,
+    effort: (readings, time) => `${readings} Messungen, etwa ${time}.`,
+    promise: (bound) =>
+      ` Ein Roboter innerhalb seiner Toleranzen weicht danach höchstens ${bound} mm ab (95 %).`,
     promptValue: (unit) => `Wert, ${unit}`,
     promptNumber: (unit) => `Geben Sie eine Zahl ein, in ${unit}.`,
     promptLeft: (time) => `Der Lauf endet, wenn niemand innerhalb von ${time} antwortet.`,
@@ -353,6 +354,10 @@ export const de: Messages = {
         button: "Mit Plan full kalibrieren",
         text: "Die Schritte der Anzeige sind für diesen Plan zu grob.",
       },
+      apply_known: {
+        button: "Zu diesem Ergebnis",
+        text: "Eine neuere Kalibrierung hat diese Verschiebung gefunden, aber die Antriebe haben die alten Nullpunkte. Wenden Sie sie an.",
+      },
       shifted: {
         button: "Neu kalibrieren",
         text: "Die Nullpunkte haben sich seit der letzten Kalibrierung verschoben.",
@@ -383,11 +388,11 @@ export const de: Messages = {
       },
       raise: {
         button: "Genauigkeit erhöhen",
-        text: "Das erhöht die Genauigkeit am meisten für die Zeit, die es braucht.",
+        text: "Das erhöht die Genauigkeit wie gewünscht oder am meisten für die Zeit, die es braucht.",
       },
       raise_by_hand: {
         button: "Zur Station",
-        text: "Das erhöht die Genauigkeit am meisten für die Zeit, die es braucht. Geben Sie den Wert beim Start als Referenz ein.",
+        text: "Das erhöht die Genauigkeit wie gewünscht oder am meisten für die Zeit, die es braucht. Geben Sie den Wert beim Start als Referenz ein.",
       },
       no_advice: {
         text: "Keine weitere Messung erhöht die Genauigkeit merklich. Nötig ist eine weitere Grenze oder ein besserer Maßstab.",
@@ -400,11 +405,10 @@ export const de: Messages = {
       drm_x: () => "Messen Sie den seitlichen Anbaufehler der Messeinrichtung.",
       second_mount: () => "Messen Sie von einem zweiten Anbauort.",
     },
-    advised: (text, gain, minutes) =>
-      `${text} Die Grenze sinkt um ${gain} mm; es dauert etwa ${minutes} min.`,
+    advised: (text, gain, time) => `${text} Die Grenze sinkt um ${gain} mm; es dauert etwa ${time}.`,
     advice: "Was die Genauigkeit erhöhen würde",
     gain: "Gewinn, mm",
-    minutes: "Zeit, min",
+    time: "Zeit",
 
     map: {
       title: "Positionsfehler über dem Arbeitsraum",
@@ -465,7 +469,8 @@ export const de: Messages = {
     translate: {
       title: "Gelernte Positionen",
       note: "Gelenkpositionen, die unter den Nullpunkten vor diesem Lauf gelernt wurden, werden dieselben Positionen im Raum unter den Nullpunkten der Antriebe.",
-      positions: "Positionen, je Zeile eine: Name, θ₁ und θ₂ in Grad",
+      positions:
+        "Positionen, je Zeile eine: Name, θ₁ und θ₂ in Grad; oder eine CSV-Datei oder ein Programm in KRL oder RAPID",
       back: "Zurück: sie wurden schon umgerechnet",
       button: "Umrechnen",
       none: "Geben Sie die Positionen ein, oder fügen Sie sie ein.",
@@ -476,6 +481,8 @@ export const de: Messages = {
       near: "◆ nahe an einer Grenze",
       save: "Positionen speichern (CSV)",
       file: (id) => `gelernt-lauf-${id}.csv`,
+      saveProgram: "Programm speichern",
+      programFile: (id) => `gelernt-lauf-${id}.txt`,
     },
     promised: "Zugesagte Genauigkeit",
     bound: (drives, model) =>

@@ -233,8 +233,8 @@ export const en = {
     mounting: "Mounting error sideways, mm",
     mountingSd: "Its standard uncertainty, mm",
     wishWrong: "Give a number, or leave all fields that belong together empty.",
-    promise: (readings: number, time: string, bound: string) =>
-      `${readings} readings, about ${time}; a robot within its tolerances then errs by at most ${bound} mm (95 %).`,
+    effort: (readings: number, time: string) => `${readings} readings, about ${time}.`,
+    promise: (bound: string) => ` A robot within its tolerances then errs by at most ${bound} mm (95 %).`,
     promptValue: (unit: string) => `Value, ${unit}`,
     promptNumber: (unit: string) => `Type a number, in ${unit}.`,
     promptLeft: (time: string) => `The run ends if nobody answers within ${time}.`,
@@ -376,6 +376,10 @@ export const en = {
         button: "Calibrate with plan full",
         text: "The steps of the readout are too coarse for this plan.",
       },
+      apply_known: {
+        button: "Go to that result",
+        text: "A newer calibration has found this shift, but the drives hold the old zero offsets. Apply it.",
+      },
       shifted: { button: "Calibrate again", text: "The zeros have shifted since the last calibration." },
       calibrate: {
         button: "Calibrate",
@@ -401,10 +405,13 @@ export const en = {
         button: "Repaired: measure again",
         text: "Repair the cause. Then measure again: the run shows whether it is removed.",
       },
-      raise: { button: "Raise the accuracy", text: "This raises the accuracy most for the time it takes." },
+      raise: {
+        button: "Raise the accuracy",
+        text: "This raises the accuracy as required, or most for the time it takes.",
+      },
       raise_by_hand: {
         button: "Go to the station",
-        text: "This raises the accuracy most for the time it takes. Enter the value as a reference when you start.",
+        text: "This raises the accuracy as required, or most for the time it takes. Enter the value as a reference when you start.",
       },
       no_advice: {
         text: "No further measurement raises the accuracy noticeably. A wider limit or a better scale is necessary.",
@@ -418,11 +425,11 @@ export const en = {
       drm_x: () => "Measure the sideways mounting error of the mechanism.",
       second_mount: () => "Measure from a second mounting point.",
     } as Record<string, (joint: string) => string>,
-    advised: (text: string, gain: string, minutes: string) =>
-      `${text} The bound falls by ${gain} mm; it takes about ${minutes} min.`,
+    advised: (text: string, gain: string, time: string) =>
+      `${text} The bound falls by ${gain} mm; it takes about ${time}.`,
     advice: "What would raise the accuracy",
     gain: "Gain, mm",
-    minutes: "Time, min",
+    time: "Time",
 
     map: {
       title: "Position error over the workspace",
@@ -482,7 +489,8 @@ export const en = {
     translate: {
       title: "Taught positions",
       note: "Joint positions that were taught under the zero offsets before this run become the same physical positions under those in the drives.",
-      positions: "Positions, one a line: name, θ₁ and θ₂ in degrees",
+      positions:
+        "Positions, one a line: name, θ₁ and θ₂ in degrees; or a CSV file, or a program in KRL or RAPID",
       back: "Back: they were translated before",
       button: "Translate",
       none: "Type or paste the positions.",
@@ -493,6 +501,8 @@ export const en = {
       near: "◆ near a limit",
       save: "Save the positions (CSV)",
       file: (id: number) => `taught-run-${id}.csv`,
+      saveProgram: "Save the program",
+      programFile: (id: number) => `taught-run-${id}.txt`,
     },
     promised: "Promised accuracy",
     bound: (drives: string, model: string) =>

@@ -255,6 +255,16 @@ export const reports: Record<string, string> = {
     "运行 {run} 未通过；只写入合格运行的零点。",
   "The zeros of the drives have been changed since, by run {run}.": "此后驱动器零点已由运行 {run} 更改。",
   "The readings do not determine the machine: {why_text}.": "读数不足以确定机器：{why_text}。",
+  // taught positions
+  "{source}: column {column} is missing; {columns} are needed.":
+    "{source}：缺少列 {column}；需要 {columns}。",
+  "{source}: column {column} is given twice; leave one of them out.":
+    "{source}：列 {column} 给出了两次；请去掉一个。",
+  "{place}: column {column} needs a number (given: {value}).":
+    "{place}：列 {column} 需要一个数字（给出：{value}）。",
+  "{source}: no positions.": "{source}：没有位置。",
+  "{source}: line {line}: {name} has no angle of axis {axis}; both are needed.":
+    "{source}：第 {line} 行：{name} 没有轴 {axis} 的角度；两者都需要。",
   // the station
   "Run {run} holds the rig; wait for its end or abort it.":
     "运行 {run} 正在占用工作站；请等待其结束或中止它。",
@@ -364,6 +374,8 @@ export const reports: Record<string, string> = {
     "名称 {name} 含有控制字符 {character}；请去掉。",
   "Serial {serial}": "序列号 {serial}",
   // references and readings
+  "Reference {what} has a standard uncertainty of {sd} {unit}; {least} to {most} {unit} is believed. Check the value and its unit.":
+    "参考 {what} 的标准不确定度为 {sd} {unit}；只接受 {least} 至 {most} {unit}。请检查数值及其单位。",
   "Reference {what} is {size} {unit} from what the robot file expects; at most {most} {unit} is believed. Check the value, its sign and the robot file.":
     "参考 {what} 与机器人文件的预期相差 {size} {unit}；最多接受 {most} {unit}。请检查数值、符号和机器人文件。",
   "Readings {names} disagree with the rest, more than a tenth of {readings}; measure again and check the scale and its mounting.":

@@ -186,8 +186,8 @@ export const zh: Messages = {
     mounting: "横向安装误差，mm",
     mountingSd: "其标准不确定度，mm",
     wishWrong: "请输入数字，或将相关字段全部留空。",
-    promise: (readings, time, bound) =>
-      `${readings} 次读数，约 ${time}；公差内的机器人之后误差至多 ${bound} mm（95 %）。`,
+    effort: (readings, time) => `${readings} 次读数，约 ${time}。`,
+    promise: (bound) => `公差内的机器人之后误差至多 ${bound} mm（95 %）。`,
     promptValue: (unit) => `数值，${unit}`,
     promptNumber: (unit) => `请输入数字，单位 ${unit}。`,
     promptLeft: (time) => `若 ${time} 内无人应答，运行将结束。`,
@@ -305,6 +305,10 @@ export const zh: Messages = {
       look: { text: "请阅读上面的原因。" },
       recalibrate: { button: "重新标定", text: "驱动器中不是这些零点。请重新标定。" },
       too_coarse: { button: "用计划 full 标定", text: "读数步长对此计划过于粗糙。" },
+      apply_known: {
+        button: "前往该结果",
+        text: "较新的标定已发现此偏移，但驱动器仍为旧零点。请写入该结果。",
+      },
       shifted: { button: "重新标定", text: "自上次标定以来零点已偏移。" },
       calibrate: {
         button: "标定",
@@ -318,10 +322,10 @@ export const zh: Messages = {
       decide_by_plan: { button: "准备试验", text: "工作站会显示启动表单，并已填入该机器人和试验的方案。" },
       decide_by_hand: { button: "显示试验", text: "一次手动试验可区分可能的原因。" },
       repaired: { button: "已修理：重新测量", text: "请修理原因，然后重新测量：运行会显示是否已排除。" },
-      raise: { button: "提高精度", text: "就所需时间而言，这样最能提高精度。" },
+      raise: { button: "提高精度", text: "这样可达到所需精度，或就所需时间而言最能提高精度。" },
       raise_by_hand: {
         button: "前往工作站",
-        text: "就所需时间而言，这样最能提高精度。开始时请将该值作为参考输入。",
+        text: "这样可达到所需精度，或就所需时间而言最能提高精度。开始时请将该值作为参考输入。",
       },
       no_advice: { text: "进一步测量不会明显提高精度。需要放宽限值或使用更好的光栅尺。" },
       see: { button: "显示诊断", text: "诊断显示残差取决于什么。" },
@@ -332,10 +336,10 @@ export const zh: Messages = {
       drm_x: () => "测量机构的横向安装误差。",
       second_mount: () => "从第二个安装点测量。",
     },
-    advised: (text, gain, minutes) => `${text} 上限降低 ${gain} mm；约需 ${minutes} min。`,
+    advised: (text, gain, time) => `${text} 上限降低 ${gain} mm；约需 ${time}。`,
     advice: "提高精度的办法",
     gain: "收益，mm",
-    minutes: "时间，min",
+    time: "时间",
 
     map: {
       title: "工作空间内的位置误差",
@@ -391,7 +395,7 @@ export const zh: Messages = {
     translate: {
       title: "示教位置",
       note: "在本次运行之前的零点下示教的关节位置，换算为驱动器现有零点下的相同物理位置。",
-      positions: "位置，每行一个：名称、θ₁ 和 θ₂（度）",
+      positions: "位置，每行一个：名称、θ₁ 和 θ₂（度）；或 CSV 文件，或 KRL、RAPID 程序",
       back: "反向：这些位置已换算过",
       button: "换算",
       none: "请输入或粘贴位置。",
@@ -402,6 +406,8 @@ export const zh: Messages = {
       near: "◆ 接近限位",
       save: "保存位置（CSV）",
       file: (id) => `taught-run-${id}.csv`,
+      saveProgram: "保存程序",
+      programFile: (id) => `taught-run-${id}.txt`,
     },
     promised: "承诺的精度",
     bound: (drives, model) =>

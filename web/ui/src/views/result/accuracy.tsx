@@ -1,4 +1,4 @@
-import { fixed } from "../../format";
+import { duration, fixed } from "../../format";
 import { t } from "../../messages";
 import { adviceText } from "../../names";
 import { toldInside } from "../../phrase";
@@ -40,11 +40,13 @@ export function Accuracy({ result: { accuracy, check, advice } }: { result: Cali
   );
 }
 
-/** Measures to improve the accuracy, with gain and duration. */
+const SECONDS = 60;
+
 /** Why no further readings were taken. */
 const stopReason = ({ stopped_because: text, stopped_because_said: said }: Reached) =>
   text === null ? "" : toldInside({ text, said });
 
+/** Measures to improve the accuracy, with gain and duration. */
 function AdviceTable({ advice }: { advice: Calibration["advice"] }) {
   if (advice.length === 0) return null;
   return (
@@ -55,7 +57,7 @@ function AdviceTable({ advice }: { advice: Calibration["advice"] }) {
             {t.result.advice}
           </th>
           <th scope="col">{t.result.gain}</th>
-          <th scope="col">{t.result.minutes}</th>
+          <th scope="col">{t.result.time}</th>
         </tr>
       </thead>
       <tbody>
@@ -65,7 +67,7 @@ function AdviceTable({ advice }: { advice: Calibration["advice"] }) {
               {adviceText({ kind, joint: joint ?? null, text })}
             </th>
             <td>{fixed(gain_mm, 3)}</td>
-            <td>{fixed(minutes, 1)}</td>
+            <td>{duration(SECONDS * minutes)}</td>
           </tr>
         ))}
       </tbody>

@@ -9,7 +9,7 @@ import { ConfirmedButton } from "../../parts/confirm";
 import { Link } from "../../parts/link";
 import { useLoaded } from "../../parts/load";
 import { toldInside } from "../../phrase";
-import type { Calibration } from "../../types";
+import type { Calibration, Robot } from "../../types";
 
 export function Memory({ result: { memory, fleet, robot_serial } }: { result: Calibration }) {
   const forgotten = useSignal(0);
@@ -26,9 +26,7 @@ export function Memory({ result: { memory, fleet, robot_serial } }: { result: Ca
       <p class="used">
         {memory ? <Used memory={memory} /> : fleet ? <Taught fleet={fleet} /> : t.result.memoryNone}
       </p>
-      <p>
-        {next ? t.result.memoryNext(next.from_calibration, fixed(next.age_days, 1)) : t.result.memoryNextNone}
-      </p>
+      <p>{value && <Next next={next} />}</p>
       <ConfirmedButton label={t.result.forget} disabled={!connected.value || !next} act={drop}>
         {t.result.forgetWarning(robot_serial)}
         <strong>{t.result.forgetEmphasis}</strong>
@@ -36,6 +34,11 @@ export function Memory({ result: { memory, fleet, robot_serial } }: { result: Ca
       </ConfirmedButton>
     </div>
   );
+}
+
+function Next({ next }: { next: Robot["memory"] }) {
+  if (!next) return t.result.memoryNextNone;
+  return t.result.memoryNext(next.from_calibration, fixed(next.age_days, 1));
 }
 
 function Taught({ fleet }: { fleet: NonNullable<Calibration["fleet"]> }) {

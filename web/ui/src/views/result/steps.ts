@@ -1,5 +1,5 @@
 /** The recommended next step, from the result of a run. */
-import { fixed } from "../../format";
+import { duration, fixed } from "../../format";
 import { t } from "../../messages";
 import { adviceText, readable } from "../../names";
 import { told } from "../../phrase";
@@ -25,6 +25,9 @@ export interface Step {
 
 const THOROUGH: Plan = "full";
 const DIAGNOSTIC: Plan = "diagnostic";
+/** Only the zeros have shifted: geometry and mechanism are known. */
+const QUICK: Plan = "adaptive";
+const SECONDS = 60;
 /** Experiments that the station guides. */
 const PLAN_OF_EXPERIMENT: Record<string, Plan> = { second_mount: "two_mounts", joint_reference: "reference" };
 const PLANS = new Set(Object.keys(t.plans));
@@ -90,7 +93,8 @@ function afterWriting({ of, outcome, kind }: Calibration): Step {
 
 function afterCheck(result: Calibration): Step {
   if (decisionOf(result).look.good) return nothing("produce");
-  return result.outcome === "repair" ? start("shifted", THOROUGH) : start("find_cause", DIAGNOSTIC);
+  if (result.check?.known_by != null) return open("apply_known", `/result/${result.check.known_by}`);
+  return result.outcome === "repair" ? start("shifted", QUICK) : start("find_cause", DIAGNOSTIC);
 }
 
 function afterCalibration(result: Calibration): Step {
@@ -129,11 +133,13 @@ function afterPass({ application }: Calibration): Step {
     : start("recalibrate", THOROUGH, readable(application.rollback_refused));
 }
 
-/** The advice with the largest gain per minute. */
+/** The first advice that is sufficient on its own; otherwise the one with the largest gain per minute. */
 function raise(result: Calibration): Step {
-  const [best] = result.advice;
+  const { bound_95_mm: bound, wanted_mm: wanted } = result.accuracy ?? {};
+  const lacking = bound == null || wanted == null ? 0 : bound - wanted;
+  const best = result.advice.find(({ gain_mm }) => gain_mm >= lacking) ?? result.advice[0];
   if (!best) return nothing("no_advice");
-  const more = t.result.advised(adviceText(best), fixed(best.gain_mm, 3), fixed(best.minutes, 1));
+  const more = t.result.advised(adviceText(best), fixed(best.gain_mm, 3), duration(SECONDS * best.minutes));
   const plan = planOf(best, result.plan);
   return plan ? start("raise", plan, more) : open("raise_by_hand", "/", more);
 }

@@ -6,23 +6,24 @@ import { translate } from "../../api";
 import { fixed } from "../../format";
 import { t } from "../../messages";
 import { saveFile } from "../../parts/save-file";
-import type { TranslatedPosition } from "../../types";
-import { taughtOf, translatedCsv } from "./taught";
+import type { TranslatedList } from "../../types";
+import { isFile, taughtOf, translatedCsv } from "./taught";
 
 export function Translate({ id }: { id: number }) {
   const text = useSignal("");
   const back = useSignal(false);
   const trouble = useSignal<string | null>(null);
-  const translated = useSignal<TranslatedPosition[] | null>(null);
+  const translated = useSignal<TranslatedList | null>(null);
   const m = t.result.translate;
   const submit = async (event: SubmitEvent) => {
     event.preventDefault();
-    const { positions, wrong } = taughtOf(text.value);
-    trouble.value = wrong === null ? (positions.length === 0 ? m.none : null) : m.wrong(wrong);
+    const file = isFile(text.value);
+    const { positions, wrong } = file ? { positions: [], wrong: null } : taughtOf(text.value);
+    trouble.value = wrong === null ? (positions.length === 0 && !file ? m.none : null) : m.wrong(wrong);
     translated.value = null;
     if (trouble.value) return;
     try {
-      translated.value = (await translate(id, positions, back.value)).items;
+      translated.value = await translate(id, file ? { text: text.value } : { positions }, back.value);
     } catch (error) {
       trouble.value = (error as Error).message;
     }
@@ -56,12 +57,18 @@ export function Translate({ id }: { id: number }) {
         {trouble.value && `▲ ${trouble.value}`}
       </p>
       <button type="submit">{m.button}</button>
-      {translated.value && <Positions id={id} positions={translated.value} />}
+      {translated.value && <Positions id={id} translated={translated.value} />}
     </form>
   );
 }
 
-function Positions({ id, positions }: { id: number; positions: TranslatedPosition[] }) {
+function Positions({
+  id,
+  translated: { items: positions, program },
+}: {
+  id: number;
+  translated: TranslatedList;
+}) {
   const m = t.result.translate;
   return (
     <>
@@ -96,6 +103,11 @@ function Positions({ id, positions }: { id: number; positions: TranslatedPositio
       <button type="button" onClick={() => saveFile(m.file(id), "text/csv", translatedCsv(positions))}>
         {m.save}
       </button>
+      {program && (
+        <button type="button" onClick={() => saveFile(m.programFile(id), "text/plain", program)}>
+          {m.saveProgram}
+        </button>
+      )}
     </>
   );
 }

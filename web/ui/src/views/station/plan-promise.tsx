@@ -9,6 +9,9 @@ import { plan, serial } from "./start";
 /** A plan is computed for each serial: only for a completely typed one. */
 const TYPED_MS = 300;
 
+/** Plans that identify no zero offsets, so nothing follows for the position error. */
+const WITHOUT_ZEROS = new Set<string>(["check", "gauge_study"]);
+
 /** Duration and predicted accuracy of the chosen plan, for a robot within its tolerances. */
 export function PlanPromise() {
   const typed = serial.value.trim();
@@ -26,7 +29,8 @@ export function PlanPromise() {
   if (!predicted || predicted.duration_s === null) return null;
   return (
     <p id="plan-promise" class="note">
-      {t.station.promise(value.stops.length, duration(predicted.duration_s), fixed(predicted.bound_95_mm, 2))}
+      {t.station.effort(value.stops.length, duration(predicted.duration_s))}
+      {!WITHOUT_ZEROS.has(plan.value) && t.station.promise(fixed(predicted.bound_95_mm, 2))}
     </p>
   );
 }

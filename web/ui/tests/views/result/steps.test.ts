@@ -85,7 +85,19 @@ describe("the next step after a calibration", () => {
       calibration({ verdict: "fail", outcome: "not_accurate_enough", advice: advice("drm_x") }),
     );
     expect(more).toContain("0.200 mm");
-    expect(more).toContain("3.0 min");
+    expect(more).toContain("3 min 00 s");
+  });
+
+  it("prefers the first advice that is sufficient on its own", () => {
+    const cheap = { kind: "repeat", text: "Measure.", joint: null, gain_mm: 0.1, minutes: 0.04 };
+    const both = [cheap, ...advice("joint_angle", 1)];
+    const wanting = (wanted_mm: number) => ({
+      accuracy: { ...calibration().accuracy!, bound_95_mm: 0.4, wanted_mm, reached: false },
+      advice: both,
+    });
+    expect(failed("not_accurate_enough", wanting(0.25))).toEqual(["raise", "reference"]);
+    expect(failed("not_accurate_enough", wanting(0.35))).toEqual(["raise", "full"]);
+    expect(failed("not_accurate_enough", wanting(0.1))).toEqual(["raise", "full"]);
   });
 
   it("is never an application where the bound does not keep the limit", () => {
@@ -173,8 +185,13 @@ describe("the next step after what belongs to another run", () => {
     expect(stepAfter({ kind: "check", plan: "check" })).toEqual(["produce", null]);
     expect(stepAfter({ kind: "check", plan: "check", verdict: "fail", outcome: "repair" })).toEqual([
       "shifted",
-      "full",
+      "adaptive",
     ]);
+    const check = { known_by: 7 } as Calibration["check"];
+    const { act } = nextStep(
+      calibration({ kind: "check", plan: "check", verdict: "fail", outcome: "repair", check }),
+    );
+    expect(act).toEqual({ do: "open", to: "/result/7" });
   });
 });
 
