@@ -133,8 +133,8 @@ def _sections(model: type[BaseModel], name: str, level: int = 2) -> Iterator[str
 
 def _summary(model: type[BaseModel]) -> str:
     text = (model.__doc__ or "").strip().split("\n\n")[0]
-    text = text.partition(": ")[2].strip() if text.startswith("`[") else ""
-    return text[:1].upper() + " ".join(text[1:].split())
+    text = " ".join(text.partition(": ")[2].split()) if text.startswith("`[") else ""
+    return text[:1].upper() + text[1:]
 
 
 def _options(model: type[BaseModel]) -> str:
