@@ -14,7 +14,7 @@ import numpy as np
 from station.errors import InputRefused
 from station.fitting import NotConvergedError, Prior, solve
 from station.mechanism import Conditions, Observation, Parameter, Reference, temperature_rise
-from station.records import MOTIONS, Complex, Index, Measurements, Motion, Real
+from station.records import MOTIONS, TIME, Complex, Index, Measurements, Motion, Real
 from station.serial_arm.dh import LINK_ERRORS, MM, Reach, reach
 from station.serial_arm.placement import DEGREES, Placement
 from station.serial_arm.robot_file import ARM_MODEL, Arm
@@ -201,7 +201,7 @@ class SerialArm:
             f"d{i + 1}": d for i, d in enumerate(links.d)
         }
         return Conditions(
-            t_s=m.t_s,
+            t_s=m.numbers if TIME in m.guessed and m.numbers.any() else m.t_s,
             theta=theta,
             drive_angle=m.theta,
             approach=m.approach.astype(float),
