@@ -36,7 +36,7 @@ class Decision:
 
     verdict: DiagnosisVerdict
     confirmed: bool | None
-    """Whether fresh readings confirm the finding; None without any."""
+    """Whether fresh readings confirm the finding; None without any, and never of what is unexplained."""
     trusted: int = 0
     """Index of the stage that parameters and commands are taken from; a set of explanations uses its own."""
     sd_factor: float = 1.0
@@ -75,7 +75,9 @@ def decide(stages: Sequence[StageFigures], *, alternative: bool, share: float) -
     last = stages[-1]
     verdict = _verdict(last, len(stages) > 1, alternative, share)
     trusted = _trusted(stages, verdict)
-    return Decision(verdict, last.confirmed, trusted, _sd_factor(stages[trusted]))
+    # fresh readings that a model predicts within its own uncertainty confirm no cause where none is found
+    confirmed = False if last.confirmed and verdict == "unexplained" else last.confirmed
+    return Decision(verdict, confirmed, trusted, _sd_factor(stages[trusted]))
 
 
 def _verdict(last: StageFigures, found: bool, alternative: bool, share: float) -> DiagnosisVerdict:

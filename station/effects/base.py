@@ -153,7 +153,7 @@ def weight(acts: Acts, at: Observation, names: tuple[str, ...]) -> Real:
     if acts.joint is not None:
         return at.by_joint[:, acts.joint]
     if acts.motion is not None:
-        return at.by_motion[acts.motion]
+        return np.asarray(np.sum(at.by_joint * at.motions[acts.motion], axis=1))
     if acts.lengths is not None:
         strain = sum(at.by_parameter[:, names.index(n)] * mm for n, mm in acts.lengths.items())
         return np.asarray(strain)

@@ -44,10 +44,9 @@ def arm_catalogue(
     timed: the log contains the time of each reading; warmed: it contains temperatures. sliding: joints that
     slide; effects in degrees do not apply to them.
     """
-    effects = [e for e in (*PER_JOINT, GearCurve, JointLag) if timed or e is not CountSlip]
     at_joints = tuple(
-        effect(joint)
-        for effect in effects
+        CountSlip(joint, timed=timed) if effect is CountSlip else effect(joint)
+        for effect in (*PER_JOINT, GearCurve, JointLag)
         for joint in range(1, joints + 1)
         if joint not in sliding or effect in (TransmissionGain, JointLag)
     )

@@ -8,9 +8,12 @@ from typing import ClassVar
 import numpy as np
 
 from station.effects.base import Acts, Bounds, JointEffect, Variants, scaled
+from station.errors import InputRefused
 from station.mechanism import Conditions
 from station.records import Quantity, Real, phrase
 
+FROM_READING = "from_reading"
+"""Hidden parameter of a slip in a log without times."""
 EDGE = 2
 """A step with fewer readings on one side is treated as outliers."""
 
@@ -26,6 +29,10 @@ class CountSlip(JointEffect):
     experiment = phrase("count_slip_experiment")
     bounds: ClassVar[Bounds] = {"step_deg": (-5.0, 5.0)}
 
+    def __init__(self, joint: int, *, timed: bool = True) -> None:
+        super().__init__(joint)
+        self.since = ("from_s", "s") if timed else (FROM_READING, "")
+
     def variants(self, c: Conditions) -> Variants | None:
         if len(c) < 4 * EDGE:
             return None
@@ -36,17 +43,24 @@ class CountSlip(JointEffect):
         return Variants(
             Acts(joint=self.index),
             basis,
-            tuple({"from_s": float(t)} for t in moments),
+            tuple({self.since[0]: float(t)} for t in moments),
             float(len(moments)) / 2.0,
         )
 
     def at(self, hidden: Mapping[str, float], c: Conditions) -> Real:
-        return (c.t_s >= hidden["from_s"]).astype(float)[:, None]
+        name = self.since[0]
+        if name not in hidden:
+            learned, here = ("without", "with") if name == "from_s" else ("with", "without")
+            raise InputRefused(
+                f"{self.label} was learned on a log {learned} times; this log is {here} them: diagnose it "
+                "by itself."
+            )
+        return (c.t_s >= hidden[name]).astype(float)[:, None]
 
     def quantities(
         self, hidden: Mapping[str, float], amplitudes: Real, covariance: Real
     ) -> tuple[Quantity, ...]:
         return (
             scaled("step_deg", amplitudes[0], covariance[0, 0], 180.0 / np.pi, "deg"),
-            Quantity("from_s", hidden["from_s"], 0.0, "s"),
+            Quantity(self.since[0], hidden[self.since[0]], 0.0, self.since[1]),
         )

@@ -42,5 +42,5 @@ class Observation(NamedTuple):
     """(R, P)"""
     by_joint: Real
     """(R, n) mm/rad"""
-    by_motion: Mapping[Motion, Real] = MappingProxyType({})
-    """(R,) mm for a unit of the motion of all joints, where the mechanism knows it."""
+    motions: Mapping[Motion, Real] = MappingProxyType({})
+    """(R, n) motion of the joints at each row, where the mechanism knows it."""

@@ -93,7 +93,7 @@ class Model:
             if not term.acts.turns:
                 value = value + column @ a
             columns.append(column)
-        return Observation(value, np.hstack(columns), at.by_joint, at.by_motion)
+        return Observation(value, np.hstack(columns), at.by_joint, at.motions)
 
     def turned(self, x: Real, bases: list[Real]) -> Real:
         """(K, n) joint angles including the effects on joints, rad."""

@@ -27,8 +27,8 @@ def with_guesses(m: Measurements) -> Measurements:
     """The same readings, with missing approaches and positions inferred and marked as guessed."""
     guessed = []
     m = replace(m, theta=_unwrapped(m.theta))
-    timed = not counts_rows(m.t_s)
-    m = replace(m, step=steps(m), speed=speeds(m, m.t_s if timed else np.arange(len(m), dtype=float)))
+    timed = not counts_rows(m)
+    m = replace(m, step=steps(m), speed=speeds(m, m.t_s if timed else _rows(m.t_s)))
     if not m.approach.any():
         order = order_of_time(m)
         approach = np.empty_like(m.approach)
@@ -43,10 +43,24 @@ def with_guesses(m: Measurements) -> Measurements:
     return replace(m, guessed=tuple(guessed))
 
 
-def counts_rows(t_s: Real) -> bool:
-    """Whether a column of time only numbers the rows: no real clock has equal steps to the millisecond."""
-    steps = np.diff(t_s)
-    return bool(len(steps)) and bool(np.ptp(steps) < EQUAL_S)
+def counts_rows(m: Measurements) -> bool:
+    """Whether the time only numbers the rows: no real clock has equal steps to the millisecond.
+
+    Where rows were left out, the numbers of the readings have the same gaps.
+    """
+    steps = np.diff(m.t_s)
+    if not len(steps):
+        return False
+    if np.ptp(steps) < EQUAL_S:
+        return True
+    gaps = np.diff(m.numbers)
+    return bool(gaps.min() > 0.0 and np.abs(steps - gaps * (steps.sum() / gaps.sum())).max() < EQUAL_S)
+
+
+def _rows(t_s: Real) -> Real:
+    """(K,) numbers of the rows, from a column that only numbers them."""
+    least = np.diff(t_s).min()
+    return np.arange(len(t_s), dtype=float) if least < EQUAL_S else np.round((t_s - t_s[0]) / least)
 
 
 def guesses_in_words(m: Measurements, language: Language = "en") -> str:

@@ -96,6 +96,11 @@ class Measurements:
         return np.zeros_like(self.theta) if known is None else known
 
     @property
+    def numbers(self) -> Real:
+        """(K,) numbers of the readings; 0 where they have names."""
+        return np.array([i if isinstance(i, int) else 0 for i in self.ids], dtype=float)
+
+    @property
     def setup_index(self) -> Index:
         """(K,) index into `setups`."""
         return np.zeros(len(self), dtype=np.intp) if self.setup is None else self.setup

@@ -14,7 +14,7 @@ import numpy as np
 from station.errors import InputRefused
 from station.fitting import NotConvergedError, Prior, solve
 from station.mechanism import Conditions, Observation, Parameter, Reference, temperature_rise
-from station.records import MOTIONS, Complex, Index, Measurements, Motion, Real
+from station.records import MOTIONS, TIME, Complex, Index, Measurements, Motion, Real
 from station.serial_arm.dh import LINK_ERRORS, MM, Reach, reach
 from station.serial_arm.placement import DEGREES, Placement
 from station.serial_arm.robot_file import ARM_MODEL, Arm
@@ -174,7 +174,7 @@ class SerialArm:
             rho = np.linalg.norm(lam, axis=1)
             along = lam / rho[:, None]
             by_parameter = np.hstack([np.einsum("ki,kip->kp", along, own), place.of_setups(-along)])
-            return Observation(rho, by_parameter, by_parameter[:, :n], self._by_motion(by_parameter[:, :n]))
+            return Observation(rho, by_parameter, by_parameter[:, :n], self._motions)
         arm, by_setup = np.empty((count, 3)), np.empty((count, 3, 6))
         by_setup[:, :, :3] = np.eye(3)
         for s, rows in enumerate(place.rows):
@@ -184,12 +184,12 @@ class SerialArm:
             by_setup[rows, :, 3:] = np.stack([np.cross(axis, arm[rows]) for axis in axes], axis=2)
         by_parameter = np.concatenate([own, place.of_setups(by_setup)], axis=2).reshape(3 * count, -1)
         seen = setups[place.setup, :3] + arm
-        by_joint = by_parameter[:, :n]
-        return Observation(seen.ravel(), by_parameter, by_joint, self._by_motion(by_joint))
+        return Observation(seen.ravel(), by_parameter, by_parameter[:, :n], self._motions)
 
-    def _by_motion(self, by_joint: Real) -> dict[Motion, Real]:
-        m, rows = self.measurements, self.reading_of_row
-        return {kind: np.sum(by_joint * m.motion(kind)[rows], axis=1) for kind in MOTIONS}
+    @cached_property
+    def _motions(self) -> dict[Motion, Real]:
+        """(R, n) of each kind, at the reading of each row."""
+        return {kind: self.measurements.motion(kind)[self.reading_of_row] for kind in MOTIONS}
 
     def conditions(self, p: Real, reference: Reference, *, first: bool) -> Conditions:
         """The conditions of the readings; there is no slider, and `first` makes no difference."""
@@ -201,7 +201,7 @@ class SerialArm:
             f"d{i + 1}": d for i, d in enumerate(links.d)
         }
         return Conditions(
-            t_s=m.t_s,
+            t_s=m.numbers if TIME in m.guessed and m.numbers.any() else m.t_s,
             theta=theta,
             drive_angle=m.theta,
             approach=m.approach.astype(float),

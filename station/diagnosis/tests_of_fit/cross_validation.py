@@ -52,9 +52,15 @@ def _blocks(m: Measurements) -> tuple[Index, Index]:
     out = np.zeros(len(m), dtype=np.intp)
     for s in range(len(m.setups)):
         own = np.flatnonzero(m.setup_index == s)
-        _, first, place = np.unique(m.position[own], return_index=True, return_inverse=True)
+        _, first, place, count = np.unique(
+            m.position[own], return_index=True, return_inverse=True, return_counts=True
+        )
+        visited = np.argsort(first)
+        # readings rather than rows are counted: later visits to a position belong to its first one
+        before = np.empty_like(count)
+        before[visited] = np.cumsum(count[visited]) - count[visited]
         block = min(BLOCK, max(1, len(own) // (FOLDS * BLOCKS_A_FOLD)))
-        out[own] = first[place] // block
+        out[own] = before[place] // block
     return out, m.setup_index
 
 
@@ -63,13 +69,24 @@ def without_a_quarter(m: Measurements) -> tuple[Measurements, Measurements]:
 
     :raises InputRefused: there are so few positions that one side is empty.
     """
-    aside = folds(m) == 0
+    fold = folds(m)
+    aside = fold == _nearest_to_a_quarter(fold)
     if aside.all() or not aside.any():
         raise InputRefused(
             f"{len(m)} readings at {len(np.unique(m.position))} positions cannot be divided into readings to "
             "learn from and others to judge by; measure more positions, or diagnose without --hold-out."
         )
     return m.take(~aside), m.take(aside)
+
+
+def _nearest_to_a_quarter(fold: Index) -> int:
+    """The first fold with a quarter of the readings, by half of that more or less, or the nearest to it.
+
+    A position that is visited again and again, such as a home pose, can make a fold far larger.
+    """
+    quarter = len(fold) / FOLDS
+    off = np.abs(np.bincount(fold, minlength=FOLDS) - quarter)
+    return int(np.argmin(np.maximum(off - quarter / 2.0, 0.0)))
 
 
 def left_out_rms(found: Fit) -> float:

@@ -44,6 +44,23 @@ def test_verdicts(
     assert (found.verdict, found.passed, found.outcome) == (verdict, passed, outcome)
 
 
+@pytest.mark.parametrize(
+    ("stages", "share", "verdict", "confirmed"),
+    [
+        ([fresh(LOST, True, 0.02)], 0.0, "unexplained", False),
+        ([fresh(LOST, True, 0.02), fresh(LOST, True, 0.018)], 0.2, "unexplained", False),
+        ([LOST], 0.0, "unexplained", None),
+        ([fresh(LOST, True, 0.02), fresh(LOST, True, 0.005)], 0.9, "partly_explained", True),
+        ([fresh(FITS, True, 0.001)], 0.0, "adequate", True),
+    ],
+)
+def test_nothing_confirms_what_is_unexplained(
+    stages: list[StageFigures], share: float, verdict: str, confirmed: bool | None
+) -> None:
+    found = decide(stages, alternative=False, share=share)
+    assert (found.verdict, found.confirmed) == (verdict, confirmed)
+
+
 def test_the_last_stage_is_trusted_unless_it_is_contradicted() -> None:
     assert decide([LOST, FITS], alternative=False, share=0.9).trusted == 1
     assert decide([LOST, LOST], alternative=False, share=0.1).trusted == 0
