@@ -111,6 +111,8 @@ def test_the_scan_says_what_every_row_says(learned: Fit) -> None:
             left = S.T @ S - S.T @ J @ C @ J.T @ S
             if share[k] < INVISIBLE_SHARE or np.linalg.cond(left) > 1e8:
                 continue
-            assert reduction[k] == pytest.approx(S.T @ r @ np.linalg.solve(left, S.T @ r), rel=1e-5)
+            expected = S.T @ r @ np.linalg.solve(left, S.T @ r)
+            # of two columns that are nearly one, rounding leaves 1e-7 of a chi-square
+            assert reduction[k] == pytest.approx(expected, rel=1e-5, abs=1e-6)
             compared += 1
     assert compared > 10
