@@ -22,7 +22,7 @@ STEP_DEG = 0.02
 
 
 def slip(theta: Real) -> Real:
-    return np.radians(STEP_DEG) * (np.arange(1, len(theta) + 1) >= SLIPPED_FROM)
+    return np.asarray(np.radians(STEP_DEG) * (np.arange(1, len(theta) + 1) >= SLIPPED_FROM))
 
 
 def slipping() -> tuple[SimulatedArm, Measurements]:
