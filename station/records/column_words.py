@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 
 _JOINT = re.compile(
     r"joint|theta|θ|axis|axe|achse|gelenk|articul|eje|giunt|asse|关节|轴|軸|関節|motor|servo|angle|winkel|angulo|ángulo|"
-    r"(^|[^a-z])[qja](?=[_ ]?\d)",
+    r"position(?=\[\d)|(^|[^a-z])[qja](?=[_ ]?\d)",
     re.IGNORECASE,
 )
 _NOT_AN_ANGLE = re.compile(

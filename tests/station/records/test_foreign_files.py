@@ -255,3 +255,11 @@ def test_numbers_come_back_however_they_are_written(values: list[float], signs: 
     ]
     found = signs_of([*written, f"1{thousands}234{decimal}5"])
     assert [float(found.plain(cell)) for cell in written] == pytest.approx(values, abs=1e-5)
+
+
+def test_positions_of_joints_in_brackets_are_the_angles() -> None:
+    """As a recorded topic of joint states is exported."""
+    names = [f"position[{i}]" for i in range(3)] + ["pose.position.x", "pose.position.y", "pose.position.z"]
+    rows = "\n".join(",".join(str(0.1 * k + 0.01 * i) for i in range(6)) for k in range(12))
+    proposal = proposed_map(read_foreign((",".join(names) + "\n" + rows).encode(), "log.csv"))
+    assert 'theta_deg = {columns = ["position[0]", "position[1]", "position[2]"]' in proposal
