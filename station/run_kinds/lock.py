@@ -49,9 +49,10 @@ def _newest(store: Store, serial: str) -> CalibrationSummary | None:
             passed = run
         if run.kind == "apply" and run.verdict == "pass" and run.of is not None:
             applied.add(run.of)
-        failed = run.kind == "check" and run.verdict == "fail"
-        if failed and _known_by(store, run.id) not in applied and not _cleared(store, run.id):
-            return run
+        if run.kind == "check" and run.verdict == "fail":
+            explained = bool(applied) and _known_by(store, run.id) in applied
+            if not explained and not _cleared(store, run.id):
+                return run
     return passed
 
 

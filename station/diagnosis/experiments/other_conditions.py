@@ -87,11 +87,11 @@ def _changed(
     for one in some:
         settled = one.settled
         s = at_readings(mechanism, settled.x[: settled.size], found.weighing.reference, first=False)
+        then = changed(s)
         more: Real = np.zeros((len(s), len(settled.x)))
         for family, choice, where in zip(settled.families, settled.choices, settled.parts, strict=True):
             if by(family):
-                now, before = (family.columns(at, choice.member)[0] for at in (changed(s), s))
-                more[:, where] += now - before
+                more[:, where] += family.columns(then, choice.member)[0] - family.columns(s, choice.member)[0]
         out.append(outcome(found, mechanism, one, more))
     return out
 
